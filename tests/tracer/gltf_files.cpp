@@ -100,6 +100,7 @@ TEST_CASE("buffers and images may be written into the document, or be files in i
     CHECK(gltf::bytes_of_uri("data:,a%20b", {}) == "a b");
     CHECK(gltf::bytes_of_uri("data:;base64,Zm9v", {}) == "foo");
     CHECK(gltf::bytes_of_uri("data:;base64,Zm8=", {}) == "fo");
+    CHECK(gltf::bytes_of_uri("DATA:;Base64,Z\nm8%3D", {}) == "fo");
     CHECK(gltf::path_of_uri("maps\\a.png") == "maps/a.png");
     CHECK(gltf::path_of_uri("50%.png") == "50%.png");
     const auto refused = [&](const std::string& uri) {
@@ -110,6 +111,7 @@ TEST_CASE("buffers and images may be written into the document, or be files in i
         }
         return std::string();
     };
+    CHECK(refused("C:/a.bin").find("is in another place") != std::string::npos);
     CHECK(refused("https://example.org/a.bin") ==
           "buffers[0] is in another place than the folder of the document; nothing is fetched");
     for (const char* const uri : {"../a.bin", "a/%2e%2e/../b.bin", "/etc/passwd", "", "a%00.bin", "..\\\\a.bin"}) {
@@ -168,6 +170,25 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     CHECK(identity() == before);
     phasetree::support::write_text(folder / "parts/a.bin", bytes + " ");
     CHECK(identity() != before);
+    // In any case of its ending, and beside an image that nothing reads from elsewhere.
+    const auto changes = [&](const std::string& name, const std::string& content) {
+        phasetree::support::write_text(folder / name, content);
+        const auto identity_of = [&] {
+            return fingerprint(phasetree::Document::from_text(
+                R"({"version": 1, "meshes": [{"gltf": {"file": ")" + (folder / name).string() + "\"}}]}",
+                "scene.json"));
+        };
+        phasetree::support::write_text(folder / "parts/a.bin", bytes);
+        const auto first = identity_of();
+        phasetree::support::write_text(folder / "parts/a.bin", bytes + " ");
+        return identity_of() != first;
+    };
+    const std::string named = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "parts/a.bin"}])";
+    CHECK(changes("b.GLTF", named + "}"));
+    CHECK(changes("c.gltf", named + R"(, "images": [{"uri": "https://example.org/a.png"}, {"uri": "../b.png"}]})"));
+    const std::string all = phasetree::tests::glb_chunk(0x4E4F534A, named + "}", ' ');
+    const std::uint32_t head[3] = {0x46546C67, 2, static_cast<std::uint32_t>(12 + all.size())};
+    CHECK(changes("d.glb", std::string(reinterpret_cast<const char*>(head), sizeof head) + all));
 }
 
 TEST_CASE("every shortened file, and every file with a wrong number in it, is read or refused") {

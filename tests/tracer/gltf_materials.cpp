@@ -33,7 +33,7 @@ TEST_CASE("glTF's materials as ours") {
         {"baseColorFactor": [0.9, 0.6, 0.2, 1], "roughnessFactor": 0.3}})");
     CHECK(gold.name == "material 0");
     const Conductor& metal = std::get<Conductor>(gold.material);
-    CHECK(std::get<float>(metal.roughness) == doctest::Approx(0.09f));
+    CHECK(std::get<float>(metal.roughness) == doctest::Approx(0.3125 * 0.3125));  // rounded to 32nds
     REQUIRE(metal.reflectance);
     CHECK(is_near(color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
     CHECK_FALSE(is_near(1.01f * color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
@@ -148,6 +148,8 @@ TEST_CASE("alpha makes holes where the file says that it counts") {
     REQUIRE(cut);
     CHECK(at(*cut, 0.25f) == 0);
     CHECK(at(*cut, 0.75f) == 1);
+    // A cutoff that nothing reaches leaves nothing.
+    CHECK(at(opacity(R"("alphaMode": "MASK", "alphaCutoff": 2, )", image).value(), 0.75f) == 0);
     // The other image has no alpha.
     Corner without;
     const std::size_t plain = without.add_view(png(std::vector<unsigned char>(12, 255)));
@@ -181,6 +183,7 @@ TEST_CASE("maps of normals are read with their scale, and tangents where they be
     REQUIRE(given.tangents.values.size() == 3);
     CHECK(is_near(glm::vec3(given.tangents.values[0]), {0, 1, 0}));
     CHECK(given.tangents.values[0].w == -1);
+    CHECK(normal_map_of(part(mapped(R"(, "scale": -2)"), "").material)->strength == -2);
     CHECK(part(mapped(""), "").tangents.empty());
     CHECK(part(mapped(R"(, "extensions": {"KHR_texture_transform": {"rotation": 1}})"), tangent).tangents.empty());
     CHECK(part(R"({"pbrMetallicRoughness": {"metallicFactor": 0}})", tangent).tangents.empty());

@@ -143,6 +143,44 @@ TEST_CASE("instances of a node stand where their list says") {
     CHECK(said(file(R"("TRANSLATION": 5)"), {.primitives = 1}) == "it has too many meshes");
 }
 
+TEST_CASE("what is mirrored keeps its outer side: normals, the order of corners, and tangents") {
+    Corner corner;
+    corner.add("VEC4", 5126, 3, corner.bytes.add(std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
+    const std::size_t view = corner.add_view(png(std::vector<unsigned char>(12, 255)));
+    corner.add("VEC4", 5121, 3, corner.bytes.add(std::vector<std::uint8_t>(12, 0)));
+    corner.add("VEC4", 5126, 3, corner.bytes.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
+    const auto part = [&](const std::string& node, const std::string& more) {
+        return read(corner.file(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0, )" + node +
+                                R"(}, {"scale": [-1, 1, 1]}], "skins": [{"joints": [1]}], )" +
+                                meshes(R"("attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "TANGENT": 5)" +
+                                       more + R"(}, "material": 0)") +
+                                R"(, "materials": [{"normalTexture": {"index": 0}}], "textures": [{"source": 0}],
+                                "images": [{"bufferView": )" +
+                                std::to_string(view) + "}]"))
+            .parts.at(0);
+    };
+    const auto face = [](const gltf::Part& p) {
+        const glm::uvec3& t = p.mesh.triangles.at(0);
+        const auto& v = p.mesh.vertices;
+        return glm::normalize(glm::cross(v[t.y] - v[t.x], v[t.z] - v[t.x]));
+    };
+    for (const bool is_skinned : {false, true}) {
+        CAPTURE(is_skinned);
+        const gltf::Part mirrored = part(is_skinned ? "\"skin\": 0" : "\"scale\": [-1, 1, 1]",
+                                         is_skinned ? R"(, "JOINTS_0": 7, "WEIGHTS_0": 8)" : "");
+        CHECK(is_near(mirrored.mesh.vertices[1], {-1, 0, 0}));
+        CHECK(is_near(face(mirrored), {0, 0, 1}));
+        CHECK(is_near(mirrored.normals.values[0], {0, 0, 1}));
+        // The tangent goes to the left now, and what is up in the image stays up: cross(n, t) · w.
+        CHECK(is_near(glm::vec3(mirrored.tangents.values[0]), {-1, 0, 0}));
+        CHECK(mirrored.tangents.values[0].w == -1);
+    }
+    const gltf::Part turned = part("\"scale\": [-1, -1, 1]", "");
+    CHECK(is_near(face(turned), {0, 0, 1}));
+    CHECK(is_near(turned.normals.values[0], {0, 0, 1}));
+    CHECK(turned.tangents.values[0].w == 1);
+}
+
 TEST_CASE("integers that stand for fractions are those of their type") {
     Corner corner;
     corner.add(

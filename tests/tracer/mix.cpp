@@ -117,6 +117,48 @@ TEST_CASE("a metal's reflectance may be a texture") {
     CHECK(std::min(of_each[0], of_each[1]) > 100);
 }
 
+TEST_CASE("photons and paths find the same light on a mixture with a mirror, and on what lets light through") {
+    // A ball of glass throws the sun onto a floor.
+    const auto scene_with = [](const std::string& floor, bool caustics) {
+        return scene_of(
+            R"("a": {"clear": {"ior": 1.5}})",
+            R"({"set": {"phase": "a", "of": {"translate": {"by": [0, 0, 1.5], "of": {"sphere": {"radius": 1}}}}}})",
+            R"("lights": [{"sun": {"direction": [0, 0, 1], "irradiance": [1, 1, 1], "diameter": 20}}],
+                        "meshes": [{"floor": {"size": 6, )" +
+                floor + R"(}}], "camera": {"position": [0, -0.01, 0.45], "look_at": [0, 0, 0], "fov": 118},
+                        "render": {"width": 32, "height": 32, "samples": 160, "caustics": )" +
+                (caustics ? "true" : "false") + "}");
+    };
+    const auto brightness = [&](const std::string& floor, bool caustics) {
+        Moments moments;
+        for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+            Scene scene = scene_with(floor, caustics);
+            scene.settings.seed = seed;
+            const World world(scene);
+            const Image image = image_of(world, scene);
+            double sum = 0;
+            for (const glm::vec3& pixel : image.pixels) sum += static_cast<double>(pixel.x);
+            moments.add(sum / static_cast<double>(image.pixels.size()));
+        }
+        return moments;
+    };
+    const std::string paper = R"({"diffuse": {"color": [0.8, 0.8, 0.8]}})";
+    const std::string mirror = R"({"conductor": {"reflectance": [0.01, 0.01, 0.01]}})";
+    for (const std::string& floor : {"\"material\": " + paper, "\"opacity\": 0.4, \"material\": " + paper,
+                                     "\"material\": " + mix(paper, mirror, "0.5")}) {
+        CAPTURE(floor);
+        const Moments paths = brightness(floor, false), photons = brightness(floor, true);
+        CAPTURE(photons.mean() / paths.mean());
+        const double error = std::hypot(paths.standard_error(), photons.standard_error());
+        CAPTURE(error / paths.mean());
+        const auto p_value = [&](double factor) {
+            return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
+        };
+        CHECK(p_value(1) > sidak(1e-4, 3));
+        CHECK(p_value(1.1) < sidak(1e-4, 3));
+    }
+}
+
 TEST_CASE("what cannot be mixed, and a reflectance beside an index, is refused") {
     const auto said = [](const std::string& material) {
         try {

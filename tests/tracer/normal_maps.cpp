@@ -85,6 +85,10 @@ TEST_CASE("a map of normals leans to the right of the image and to its upper edg
     const Surface behind = MappedMesh(upright).seen_from({0.4f, 0.3f, -9}, {0, 0, 1});
     CHECK(is_near(behind.normal, -m));
     CHECK(is_near(behind.geometric_normal, {0, 0, -1}));
+    // Faces without normals beside others with some have the side that their corners' order tells.
+    const std::string partly =
+        square + "v 5 5 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\nf 2/1/1 5/2/1 3/3/1\n";
+    CHECK(is_near(MappedMesh(partly).seen_from({0.4f, 0.3f, -9}, {0, 0, 1}).normal, -m));
     // It turns with the mesh, by its corners' order alone where it is flat.
     const MappedMesh placed(upright, "", R"(, "rotate_z": 90, "smooth": false)");
     CHECK(is_near(placed.seen_from({-0.4f, 0.3f, 9}, {0, 0, -1}).normal, {-m.y, m.x, m.z}));

@@ -2997,7 +2997,7 @@ class meshes:
         r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. Skins are bent by their joints as the file has them. What is clear in the file is left out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 million in all; each file may have 1 GiB.
 
         file: The file. (name of a file)
-        material: What all of it is made of, clear parts too, in place of the file's materials. (opaque material; default none)
+        material: What all of it is made of, clear parts and holes too, in place of the file's materials. (opaque material; default none)
         scale: A factor of its size. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])

@@ -64,9 +64,13 @@ class PhotonFlight {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            if (photons_follow(interfaces_) && !bsdf.is_delta() && start_sees_light()) {
+            // Paths gather where they meet a mixture's other material, too.
+            const bool is_gathered = !bsdf.is_delta() || surface->is_partly_rough;
+            if (photons_follow(interfaces_) && is_gathered && start_sees_light()) {
                 auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
                 photons.push_back(photon_at(surface->near_side.origin));
+                // A path that gathers was itself stopped with the same probability.
+                photons.back().power /= surface->opacity;
             }
             if (!sends_photons_on(bsdf, *surface)) return;
             ++interfaces_;

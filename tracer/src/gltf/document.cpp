@@ -273,8 +273,11 @@ std::vector<std::string> Document::files() const {
     std::vector<std::string> files;
     for (const char* list : {"buffers", "images"})
         for (const Item& item : root().items(list))
-            if (std::string path = item.has("uri") ? path_of_uri(item.text("uri")) : ""; !path.empty())
-                files.push_back(std::move(path));
+            if (item.has("uri")) try {
+                    if (std::string path = path_of_uri(item.text("uri")); !path.empty())
+                        files.push_back(std::move(path));
+                } catch (const GltfError&) {  // it names none that is read
+                }
     return files;
 }
 

@@ -81,7 +81,7 @@ class Document {
     std::string_view view(std::size_t index, const Item& from) const;
     /// All bytes of an element of "images".
     std::string image(const Item& image) const;
-    /// The paths of all files that the document names, from its folder.
+    /// The paths of all files that the document names, from its folder; what cannot be used is left out.
     std::vector<std::string> files() const;
 
   private:

@@ -1,6 +1,7 @@
 // The images of a glTF file, each read once, and how they lie on meshes.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -31,9 +32,11 @@ Coordinates coordinates_of(const Item& texture);
 
 struct ReadImage {
     std::shared_ptr<const TextureImage> image;
-    glm::vec3 mean{0};        ///< of all pixels
-    glm::vec2 green{0};       ///< the least and the greatest value of the second channel
-    glm::vec2 blue{0};        ///< and of the third
+    glm::vec3 mean{0};   ///< of all pixels
+    glm::vec2 green{0};  ///< the least and the greatest value of the second channel
+    glm::vec2 blue{0};   ///< and of the third
+    /// The range of the second channel, widened to quarters, so that images share the tables that are made for a range.
+    glm::vec2 green_in_quarters() const { return {std::floor(4 * green.x) / 4, std::ceil(4 * green.y) / 4}; }
     float lit_share = 0;      ///< the part of the pixels of which a channel is at least 0.01, linear
     bool is_missing = false;  ///< then there is nothing else: alpha was wanted, and there is none
     bool repeats = true;      ///< whether the file, too, repeats it beyond its edges

@@ -53,7 +53,7 @@ constexpr std::array<std::string_view, 4> read_extensions{"KHR_materials_transmi
 // What shines less than this is shown as what it is made of.
 constexpr float faintest_radiance = 0.01f;
 
-// What is a metal to this part everywhere is one.
+// What is a metal to more than this part everywhere is taken to be all metal.
 constexpr float all_but = 0.99f;
 
 }  // namespace
@@ -131,7 +131,6 @@ class Materials::Maker {
                 // Messages quote nothing of files but what is known to be a name.
                 if (is_name(key) && std::ranges::find(read_extensions, key) == read_extensions.end())
                     lost(fmt::format("has {}, which is not read", key));
-        if (item_.has("occlusionTexture")) return;  // darkness that is baked; here light is traced
     }
     static bool is_name(const std::string& key) {
         return key.size() <= 60 && key.starts_with("KHR_materials_") &&
@@ -161,14 +160,15 @@ class Materials::Maker {
                 MeshImageNumber{.range = {0, alpha}, .image = read->image, .of_image = read->image->range(0)};
             lay(*texture, *read);
         }
-        if (mode == "MASK") opacity.cutoff = std::clamp(item_.number("alphaCutoff", 0.5f), 0.0f, 1.0f);
+        if (mode == "MASK") opacity.cutoff = std::max(item_.number("alphaCutoff", 0.5f), 0.0f);
         if (least_of(opacity.number) < opacity.cutoff.value_or(1)) made_.opacity = opacity;
     }
 
     void read_roughness(const Item& pbr) {
         const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
         metallic_ = metallic;
-        const float roughness = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
+        // Surfaces of one roughness share their tables, which take a tenth of a second. No eye sees a 64th.
+        const float roughness = std::round(32 * std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f)) / 32;
         alpha_ = roughness * roughness;
         const auto texture = pbr.item("metallicRoughnessTexture");
         if (const auto read = image(texture, ImageMeaning::numbers)) {
@@ -177,7 +177,7 @@ class Materials::Maker {
                 MeshImageNumber{.range = {0, metallic}, .image = read->image, .of_image = read->blue, .channel = 2};
             alpha_ = MeshImageNumber{.range = {0, roughness},
                                      .image = read->image,
-                                     .of_image = read->green,
+                                     .of_image = read->green_in_quarters(),
                                      .channel = 1,
                                      .is_squared = true};
         }
@@ -188,7 +188,7 @@ class Materials::Maker {
         const auto read = image(texture, ImageMeaning::numbers);
         if (!read) return std::nullopt;
         lay(*texture, *read);
-        return NormalMap{.strength = std::clamp(texture->number("scale", 1), 0.0f, 100.0f), .image = read->image};
+        return NormalMap{.strength = std::clamp(texture->number("scale", 1), -100.0f, 100.0f), .image = read->image};
     }
 
     bool shines(bool has_normals) {

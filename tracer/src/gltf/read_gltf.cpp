@@ -81,8 +81,10 @@ class Reader {
         Part part{};
         Coordinates coordinates{};
         bool has_images = false;
-        bool lacks_texture = false;   // whether some of it has no texture coordinates
-        bool lacks_tangents = false;  // … or no tangents, or such as do not belong to the coordinates
+        bool lacks_texture = false;  // whether some of it has no texture coordinates
+        // Whether tangents are made for it, because some of it has none or its coordinates are transformed; or whether
+        // none are needed, because it has no map of normals.
+        bool lacks_tangents = false;
     };
 
     // Where a primitive's vertices come from, and where they go.
@@ -128,7 +130,10 @@ class Reader {
                       placed,
                       mode};
         if (source.joints && attributes->has("JOINTS_1")) say("has vertices with more than four joints; four count");
-        begun.lacks_tangents = begun.lacks_tangents || !source.tangents;
+        // Tangents beside no normals are of no meaning.
+        begun.lacks_tangents = begun.lacks_tangents || !source.tangents || !source.normals;
+        if (source.colors && source.colors->columns() > 3 && begun.part.opacity)
+            say(fmt::format("\"{}\" has opacities of vertices, which are not read", begun.part.name));
         if (primitive.has("indices")) source.indices.emplace(document_, primitive.needed_index("indices"), primitive);
         if (!source.texture && begun.has_images && !begun.lacks_texture)
             say(fmt::format("\"{}\" has images, and somewhere no coordinates for them", begun.part.name));
@@ -190,11 +195,15 @@ class Reader {
         ++primitive_number_;
         if (numbers_.size() < source.positions.rows()) numbers_.resize(source.positions.rows());
         // Only vertices that triangles have are taken: primitives may share one list of positions.
+        const auto vertex_of = [&](std::size_t corner) -> std::size_t {
+            return source.indices ? source.indices->index(corner) : corner;
+        };
         const auto vertex = [&](std::size_t corner) {
-            const std::size_t i = source.indices ? source.indices->index(corner) : corner;
+            const std::size_t i = vertex_of(corner);
             if (i >= source.positions.rows()) primitive.fail("has an index beyond its vertices");
             if (numbers_[i].primitive != primitive_number_) {
-                numbers_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size())};
+                numbers_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size()),
+                               is_mirrored(placement_of_vertex(i, source))};
                 add_vertex(i, source, begun);
             }
             return numbers_[i].number;
@@ -205,7 +214,10 @@ class Reader {
                                                   : source.mode == fan     ? std::array{i + 1, i + 2, std::size_t{0}}
                                                                        : std::array{i, i + 1 + i % 2, i + 2 - i % 2};
             const std::uint32_t a = vertex(of[0]), b = vertex(of[1]), c = vertex(of[2]);
-            begun.part.mesh.triangles.emplace_back(a, b, c);
+            if (numbers_[vertex_of(of[0])].is_mirrored)
+                begun.part.mesh.triangles.emplace_back(a, c, b);
+            else
+                begun.part.mesh.triangles.emplace_back(a, b, c);
         }
     }
 
@@ -214,8 +226,11 @@ class Reader {
         const glm::dmat4 placement = placement_of_vertex(i, source);
         part.mesh.vertices.push_back(
             finite(glm::dvec3(placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
-        part.normals.values.push_back(
-            source.normals ? unit(cofactors(glm::dmat3(placement)) * row<3>(*source.normals, i)) : glm::vec3(0));
+        // What is mirrored has its corners the other way round; cofactors turn the side of normals, which is to stay.
+        const double side = is_mirrored(placement) ? -1 : 1;
+        part.normals.values.push_back(source.normals
+                                          ? unit(side * (cofactors(glm::dmat3(placement)) * row<3>(*source.normals, i)))
+                                          : glm::vec3(0));
         const glm::dvec3 uv(source.texture ? row<2>(*source.texture, i) : glm::dvec2(0), 1);
         part.texture.values.push_back(finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv),
                                              source.texture ? *source.texture : source.positions));
@@ -227,8 +242,10 @@ class Reader {
         if (begun.lacks_tangents) return;
         const glm::dvec4 tangent = row<4>(*source.tangents, i);
         part.tangents.values.emplace_back(unit(glm::dmat3(placement) * glm::dvec3(tangent)),
-                                          std::copysign(1.0f, static_cast<float>(tangent.w)));
+                                          std::copysign(1.0f, static_cast<float>(side * tangent.w)));
     }
+
+    static bool is_mirrored(const glm::dmat4& placement) { return glm::determinant(glm::dmat3(placement)) < 0; }
 
     // Of a vertex with joints the mean of their matrices (Joints).
     static glm::dmat4 placement_of_vertex(std::size_t i, const Source& source) {
@@ -274,6 +291,7 @@ class Reader {
     // The number that a vertex of the file has in its part, if it has one since that primitive was begun.
     struct VertexInPart {
         std::uint32_t primitive = 0, number = 0;
+        bool is_mirrored = false;
     };
 
     Document document_;

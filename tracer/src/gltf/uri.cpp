@@ -18,6 +18,13 @@ int digit_of(char c) {
     return -1;
 }
 
+// Whether a text ends with one of small letters, in any case.
+bool has_ending(std::string_view text, std::string_view ending) {
+    if (text.size() < ending.size()) return false;
+    return std::ranges::equal(text.substr(text.size() - ending.size()), ending,
+                              [](unsigned char a, char b) { return std::tolower(a) == static_cast<unsigned char>(b); });
+}
+
 // %20 is a blank. What is no such number stands for itself, because programs write names as they are.
 std::string without_percents(std::string_view text) {
     std::string plain;
@@ -46,6 +53,7 @@ std::string from_base64(std::string_view text) {
     int count = 0;
     for (const char c : text) {
         if (c == '=') break;
+        if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
         const int value = value_in_base64(c);
         if (value < 0) throw GltfError("has data that are not of base 64");
         bits = bits << 6 | static_cast<std::uint32_t>(value);
@@ -57,7 +65,7 @@ std::string from_base64(std::string_view text) {
     return bytes;
 }
 
-// "https:", but not the letter of a drive or a name without a colon.
+// Whether it begins with a scheme such as "https:"; "C:" counts as one.
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find_first_of(":/?#");
     return colon != std::string_view::npos && colon > 0 && uri[colon] == ':' &&
@@ -66,12 +74,14 @@ bool has_scheme(std::string_view uri) {
            });
 }
 
-constexpr std::string_view data_scheme = "data:";
+bool is_data(std::string_view uri) {
+    return has_ending(uri.substr(0, 5), "data:");
+}
 
 }  // namespace
 
 std::string path_of_uri(std::string_view uri) {
-    if (uri.starts_with(data_scheme)) return {};
+    if (is_data(uri)) return {};
     if (has_scheme(uri)) throw GltfError("is in another place than the folder of the document; nothing is fetched");
     std::string path = without_percents(uri);
     // As programs write them on Windows.
@@ -84,15 +94,15 @@ std::string path_of_uri(std::string_view uri) {
 }
 
 std::string bytes_of_uri(std::string_view uri, const ReadFile& read_file) {
-    if (!uri.starts_with(data_scheme)) {
+    if (!is_data(uri)) {
         const std::string path = path_of_uri(uri);
         if (!read_file) throw GltfError("is in a file of its own");
         return read_file(path);
     }
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) throw GltfError("has data without a comma before them");
-    const std::string_view kind = uri.substr(0, comma), data = uri.substr(comma + 1);
-    return kind.ends_with(";base64") ? from_base64(data) : without_percents(data);
+    std::string data = without_percents(uri.substr(comma + 1));
+    return has_ending(uri.substr(0, comma), ";base64") ? from_base64(data) : data;
 }
 
 }  // namespace phasetree::tracer::gltf

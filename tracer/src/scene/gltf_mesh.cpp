@@ -17,7 +17,11 @@ constexpr std::string_view most = "1 GiB";
 
 }  // namespace
 
-// A link could lead out of the folder, and so out of the one that all files of a scene must lie in.
+bool is_gltf(const std::filesystem::path& file) {
+    return has_ending_of_mesh(file, {".gltf", ".glb"});
+}
+
+// Links that lead out of the folder are refused: they could lead out of the one that all files of a scene must lie in.
 std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std::string& name) {
     const std::filesystem::path folder = gltf.has_parent_path() ? gltf.parent_path() : ".";
     std::error_code problem;
@@ -36,7 +40,12 @@ std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gl
         const std::string content = read_whole_file(gltf, most_bytes_of_mesh, most);
         // Buffers need not be read to know what they are called.
         const gltf::Document document(content, [](const std::string&) { return std::string(); });
-        for (const std::string& name : document.files()) files.push_back(file_of_gltf(gltf, name));
+        for (const std::string& name : document.files()) {
+            try {
+                files.push_back(file_of_gltf(gltf, name));
+            } catch (const ParameterError&) {  // a link that leads out of the folder, and is not followed
+            }
+        }
     } catch (const std::runtime_error&) {  // which whoever reads the mesh finds, too
     }
     return files;

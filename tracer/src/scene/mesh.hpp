@@ -22,8 +22,8 @@ struct Mesh {
     AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
     std::optional<Opacity> opacity{};  // none is opaque everywhere
     Material material{};
-    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". Behind that of a part of a .glb
-    // file is the name of its material: "glb wood".
+    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". A part of a glTF file
+    // also has the name of its material: "gltf wood".
     std::string name{};
 };
 

@@ -127,7 +127,8 @@ struct GltfParameters {
     static void parameters(V&& v) {
         using P = GltfParameters;
         v(&P::material,
-          Parameter{"material", "", "What all of it is made of, clear parts too, in place of the file's materials.",
+          Parameter{"material", "",
+                    "What all of it is made of, clear parts and holes too, in place of the file's materials.",
                     limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);

@@ -6,10 +6,23 @@
 
 namespace phasetree::tracer {
 
+namespace {
+
+std::string ending_of(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return ending;
+}
+
+}  // namespace
+
+bool has_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings) {
+    return std::ranges::find(endings, ending_of(file)) != endings.end();
+}
+
 void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings) {
-    std::string found = file.extension().string();
-    std::ranges::transform(found, found.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    if (std::ranges::find(endings, found) != endings.end()) return;
+    if (has_ending_of_mesh(file, endings)) return;
+    const std::string found = ending_of(file);
     std::string wanted;
     for (const std::string_view ending : endings) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", ending);
     std::string hint;

@@ -21,6 +21,9 @@ namespace phasetree::tracer {
 
 inline constexpr std::uintmax_t most_bytes_of_mesh = std::uintmax_t{1} << 30;
 
+/// Whether the name of the file has one of these endings, in any case.
+bool has_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings);
+
 /// Throws ParameterError of "file" unless the name of the file has one of these endings, such as ".obj", in any case.
 void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings);
 

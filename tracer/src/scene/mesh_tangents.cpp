@@ -76,11 +76,11 @@ AtCorners<glm::vec4> tangents_of(const Mesh& mesh) {
     for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
         const Corner& first = corners[sorted[begin]];
         glm::dvec3 sum(0);
-        for (; end < sorted.size() && corners[sorted[end]].key() == first.key(); ++end) {
+        do {
             sum += glm::dvec3(corners[sorted[end]].tangent);
             tangents.triangles[sorted[end] / 3][static_cast<int>(sorted[end] % 3)] =
                 static_cast<std::uint32_t>(tangents.values.size());
-        }
+        } while (++end < sorted.size() && corners[sorted[end]].key() == first.key());
         tangents.values.emplace_back(glm::vec3(unit(sum)), first.side);
     }
     return tangents;

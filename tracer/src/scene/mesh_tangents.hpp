@@ -7,8 +7,8 @@
 // weighted by its angle there. Triangles count together if they agree in the corner's place, normal and texture
 // coordinates, and in whether they show the image mirrored. Programs that bake normals do the same.
 //
-// Reference: Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008, from which come the weights and what counts
-// together; there corners must also be joined by triangles that share edges.
+// Reference: Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008. Weights and groups follow it, but corners that
+// no triangles with common edges join count together, too.
 #pragma once
 
 #include "scene/mesh.hpp"

@@ -42,7 +42,7 @@ std::vector<std::filesystem::path> named_files(const Document& document, Value s
     std::vector<std::filesystem::path> files;
     if (const auto path = named_file(document, string)) {
         files.push_back(*path);
-        if (path->extension() == ".gltf")
+        if (is_gltf(*path))
             for (std::filesystem::path& file : files_of_gltf(*path)) files.push_back(std::move(file));
     }
     return files;

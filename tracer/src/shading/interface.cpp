@@ -90,8 +90,8 @@ Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero
     return SmoothDielectricBsdf(index(sides.from, sides.from_ior), index(sides.to, sides.to_ior));
 }
 
-// The first of a mixture's two is there where this number is not less than the amount of the second. A mixture within a
-// mixture is of the next level, and has a number of its own.
+// The second of a mixture's materials is chosen where this number is below its amount. A mixture within a mixture is of
+// the next level, and has a number of its own.
 float threshold_at(const TexturePoint& p, std::uint32_t level) {
     const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
     return hash_to_unit(hash(bits(p.position.x), bits(p.position.y), bits(p.position.z), p.copy, level));
@@ -143,6 +143,15 @@ const Interface& Interface::chosen_at(const TexturePoint& point) const {
         chosen =
             threshold_at(point, level) < number_at(mixed->amount, point) ? mixed->second.get() : mixed->first.get();
     return *chosen;
+}
+
+bool Interface::mixes_rough(const TexturePoint& point) const {
+    const MixedOptics* mixed = std::get_if<MixedOptics>(&optics_);
+    if (!mixed) return false;
+    const auto is_rough = [&](const Interface& one) {
+        return std::holds_alternative<MixedOptics>(one.optics_) ? one.mixes_rough(point) : !one.at(point).is_delta();
+    };
+    return is_rough(*mixed->first) || is_rough(*mixed->second);
 }
 
 Interface Interface::between(const Material& from, const Material& to, SharedSurfaces& shared) {

@@ -30,10 +30,15 @@ class Interface {
     /// `from` is the material the ray is in, `to` the one it meets. What surfaces share is made only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// That of a mixture's two materials which is at a place; itself if it is of no mixture. Between 0 and 1 of the
-    /// second a number decides that is hashed from the place, so it is the same for all who ask for the place.
-    /// A surface has the optics that are chosen where it is met, because normals and grain are those of one of the two.
+    /// The interface with the material that a mixture has at a place; itself if it is of no mixture. Where the amount
+    /// is between 0 and 1 a number decides that is hashed from the position, so all who ask for one place are told the
+    /// same. A surface has the optics that are chosen where it is met, because normals and grain are those of one of
+    /// the two.
     const Interface& chosen_at(const TexturePoint& point) const;
+
+    /// Whether one of a mixture's materials at a place has a BSDF that is no mirror; of what is no mixture nothing is
+    /// asked, and it is false.
+    bool mixes_rough(const TexturePoint& point) const;
 
     /// The BSDF at a place, which is in the space textures are defined in, for light of these wavelengths or, without
     /// any, for red, green and blue. Where the interface disperses it refracts light of wavelengths as the hero, and

@@ -1,9 +1,8 @@
 // Normal mapping: light is scattered as if the surface had the normals that an image has, and nothing is moved. Where
 // the image's red, green and blue are c, each in [0, 1], the normal is that of
 //     n' = x T + y B + z N,   (x, y, z) = 2 c − 1,
-// in a frame of unit vectors: N is the surface's own shading normal, T the direction in which the image's columns go
-// on, made perpendicular to N, and B is perpendicular to both, towards the image's upper edge. A mesh that is seen from
-// behind has all of n' turned round.
+// in a frame of unit vectors: N is the surface's own shading normal, T points to the image's right and is made
+// perpendicular to N, and B is perpendicular to both, towards the image's upper edge. Seen from behind, n' is negated.
 //
 // T comes from the mesh (scene/mesh_tangents.hpp), because two triangles that share an edge must have the same there.
 //

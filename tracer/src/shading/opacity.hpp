@@ -8,8 +8,8 @@
 namespace phasetree::tracer {
 
 struct Opacity {
-    Number number = 1.0f;           ///< 0 is a hole; else the part of the rays that are stopped
-    std::optional<float> cutoff{};  ///< then it is a hole below this number, and stops all rays from it on
+    Number number = 1.0f;           ///< the part of the rays that are stopped, 0 to 1
+    std::optional<float> cutoff{};  ///< below it no ray is stopped, and else all are
     /// The part of the rays that are stopped at a place.
     float at(const TexturePoint& place) const {
         const float found = number_at(number, place);

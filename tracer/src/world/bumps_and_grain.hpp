@@ -1,5 +1,6 @@
-// What bumps and strokes make of a surface that a ray has met: how its shading normal turns, and where its strokes run.
-// Both are given in the space in which the object's textures are, and are taken to the scene's here.
+// What mixtures, bumps, maps of normals and strokes make of a surface that a ray has met: which material is there, how
+// its shading normal turns, and where its strokes run. Normals and strokes are given in the space in which the object's
+// textures are, and are taken to the scene's here.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,6 +23,13 @@ struct FromCopyToScene {
     glm::vec3 normal(const glm::vec3& n) const { return glm::vec3(glm::normalize(glm::dvec3(n) * to_object.matrix)); }
     glm::vec3 direction(const glm::vec3& d) const { return glm::vec3(glm::inverse(to_object.matrix) * glm::dvec3(d)); }
 };
+
+/// Gives a surface whose other members are set the optics of what a mixture has at its place.
+inline void choose_of_mixture(Surface& surface) {
+    const Interface& all = surface.optics.get();
+    surface.is_partly_rough = all.mixes_rough(surface.place);
+    surface.optics = all.chosen_at(surface.place);
+}
 
 /// Turns the normal and sets along_grain of a surface whose other members are set. `space` takes normals and directions
 /// to the scene's space.

@@ -29,7 +29,7 @@ struct Surface {
 
     float distance;  ///< from the ray's origin
     /// The shading normal, by which light is scattered: of unit length, on the side the ray came from. It is that of
-    /// the surface but for bumps and the smooth normals of meshes.
+    /// the surface but for bumps, maps of normals and the smooth normals of meshes.
     glm::vec3 normal;
     glm::vec3 geometric_normal;    ///< the surface's own, of unit length, on the side the ray came from
     Side near_side;                ///< the one the ray came from; its phase is clear
@@ -40,6 +40,11 @@ struct Surface {
     std::optional<Phase> entered;                    ///< the phase behind, clear or opaque; none behind a mesh
     TexturePoint place;                              ///< in the space of what was met
     std::optional<glm::vec3> along_grain{};          ///< in the scene's space, if the surface has a grain (grain.hpp)
+    /// The part of the rays that are stopped there: less than 1 of a mesh that lets light through
+    /// (shading/opacity.hpp).
+    float opacity = 1.0f;
+    /// Whether something other than a smooth surface is there: of a mixture, also what was not chosen for this ray.
+    bool is_partly_rough = false;
 
     /// The space of its BSDF: local z is the shading normal, and x is along the grain, if it has any.
     Frame frame() const { return along_grain ? Frame(normal, *along_grain) : Frame(normal); }

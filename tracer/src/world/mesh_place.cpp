@@ -32,6 +32,19 @@ glm::vec3 MeshPlace::point() const {
     return (1 - u - v) * mesh.vertices[t.x] + u * mesh.vertices[t.y] + v * mesh.vertices[t.z];
 }
 
+glm::vec3 MeshPlace::point_of_smooth_surface(bool is_behind) const {
+    const glm::uvec3& t = mesh.triangles[triangle];
+    const glm::vec3 p = point();
+    const float parts[] = {1 - u - v, u, v};
+    glm::vec3 lift(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        const glm::vec3 n = (is_behind ? -1.0f : 1.0f) * mesh.normals.at(mesh.triangles, triangle, i);
+        const float height = glm::dot(mesh.vertices[t[i]] - p, n);
+        if (height > 0.0f) lift += parts[i] * height * n;
+    }
+    return p + lift;
+}
+
 std::optional<MeshCoordinates> MeshPlace::coordinates() const {
     if (mesh.uv.empty() && mesh.colors.empty()) return std::nullopt;
     const glm::uvec3& t = mesh.triangles[triangle];

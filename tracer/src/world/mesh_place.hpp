@@ -24,6 +24,13 @@ struct MeshPlace {
     T mean(const AtCorners<T>& values) const {
         return at_barycentric(mesh, values, triangle, u, v);
     }
+    /// Where the smooth surface is that the triangle stands for, if it bulges out of the triangle towards the ray's
+    /// side there; else the point itself. The corners' tangent planes are met in the direction of their normals, and
+    /// of the three points the mean is taken. The mesh has normals.
+    ///
+    /// Rays that leave from there are not in the shadow of the triangles around, whose edges would show where light
+    /// grazes the surface. Reference: Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021, chapter 4.
+    glm::vec3 point_of_smooth_surface(bool is_behind) const;
     /// Texture coordinates and colours, without tangents. Nothing if the mesh has neither.
     std::optional<MeshCoordinates> coordinates() const;
     /// Adds the tangents of a mesh that has some. `normal` is the shading normal on the side from which the mesh is

@@ -149,7 +149,7 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
         surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_in};
     }
     if (is_clear(scene_.materials[to.index])) surface.far_side = {on.origin, to, on.in, on.start};
-    surface.optics = surface.optics.get().chosen_at(surface.place);
+    choose_of_mixture(surface);
     add_bumps_and_grain(surface, ray.direction, FromCopyToScene{shown.copy.to_object});
     return surface;
 }

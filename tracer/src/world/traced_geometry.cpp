@@ -210,7 +210,7 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
                     .entered = c.to,
                     .place = {c.p_in, -normal.unit, std::nullopt}};
     if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
-    surface.optics = surface.optics.get().chosen_at(surface.place);
+    choose_of_mixture(surface);
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
 }
@@ -225,29 +225,53 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     if (is_behind) flat = -flat;
     glm::vec3 shading = flat;
     if (!mesh.normals.empty()) {
-        glm::vec3 n = glm::normalize(met.mean(mesh.normals));
-        is_behind = glm::dot(n, flat) < 0;
-        if (is_behind) n = -n;
-        // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
-        if (glm::dot(n, ray.direction) < 0) shading = n;
+        const glm::vec3 mean = met.mean(mesh.normals);
+        const float length = glm::length(mean);
+        // Triangles may lack normals that others of the mesh have.
+        if (length > 0) {
+            is_behind = glm::dot(mean, flat) < 0;
+            const glm::vec3 n = (is_behind ? -mean : mean) / length;
+            // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
+            if (glm::dot(n, ray.direction) < 0) shading = n;
+        }
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
     const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
+    // Where rays leave a mesh that is smooth. What touches it may be between the triangle and the surface that this
+    // stands for, and then they leave from the triangle.
+    glm::vec3 leaves_from = origin;
+    if (!mesh.normals.empty() && shading != flat) {
+        const glm::vec3 smooth = origin + (met.point_of_smooth_surface(is_behind) - p);
+        if (glm::length(smooth - origin) > glm::length(origin - p) && is_free(ray, origin, smooth))
+            leaves_from = smooth;
+    }
     TexturePoint place(origin, shading, met.coordinates());
     if (!mesh.tangents.empty() && place.mesh) met.add_tangents(*place.mesh, shading, is_behind);
     const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
     Surface surface{.distance = hit.ray.tfar,
                     .normal = shading,
                     .geometric_normal = flat,
-                    .near_side = {origin, ray.phase, ray.in},
+                    .near_side = {leaves_from, ray.phase, ray.in},
                     .far_side = std::nullopt,
-                    .optics = optics.chosen_at(place),
+                    .optics = optics,
                     .hint = {},
                     .object = first_mesh_ + static_cast<std::uint32_t>(index),
                     .entered = std::nullopt,
                     .place = place};
+    if (mesh.opacity) surface.opacity = mesh.opacity->at(TexturePoint(p, flat, place.mesh));
+    choose_of_mixture(surface);
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
+}
+
+bool TracedGeometry::is_free(const Ray& ray, const glm::vec3& from, const glm::vec3& to) const {
+    const float distance = glm::length(to - from);
+    const Ray between{from, (to - from) / distance, ray.phase, {}, ray.in};
+    PathCounters counters;
+    if (placed_) return std::holds_alternative<Escaped>(next_of_several(between, distance, counters));
+    embree::Query query;
+    RTCRayHit hit;
+    return !trace(between, distance, query, hit, counters);
 }
 
 CellStatistics TracedGeometry::statistics() const {

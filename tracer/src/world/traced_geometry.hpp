@@ -75,7 +75,6 @@ class TracedGeometry {
     };
     using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
 
-    void attach_meshes();
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
     /// The mesh that stands flush with an interface, if there is one and light goes on behind the interface, in the
     /// phase `to`. The interface is known to lie between the points p_in, which is `distance` from the ray's origin,
@@ -85,6 +84,8 @@ class TracedGeometry {
                                                        const glm::vec3& p_out) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;
+    /// Whether nothing is between two points, of which the first is where the ray has come to.
+    bool is_free(const Ray& ray, const glm::vec3& from, const glm::vec3& to) const;
 
     Hit intersect_several(const Ray& ray, float far, PathCounters& counters) const;
     NextOfSeveral next_of_several(const Ray& ray, float far, PathCounters& counters) const;

@@ -1,5 +1,5 @@
 // The colour that glTF gives to a place of a mesh: a factor, times an image by the mesh's texture coordinates, times
-// the colours of its vertices. Scene files do not name it; meshes from .glb files have it.
+// the colours of its vertices. Scene files do not name it; meshes from glTF files have it.
 //
 // glTF's colour c is that which is seen under a clear coat. The base of a coat that reflects the part F of diffuse
 // light back inside is seen as c = ρ (1 − F) / (1 − ρ F) (bsdf/coated_diffuse.hpp), so it has ρ = c / (1 − F + c F).
