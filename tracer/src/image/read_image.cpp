@@ -86,8 +86,8 @@ void read_values(OIIO::ImageInput& input, int channels, std::uintmax_t file_byte
     place.finished(file_bytes);
 }
 
-// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is not
-// used here, and an image's colours are those that its file has.
+// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is
+// a number of its own here, and an image's colours are those that its file has.
 OIIO::ImageSpec as_stored() {
     OIIO::ImageSpec configuration;
     configuration.attribute("oiio:UnassociatedAlpha", 1);
