@@ -132,6 +132,7 @@ const std::vector<Meant> meant = {
      {film("ice", "tonic", "ice"), film("ice", "whisky", "ice")},
      "Two cubes of ice nearly touch, and the cracks in a cube are thin sheets, which the drink fills."},
     {"ember", {film("vacuum", "water", "vacuum")}, "The puddle around the block of ice is shallow."},
+    {"enamel_mug", {film("vacuum", "enamel", any)}, "The mug is of thin sheet."},
     {"entremet", {film("marble", "brass", "vacuum")}, "The foot of brass is drawn out thin under the marble."},
     {"entremet",
      {film("mousse", "glaze", "vacuum"), film("skin", "glaze", "vacuum")},
