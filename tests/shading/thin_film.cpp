@@ -165,7 +165,8 @@ TEST_CASE("thin film: rough surfaces with films are sampled as they are evaluate
     const ConductorSurface mirror(1.0f, glm::vec3(1.0f), glm::vec3(1e6f), ValueRange{0.4f, 0.4f}, soap(300.0f));
     const CoatingAlbedo varnish(DielectricSurface(1.0f, 1.5f, std::nullopt, FilmOfSurface{1.8f, {300.0f, 300.0f}}),
                                 ValueRange{0.4f, 0.4f}, ValueRange{300.0f, 300.0f});
-    const tracer::Bsdf bsdfs[] = {RoughDielectricBsdf(glass, 0.4f), RoughConductorBsdf(mirror, 0.4f, {.thickness = 300.0f}),
+    const tracer::Bsdf bsdfs[] = {RoughDielectricBsdf(glass, 0.4f),
+                                  RoughConductorBsdf(mirror, 0.4f, {.thickness = 300.0f}),
                                   CoatedDiffuseBsdf(varnish.at(0.4f, 300.0f), glm::vec3(1.0f))};
     for (const tracer::Bsdf& bsdf : bsdfs) {
         const BsdfReport report = examine(bsdf, wo, 71);

@@ -123,7 +123,8 @@ TEST_CASE("at three wavelengths a metal is one whose red, green and blue have it
             const ConductorSurface by_spectrum(ior, copper.eta, copper.k, range, {}, copper.spectrum);
             const ConductorSurface by_colours(ior, eta, k, range);
             for (const float roughness : {0.1f, 0.5f}) {
-                const RoughConductorBsdf spectral(by_spectrum, roughness, {.wavelengths = &at}), colours(by_colours, roughness);
+                const RoughConductorBsdf spectral(by_spectrum, roughness, {.wavelengths = &at}),
+                    colours(by_colours, roughness);
                 for (const float slope : {0.1f, 0.5f, 0.9f}) {
                     const glm::vec3 wo(slope, 0, std::sqrt(1 - slope * slope)),
                         wi = glm::normalize(glm::vec3(-0.3f, 0.4f, 0.7f));
