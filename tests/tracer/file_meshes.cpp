@@ -29,11 +29,9 @@ class FileMesh {
     }
     const Mesh& mesh() const { return scene_.meshes.at(0); }
     Surface seen_from(const glm::vec3& origin, const glm::vec3& direction) const {
-        const World world(scene_);
-        PathCounters counters;
-        const Hit hit = world.geometry().intersect(Ray{origin, direction}, counters);
-        REQUIRE(std::holds_alternative<Surface>(hit));
-        return std::get<Surface>(hit);
+        const auto surface = surface_met(World(scene_), origin, direction);
+        REQUIRE(surface);
+        return *surface;
     }
 
   private:

@@ -18,10 +18,9 @@ const std::string ball = R"({"set": {"phase": "a", "of": {"sphere": {"radius": 1
 struct Shown {
     explicit Shown(const std::string& material) : scene(scene_of("\"a\": " + material, ball)), world(scene) {}
     Surface seen_from(const glm::vec3& origin) const {
-        PathCounters counters;
-        const Hit hit = world.geometry().intersect(Ray{origin, glm::normalize(-origin)}, counters);
-        REQUIRE(std::holds_alternative<Surface>(hit));
-        return std::get<Surface>(hit);
+        const auto surface = surface_met(world, origin, -origin);
+        REQUIRE(surface);
+        return *surface;
     }
     Scene scene;
     World world;

@@ -43,11 +43,9 @@ class MappedMesh {
     }
     const Mesh& mesh() const { return scene_.meshes.at(0); }
     Surface seen_from(const glm::vec3& origin, const glm::vec3& direction) const {
-        const World world(scene_);
-        PathCounters counters;
-        const Hit hit = world.geometry().intersect(Ray{origin, direction}, counters);
-        REQUIRE(std::holds_alternative<Surface>(hit));
-        return std::get<Surface>(hit);
+        const auto surface = surface_met(World(scene_), origin, direction);
+        REQUIRE(surface);
+        return *surface;
     }
     glm::vec3 from_above() const { return seen_from({0.4f, 0.3f, 9}, {0, 0, -1}).normal; }
 

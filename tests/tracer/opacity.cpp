@@ -36,8 +36,7 @@ std::string floor(const std::string& more, const std::string& height = "0") {
 
 // Whether a ray from above meets a mesh.
 bool is_met(const Shown& shown, const glm::vec3& origin, const glm::vec3& direction = {0, 0, -1}) {
-    PathCounters counters;
-    return std::holds_alternative<Surface>(shown.world.geometry().intersect(Ray{origin, direction}, counters));
+    return surface_met(shown.world, origin, direction).has_value();
 }
 
 std::string said(const std::string& meshes) {

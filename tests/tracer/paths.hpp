@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "integrator/path.hpp"
@@ -32,6 +33,15 @@ inline Image image_of(const World& world, const Scene& scene) {
     RenderJob job;
     job.pixels = scene.film.whole();
     return render(world, scene, job).image;
+}
+
+// What a ray meets that starts in the phase which is there; nothing if it escapes.
+inline std::optional<Surface> surface_met(const World& world, const glm::vec3& origin, const glm::vec3& direction) {
+    PathCounters counters;
+    const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin)};
+    const Hit hit = world.geometry().intersect(ray, counters);
+    const Surface* surface = std::get_if<Surface>(&hit);
+    return surface ? std::optional(*surface) : std::nullopt;
 }
 
 // Radiance along a ray, per colour channel: `count` independent paths (each the first sample of a pixel of its own, so

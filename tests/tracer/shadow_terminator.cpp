@@ -47,11 +47,7 @@ struct Shown {
         world.emplace(scene);
     }
     std::optional<Surface> met(const glm::vec3& origin, const glm::vec3& direction) const {
-        PathCounters counters;
-        const Hit hit = world->geometry().intersect(
-            Ray{origin, glm::normalize(direction), world->geometry().label(origin)}, counters);
-        if (!std::holds_alternative<Surface>(hit)) return std::nullopt;
-        return std::get<Surface>(hit);
+        return surface_met(*world, origin, direction);
     }
     phasetree::support::TemporaryDirectory folder;
     Scene scene;

@@ -43,8 +43,8 @@ struct BuildNode {
     float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns: finest_pattern()
     /// What a trial has found of boxes as small as that, here or in a box around this one; nothing without a trial.
     std::optional<bool> is_small_cheaper{};
-    double share = 1;                         ///< about how much of the whole build the subdivision of this box is
-    Candidate cell{};                         ///< what the box becomes if it is not divided
+    double share = 1;  ///< about how much of the whole build the subdivision of this box is
+    Candidate cell{};  ///< what the box becomes if it is not divided
 };
 
 /// Prunes a node's program in its box, cuts the box to the interfaces, and finds the cell that it could become. False

@@ -52,6 +52,8 @@ class TextureImage {
 inline constexpr int largest_texture_image = 4096;
 inline constexpr Parameter image_file_parameter{
     "file", "", "An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels."};
+inline constexpr Parameter repeat_parameter{
+    "repeat", "", "How often the image stands side by side, and one above the other.", limits::any, true};
 
 /// What an image's integers mean; floating-point numbers mean themselves.
 enum class ImageMeaning {

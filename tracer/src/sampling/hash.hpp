@@ -4,7 +4,9 @@
 // nearly ideal avalanche. Several words are chained through it.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 namespace phasetree::tracer {
 
@@ -24,6 +26,13 @@ constexpr std::uint32_t hash(std::uint32_t first, Words... rest) {
     std::uint32_t state = mix_bits(first + 0x9e3779b9u);
     ((state = mix_bits(state * 0x01000193u ^ (static_cast<std::uint32_t>(rest) + 0x9e3779b9u))), ...);
     return state;
+}
+
+/// Of a point or a direction, by all bits of its numbers, and of what else tells it from others.
+template <typename... Words>
+std::uint32_t hash_of(const glm::vec3& v, Words... rest) {
+    return hash(std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z),
+                rest...);
 }
 
 /// In [0, 1).

@@ -1,7 +1,6 @@
 #include "shading/interface.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <stdexcept>
 
 #include "sampling/hash.hpp"
@@ -93,8 +92,7 @@ Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero
 // The second of a mixture's materials is chosen where this number is below its amount. A mixture within a mixture is of
 // the next level, and has a number of its own.
 float threshold_at(const TexturePoint& p, std::uint32_t level) {
-    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
-    return hash_to_unit(hash(bits(p.position.x), bits(p.position.y), bits(p.position.z), p.copy, level));
+    return hash_to_unit(hash_of(p.position, p.copy, level));
 }
 
 // bsdf_of() gives the BSDF of each kind of optics at a place, for light of wavelengths or, without any, of colours.

@@ -38,8 +38,7 @@ struct NormalMap {
         v(&P::file, Parameter{"file", "",
                               "An image of at most 4096 × 4096 pixels, whose numbers count as the file stores them: 0 "
                               "stands for −1, and 1 (255 of 255) for 1."});
-        v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
-                                limits::any, true});
+        v(&P::repeat, repeat_parameter);
         v(&P::strength, Parameter{"strength", "", "A factor of red and green: 0 is smooth, and 2 twice as steep.",
                                   Limits{.low = 0, .high = 100}, true});
         v(&P::green_down,

@@ -8,7 +8,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// In ems, of the curves that are nearest on the whole. Those that have the cubic's tangents are off by up to twice that.
+// In ems, of the curves that are nearest on the whole. Those that have the cubic's tangents are off by up to twice
+// that.
 constexpr double tolerance = 1e-4;
 
 // Where the tangents at the ends of a part of a cubic meet, so that the quadratic curves of two parts have one tangent

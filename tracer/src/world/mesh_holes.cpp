@@ -1,6 +1,5 @@
 #include "world/mesh_holes.hpp"
 
-#include <bit>
 #include <cstdint>
 
 #include "sampling/hash.hpp"
@@ -16,9 +15,8 @@ bool stops(const Mesh& mesh, const RTCRay& ray, const RTCHit& hit) {
     const float opacity = mesh.opacity->at(TexturePoint(met.point(), {0, 0, 1}, met.coordinates()));
     if (opacity >= 1.0f) return true;
     if (!(opacity > 0.0f)) return false;
-    const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
-    return hash_to_unit(hash(bits(ray.org_x), bits(ray.org_y), bits(ray.org_z), bits(ray.dir_x), bits(ray.dir_y),
-                             bits(ray.dir_z), hit.primID, hit.geomID)) < opacity;
+    const std::uint32_t of_direction = hash_of({ray.dir_x, ray.dir_y, ray.dir_z}, hit.primID, hit.geomID);
+    return hash_to_unit(hash_of({ray.org_x, ray.org_y, ray.org_z}, of_direction)) < opacity;
 }
 
 // Embree's filter: what it makes 0 in `valid` is no hit.

@@ -14,8 +14,7 @@
 namespace phasetree::tracer {
 
 struct MeshImageTexture {
-    static constexpr KindInfo info{"mesh_image",
-                                   "An image on a mesh by the texture coordinates that its file has."};
+    static constexpr KindInfo info{"mesh_image", "An image on a mesh by the texture coordinates that its file has."};
 
     std::filesystem::path file{};
     glm::vec2 repeat{1.0f};
@@ -25,8 +24,7 @@ struct MeshImageTexture {
     static void parameters(V&& v) {
         using P = MeshImageTexture;
         v(&P::file, image_file_parameter);
-        v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
-                                limits::any, true});
+        v(&P::repeat, repeat_parameter);
     }
     void prepare() { image = load_texture_image(file); }
 

@@ -37,8 +37,7 @@ struct MeshImageNumber {
         v(&P::channel_name,
           ChoiceParameter{{"channel", "", "Which one; grey images have one in all three.", limits::any, true},
                           names_of_channels});
-        v(&P::repeat, Parameter{"repeat", "", "How often the image stands side by side, and one above the other.",
-                                limits::any, true});
+        v(&P::repeat, repeat_parameter);
         v(&P::range,
           Parameter{"range", "", "The numbers where the image is black and where it is white.", limits::any, true});
     }
