@@ -122,7 +122,7 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
           "\"solid\"");
     CHECK(files.said("a.stl", "solid\nvertex 1 2\n") == "a.stl: a vertex needs three numbers (line 2)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2 3\nendfacet\n") ==
-          "a.stl: a facet has less than three vertices (line 3)");
+          "a.stl: a facet has fewer than three vertices (line 3)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2\n3 vertex 1 2\nvertex") ==
           "a.stl: a vertex needs three numbers (line 3)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2 3 vertex 1 2 3 vertex 1 2 3\nVERTEX 1 2 3 endfacet\n") ==

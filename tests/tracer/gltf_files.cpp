@@ -186,6 +186,7 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     const std::string named = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "parts/a.bin"}])";
     CHECK(changes("b.GLTF", named + "}"));
     CHECK(changes("c.gltf", named + R"(, "images": [{"uri": "https://example.org/a.png"}, {"uri": "../b.png"}]})"));
+    CHECK(changes("e.gltf", named + R"(, "images": [1, {"uri": 2}]})"));
     const std::string all = phasetree::tests::glb_chunk(0x4E4F534A, named + "}", ' ');
     const std::uint32_t head[3] = {0x46546C67, 2, static_cast<std::uint32_t>(12 + all.size())};
     CHECK(changes("d.glb", std::string(reinterpret_cast<const char*>(head), sizeof head) + all));

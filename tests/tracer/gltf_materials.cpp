@@ -114,6 +114,30 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     CHECK(escape.name.size() <= 60);
 }
 
+TEST_CASE("what glows lies by the coordinates of its own images, and is dark where its image cannot be read") {
+    Corner corner;
+    const std::size_t view = corner.add_view(png(std::vector<unsigned char>(12, 255)));
+    const std::string rest =
+        R"(, "textures": [{"source": 0}, {}], "images": [{"bufferView": )" + std::to_string(view) + "}]";
+    const auto material = [&](const std::string& emissive) {
+        return R"({"name": "screen", "emissiveFactor": [1, 1, 1], "emissiveTexture": )" + emissive +
+               R"(, "normalTexture": {"index": 0, "texCoord": 1}, "pbrMetallicRoughness": {"metallicFactor": 0}})";
+    };
+    const auto file = [&](const std::string& emissive) {
+        return read(corner.file(one_node + meshes(all_attributes + R"(, "material": 0)") + R"(, "materials": [)" +
+                                material(emissive) + "]" + rest));
+    };
+    const gltf::GltfFile glowing = file(R"({"index": 0})");
+    CHECK(std::holds_alternative<Glowing>(glowing.parts.at(0).material));
+    CHECK(glowing.not_shown ==
+          std::vector<std::string>{"\"screen\" shines and has a map of normals, which is ignored"});
+    // The set 0 is there; the set 1 of the map is not.
+    CHECK(glm::length(glowing.parts[0].texture.values.at(1) - glm::vec2(1, 1)) < 1e-6f);
+    const gltf::GltfFile dark = file(R"({"index": 1})");
+    CHECK(std::holds_alternative<Coated>(dark.parts.at(0).material));
+    CHECK(dark.not_shown.front().find("has an image of a kind that is not read") != std::string::npos);
+}
+
 TEST_CASE("alpha makes holes where the file says that it counts") {
     Corner corner;
     const phasetree::support::TemporaryDirectory folder;

@@ -138,7 +138,7 @@ TEST_CASE("instances of a node stand where their list says") {
     CHECK(is_near(part.mesh.vertices[1], {2, 0, 7}));
     CHECK(is_near(part.mesh.vertices[4], {3, 2, 7}));
     CHECK(said(file(R"("TRANSLATION": 5, "SCALE": 1)")) ==
-          "accessors[1] has not as many rows as the others of the instances");
+          "accessors[1] has another number of rows than the others of the instances");
     CHECK(said(file(R"("ROTATION": 5)")) == "accessors[5] has rows of another length than instances have");
     CHECK(said(file(R"("TRANSLATION": 5)"), {.primitives = 1}) == "it has too many meshes");
 }

@@ -32,7 +32,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
     return flat;
 }
 
-// Tells whether a polygon never turns right, and once around in all.
+// Tells whether a polygon never turns right, and goes around once.
 bool is_convex(const std::vector<glm::dvec2>& p) {
     const std::size_t n = p.size();
     int turns = 0;
@@ -45,9 +45,9 @@ bool is_convex(const std::vector<glm::dvec2>& p) {
 }
 
 // Ears are found after a few corners in most faces, but there are faces for which it takes about n³ comparisons for all
-// of n corners. After so many times n² any corner is cut off.
-constexpr std::size_t most_comparisons = 16;
-// So many comparisons for each corner do not count for the file: ordinary faces need fewer.
+// of n corners. After 16 n² comparisons any corner is cut off.
+constexpr std::size_t comparisons_per_square = 16;
+// The first comparisons of a face, 16 for each corner, are not counted: ordinary faces need fewer.
 constexpr std::size_t free_comparisons = 16;
 
 class Ears {
@@ -63,7 +63,7 @@ class Ears {
     }
 
     std::vector<glm::uvec3> clip_all() {
-        const std::size_t most = most_comparisons * at_.size() * at_.size();
+        const std::size_t most = comparisons_per_square * at_.size() * at_.size();
         std::vector<glm::uvec3> triangles;
         triangles.reserve(at_.size() - 2);
         std::uint32_t i = 0;

@@ -18,8 +18,8 @@ inline constexpr std::size_t most_corners_of_face = 1'000'000;
 /// Faces of more corners than this that are not convex become fans about their first corner, which may fold over.
 inline constexpr std::size_t most_corners_to_clip = 1024;
 
-/// Divides the faces of a file. It makes so many comparisons of a corner with an ear, beyond those that ordinary faces
-/// need; as many as the default take a few seconds.
+/// Divides the faces of a file. It gives up after so many comparisons of a corner with an ear beyond those that
+/// ordinary faces need. The default takes a few seconds.
 class FaceDivider {
   public:
     static constexpr const char* takes_too_long =
@@ -28,7 +28,7 @@ class FaceDivider {
 
     explicit FaceDivider(std::size_t comparisons = 1'000'000'000) : comparisons_left_(comparisons) {}
 
-    /// Returns the triangles of a face with at least three corners, all in its sense. Their corners are numbers of
+    /// Returns the triangles of a face with at least three corners, all oriented as it is. Their corners are numbers of
     /// corners of the face, from 0. The face is taken for flat. A convex one becomes a fan about its first corner.
     /// Nothing if the faces so far have taken too many comparisons.
     std::optional<std::vector<glm::uvec3>> triangles(std::span<const glm::vec3> corners);

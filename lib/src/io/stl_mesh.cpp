@@ -1,4 +1,4 @@
-// STL files, of numbers and of words.
+// Reads binary and text STL files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,8 +49,8 @@ std::uint32_t claimed_triangles(std::string_view content) {
 }
 
 // A binary file is at least as long as its number of triangles says. Programs write headers that begin with "solid",
-// and bytes behind the triangles. No text is taken for one: four characters of a text are a number of more than a
-// hundred million triangles, and those that are control characters are not in texts of STL files.
+// and bytes after the triangles. No text is taken for one: four of its characters, read as a number, say more than a
+// hundred million triangles. Texts have no smaller control characters.
 bool is_binary(std::string_view content) {
     if (content.size() < head_bytes) return false;
     const std::uint64_t count = claimed_triangles(content);
@@ -83,7 +83,7 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view con
     return mesh;
 }
 
-/// STL files of words, which may stand on any lines, in upper or lower case.
+/// Reads text STL files. Words may be on any lines, in either case.
 class TextReader {
   public:
     TextReader(const std::filesystem::path& path, std::string_view content) : path_(path), words_(content) {}
@@ -121,7 +121,7 @@ class TextReader {
         }
         words_.pass_line();
     }
-    // Whether behind "facet" a line goes on with its normal and the beginning of its vertices.
+    // Whether a normal and the first "vertex" follow "facet" on the line.
     static bool begins_facet(Words words) {
         if (!is_word(words.word(), "normal")) return false;
         for (int i = 0; i < 3; ++i)
@@ -141,7 +141,7 @@ class TextReader {
         ++count_;
     }
     void end_facet() {
-        if (count_ != 3) fail("a facet has less than three vertices", words_.number());
+        if (count_ != 3) fail("a facet has fewer than three vertices", words_.number());
         add_triangle(mesh_, corners_);
         count_ = 0;
     }

@@ -1,6 +1,7 @@
 #include "gltf/accessor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -73,6 +74,12 @@ double Accessor::number(std::size_t row, std::size_t column) const {
             return static_cast<double>(at<float>(bytes_, offset + 4 * column));
     }
     return 0;
+}
+
+double Accessor::finite_number(std::size_t row, std::size_t column) const {
+    const double value = number(row, column);
+    if (!(std::abs(value) <= most_magnitude)) fail("has something that is no number, or is beyond 10¹⁵");
+    return value;
 }
 
 std::uint32_t Accessor::index(std::size_t row) const {

@@ -17,18 +17,18 @@ static_assert(std::endian::native == std::endian::little, "numbers of .glb files
 
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bytes_chunk = 0x004E4942;
 
-constexpr std::size_t most_bytes = std::size_t{64} << 20;
-constexpr std::size_t deepest = 64;
+constexpr std::size_t most_bytes_of_json = std::size_t{64} << 20;
+constexpr std::size_t most_depth = 64;
 constexpr std::size_t most_bytes_of_buffers = std::size_t{1} << 30;
 
-// What files may require: what is read, and what changes how a surface looks but not where it is. A file that requires
-// another extension is refused, by its name if it is one of those that programs write.
-constexpr std::array<std::string_view, 4> known_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
-                                                           "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
-constexpr std::string_view known_beginning = "KHR_materials_";
-constexpr std::array<std::string_view, 5> unread_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                            "KHR_meshopt_compression", "KHR_texture_basisu",
-                                                            "EXT_texture_webp"};
+// Files may require these, which are read or move no surface. Files that require others are refused; the message names
+// the extension if programs commonly write it.
+constexpr std::array<std::string_view, 4> accepted_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
+                                                              "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
+constexpr std::string_view accepted_prefix = "KHR_materials_";
+constexpr std::array<std::string_view, 5> refused_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                             "KHR_meshopt_compression", "KHR_texture_basisu",
+                                                             "EXT_texture_webp"};
 
 // How deep the brackets of a JSON text are within each other, those in strings aside.
 std::size_t depth_of(std::string_view text) {
@@ -38,7 +38,7 @@ std::size_t depth_of(std::string_view text) {
         const char c = text[i];
         if (c == '"') is_in_string = !is_in_string;
         if (is_in_string) {
-            i += c == '\\' ? 1 : 0;  // what is behind a backslash ends no string
+            i += c == '\\' ? 1 : 0;  // what follows a backslash ends no string
         } else if (c == '{' || c == '[') {
             most = std::max(most, ++depth);
         } else if (depth > 0 && (c == '}' || c == ']')) {
@@ -81,6 +81,11 @@ std::optional<Item> Item::item(std::string_view key) const {
     const Json* found = find(key);
     if (!found) return std::nullopt;
     return Item(*found, fmt::format("{}{}{}", place_, place_.empty() ? "" : ".", key));
+}
+
+std::optional<Item> Item::extension(std::string_view name) const {
+    const auto extensions = item("extensions");
+    return extensions ? extensions->item(name) : std::nullopt;
 }
 
 std::vector<Item> Item::items(std::string_view key) const {
@@ -128,8 +133,7 @@ std::optional<std::vector<float>> Item::numbers(std::string_view key, std::size_
     std::vector<float> all;
     for (const Json& json : *list) {
         const double value = json.is_number() ? json.get<double>() : std::nan("");
-        // A coordinate of a scene is at most 10¹⁵, and squares of these are floats.
-        if (!(std::abs(value) <= 1e15))
+        if (!(std::abs(value) <= most_magnitude))
             fail(fmt::format("should have numbers in \"{}\", each at most 10¹⁵ in magnitude", key));
         all.push_back(static_cast<float>(value));
     }
@@ -140,7 +144,8 @@ float Item::number(std::string_view key, float otherwise) const {
     const Json* found = find(key);
     if (!found) return otherwise;
     const double value = found->is_number() ? found->get<double>() : std::nan("");
-    if (!(std::abs(value) <= 1e15)) fail(fmt::format("should have a number \"{}\"", key));
+    if (!(std::abs(value) <= most_magnitude))
+        fail(fmt::format("should have a number \"{}\", at most 10¹⁵ in magnitude", key));
     return static_cast<float>(value);
 }
 
@@ -191,9 +196,10 @@ Document::Document(std::string_view content, ReadFile read_file) : read_file_(st
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{')
         throw GltfError("it is no glTF file: it begins neither with \"glTF\" nor with a document");
-    if (text.size() > most_bytes) throw GltfError("its document is larger than 64 MiB");
+    if (text.size() > most_bytes_of_json) throw GltfError("its document is larger than 64 MiB");
     // Each level costs memory in the parser.
-    if (depth_of(text) > deepest) throw GltfError(fmt::format("its document is deeper than {} brackets", deepest));
+    if (depth_of(text) > most_depth)
+        throw GltfError(fmt::format("its document is deeper than {} brackets", most_depth));
     json_ = Json::parse(text, nullptr, false);
     if (!json_.is_object()) throw GltfError("its document is not JSON in UTF-8");
     check_version();
@@ -213,17 +219,17 @@ void Document::check_extensions() const {
     if (required == json_.end() || !required->is_array()) return;
     for (const Json& json : *required) {
         const std::string name = json.is_string() ? json.get<std::string>() : std::string();
-        if (name.starts_with(known_beginning) || std::ranges::find(known_extensions, name) != known_extensions.end())
+        if (name.starts_with(accepted_prefix) ||
+            std::ranges::find(accepted_extensions, name) != accepted_extensions.end())
             continue;
-        const bool has_name = std::ranges::find(unread_extensions, name) != unread_extensions.end();
+        const bool is_common = std::ranges::find(refused_extensions, name) != refused_extensions.end();
         throw GltfError(fmt::format("it requires {}, which this program does not read; save it without",
-                                    has_name ? name : "an extension of glTF"));
+                                    is_common ? name : "an extension of glTF"));
     }
 }
 
 std::size_t Document::count(const char* list) const {
-    const auto found = json_.find(list);
-    return found != json_.end() && found->is_array() ? found->size() : 0;
+    return root().count(list);
 }
 
 Item Document::element(const char* list, std::size_t index, const Item& from) const {
@@ -255,9 +261,9 @@ std::string_view Document::view(std::size_t index, const Item& from) const {
     const Item view = element("bufferViews", index, from);
     const std::size_t number = view.needed_index("buffer");
     const Item buffer = element("buffers", number, view);
-    const bool is_named = buffer.has("uri");
-    if (!is_named && number != 0) buffer.fail("has no bytes");
-    const std::string_view bytes = is_named ? std::string_view(buffers_[number]) : bytes_;
+    const bool has_uri = buffer.has("uri");
+    if (!has_uri && number != 0) buffer.fail("has no bytes");
+    const std::string_view bytes = has_uri ? std::string_view(buffers_[number]) : bytes_;
     const std::size_t offset = view.index("byteOffset").value_or(0), length = view.needed_index("byteLength");
     if (offset > bytes.size() || length > bytes.size() - offset) view.fail("is beyond the end of its buffer");
     return bytes.substr(offset, length);
@@ -272,12 +278,12 @@ std::string Document::image(const Item& image) const {
 std::vector<std::string> Document::files() const {
     std::vector<std::string> files;
     for (const char* list : {"buffers", "images"})
-        for (const Item& item : root().items(list))
-            if (item.has("uri")) try {
-                    if (std::string path = path_of_uri(item.text("uri")); !path.empty())
-                        files.push_back(std::move(path));
-                } catch (const GltfError&) {  // it names none that is read
-                }
+        for (std::size_t i = 0; i < count(list); ++i) try {
+                const Item item = element(list, i, root());
+                std::string path = item.has("uri") ? path_of_uri(item.text("uri")) : "";
+                if (!path.empty()) files.push_back(std::move(path));
+            } catch (const GltfError&) {  // it names none that is read
+            }
     return files;
 }
 

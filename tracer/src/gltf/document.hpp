@@ -2,7 +2,8 @@
 // the same file; else, in .gltf, they are files beside it, or are written into the document.
 //
 // What the document says is never believed: each number that is asked for has the type and the bounds that glTF gives
-// it, or GltfError says what is wrong. Messages tell the place in the document and quote nothing else of the file.
+// it, or GltfError says what is wrong. Messages tell the place in the document, and quote nothing of the file but
+// names.
 //
 // Reference: Khronos Group, glTF 2.0 Specification, 2021 (ISO/IEC 12113:2022).
 #pragma once
@@ -22,6 +23,9 @@
 namespace phasetree::tracer::gltf {
 
 using Json = nlohmann::json;
+
+/// A coordinate of a scene is at most this, and squares of it are floats.
+inline constexpr double most_magnitude = 1e15;
 
 /// What is wrong with a file, or what this program does not read, without the file's name.
 class GltfError : public std::runtime_error {
@@ -45,6 +49,8 @@ class Item {
     /// The numbers from 0 of the list that is called so.
     std::vector<std::size_t> indices(std::string_view key) const;
     float number(std::string_view key, float otherwise) const;
+    /// The extension of that name; nothing if there is none.
+    std::optional<Item> extension(std::string_view name) const;
     /// So many finite numbers; nothing if there is no such list.
     std::optional<std::vector<float>> numbers(std::string_view key, std::size_t count) const;
     glm::vec3 vec3(std::string_view key, const glm::vec3& otherwise) const;
@@ -63,7 +69,7 @@ class Item {
     std::size_t index_of(const Json&, std::string_view key) const;
 
     const Json* json_;
-    std::string place_;  ///< empty of all the file
+    std::string place_;  ///< empty for the root
 };
 
 class Document {
@@ -92,8 +98,8 @@ class Document {
 
     Json json_;
     ReadFile read_file_;
-    std::string_view bytes_;            // of a .glb file
-    std::vector<std::string> buffers_;  // of those that are named by a URI
+    std::string_view bytes_;            // the binary chunk of a .glb file
+    std::vector<std::string> buffers_;  // by index; empty if it has no URI
 };
 
 }  // namespace phasetree::tracer::gltf

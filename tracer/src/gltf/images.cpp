@@ -28,8 +28,7 @@ bool repeats(const Document& document, const Item& source) {
 Coordinates coordinates_of(const Item& texture) {
     Coordinates c;
     c.set = texture.index("texCoord").value_or(0);
-    const auto extensions = texture.item("extensions");
-    const auto t = extensions ? extensions->item("KHR_texture_transform") : std::nullopt;
+    const auto t = texture.extension("KHR_texture_transform");
     if (!t) return c;
     c.set = t->index("texCoord").value_or(c.set);
     const auto offset = t->numbers("offset", 2), scale = t->numbers("scale", 2);

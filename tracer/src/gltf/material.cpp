@@ -45,20 +45,20 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Extensions whose meaning is taken, here or in document.cpp.
-constexpr std::array<std::string_view, 4> read_extensions{"KHR_materials_transmission", "KHR_materials_ior",
-                                                          "KHR_materials_emissive_strength",
-                                                          "KHR_materials_pbrSpecularGlossiness"};
+// Extensions that are read, or that have a message of their own.
+constexpr std::array<std::string_view, 4> handled_extensions{"KHR_materials_transmission", "KHR_materials_ior",
+                                                             "KHR_materials_emissive_strength",
+                                                             "KHR_materials_pbrSpecularGlossiness"};
 
-// What shines less than this is shown as what it is made of.
+// Surfaces that shine less are shown as dark.
 constexpr float faintest_radiance = 0.01f;
 
-// What is a metal to more than this part everywhere is taken to be all metal.
-constexpr float all_but = 0.99f;
+// A surface that is metal by more than this everywhere counts as all metal.
+constexpr float nearly_all = 0.99f;
 
 }  // namespace
 
-// What a material's maker knows while it is at work.
+// Makes one material.
 class Materials::Maker {
   public:
     Maker(Images& images, const Item& item, NamedMaterial& made) : images_(images), item_(item), made_(made) {}
@@ -73,34 +73,31 @@ class Materials::Maker {
         }
         say_what_is_not_read();
         if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
-            lost("says its colour by specular and glossiness, which is not read; here it is a white metal");
+            note_loss("says its colour by specular and glossiness, which is not read; here it is a white metal");
         read_color(pbr, by_vertices);
         read_opacity(pbr);
+        if (make_glowing()) return;
         read_roughness(pbr);
         const std::optional<NormalMap> normals = normal_map();
-        if (shines(normals.has_value())) return;
-        if (least_of(metallic_) > all_but)
+        if (least_of(metallic_) > nearly_all)
             made_.material = metal(normals);
-        else if (greatest_of(metallic_) < 1 - all_but)
+        else if (greatest_of(metallic_) < 1 - nearly_all)
             made_.material = coated(normals);
         else
             made_.material = Mix{std::make_shared<const Mixture>(Mixture{coated(normals), metal(normals)}), metallic_};
     }
 
   private:
-    void lost(std::string sentence) { made_.not_shown.push_back(std::move(sentence)); }
+    void note_loss(std::string sentence) { made_.not_shown.push_back(std::move(sentence)); }
 
-    std::optional<Item> extension(std::string_view name) const {
-        const auto extensions = item_.item("extensions");
-        return extensions ? extensions->item(name) : std::nullopt;
-    }
+    std::optional<Item> extension(std::string_view name) const { return item_.extension(name); }
 
-    // An image for what is one number or one colour of a material here, such as how much of it is metal.
+    // Reads a texture's image, and notes it if the image is of a kind that is not read.
     std::optional<ReadImage> image(const std::optional<Item>& texture, ImageMeaning meaning) {
         if (!texture) return std::nullopt;
         const auto read = images_.read(*texture, meaning);
         if (!read && meaning != ImageMeaning::alpha)
-            lost("has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
+            note_loss("has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
         return read;
     }
     // An image that is laid on meshes. All of a material lie by the same coordinates.
@@ -109,8 +106,8 @@ class Materials::Maker {
         if (!made_.coordinates)
             made_.coordinates = coordinates;
         else if (!(*made_.coordinates == coordinates))
-            lost("uses several sets or transforms of coordinates; the first is used for all images");
-        if (!image.repeats) lost("has an image that does not repeat in the file; here it does");
+            note_loss("uses several sets or transforms of coordinates; the first is used for all images");
+        if (!image.repeats) note_loss("has an image that does not repeat in the file; here it does");
     }
 
     bool is_clear() {
@@ -121,19 +118,19 @@ class Materials::Maker {
             if (const auto read = image(transmission->item("transmissionTexture"), ImageMeaning::numbers))
                 part *= read->mean.x;
         if (part >= 0.5f) return true;
-        if (part > 0) lost("lets some light through in the file; here it lets none");
+        if (part > 0) note_loss("lets some light through in the file; here it lets none");
         return false;
     }
 
     void say_what_is_not_read() {
         if (const auto extensions = item_.item("extensions"))
             for (const std::string& key : extensions->keys())
-                // Messages quote nothing of files but what is known to be a name.
-                if (is_name(key) && std::ranges::find(read_extensions, key) == read_extensions.end())
-                    lost(fmt::format("has {}, which is not read", key));
+                // A message may quote a key only if it looks like a name.
+                if (is_name(key) && std::ranges::find(handled_extensions, key) == handled_extensions.end())
+                    note_loss(fmt::format("has {}, which is not read", key));
     }
     static bool is_name(const std::string& key) {
-        return key.size() <= 60 && key.starts_with("KHR_materials_") &&
+        return key.size() <= longest_name && key.starts_with("KHR_materials_") &&
                std::ranges::all_of(key, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
     }
 
@@ -191,26 +188,30 @@ class Materials::Maker {
         return NormalMap{.strength = std::clamp(texture->number("scale", 1), -100.0f, 100.0f), .image = read->image};
     }
 
-    bool shines(bool has_normals) {
+    // True if it glows; then it is made.
+    bool make_glowing() {
         const glm::vec3 emissive = item_.vec3("emissiveFactor", glm::vec3(0));
         const auto strength = extension("KHR_materials_emissive_strength");
         const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
         if (!(radiance > 0)) return false;
         if (radiance < faintest_radiance) {
-            lost("shines a little in the file; here it is dark");
+            note_loss("shines a little in the file; here it is dark");
             return false;
         }
         TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
         const auto texture = item_.item("emissiveTexture");
-        if (const auto read = image(texture, ImageMeaning::colors)) {
+        const auto read = image(texture, ImageMeaning::colors);
+        // Where an image says where it shines, and is of no kind that is read, it is taken to be dark.
+        if (texture && !read) return false;
+        if (read) {
             if (read->lit_share < 0.5f) {
-                if (read->lit_share > 0) lost("shines in some places; here it is dark");
+                if (read->lit_share > 0) note_loss("shines in some places; here it is dark");
                 return false;
             }
             light.image = read->image;
             lay(*texture, *read);
         }
-        if (has_normals) lost("shines and has a map of normals, which is ignored");
+        if (item_.has("normalTexture")) note_loss("shines and has a map of normals, which is ignored");
         made_.material = Glowing{.light = light, .radiance = radiance, .color = color_};
         return true;
     }
@@ -223,9 +224,9 @@ class Materials::Maker {
     }
 
     Coated coated(const std::optional<NormalMap>& normals) const {
-        const auto of_glass = extension("KHR_materials_ior");
+        const auto ior_extension = extension("KHR_materials_ior");
         // 0 is glTF's word for a surface whose reflection other extensions say.
-        const float wanted = of_glass ? of_glass->number("ior", 1.5f) : 1.5f;
+        const float wanted = ior_extension ? ior_extension->number("ior", 1.5f) : 1.5f;
         const float ior = wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
         TintedMeshImage base = color_;
         base.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;

@@ -3,13 +3,14 @@
 // glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Where the number is
 // neither 0 nor 1 everywhere, ours is a `mix` of the two by that number.
 //   * The dielectric is a `coated` material, whose coat has the index 1.5, or that of KHR_materials_ior, and whose base
-//     is as bright as makes it look as glTF's colour under the coat (texture/tinted_mesh_image.hpp). α of GGX is the
-//     square of glTF's roughness, as glTF has it, too.
+//     is chosen so that it looks like glTF's colour under the coat (texture/tinted_mesh_image.hpp). As in glTF, α of
+//     GGX is the square of the roughness.
 //   * The metal is a conductor whose reflectance at normal incidence is glTF's colour.
 //   * What emits light is `glowing`, and reflects the rest diffusely, whatever its roughness; but if an image says that
 //     most of it emits none, as of lamps on a machine, it is a surface like others, and dark.
-//   * Where the alpha of its colour counts, meshes have holes, or let light through by the rest (shading/opacity.hpp).
-// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes are opaque. Their
+//   * Where the alpha of its colour counts, meshes have holes, or let the part 1 − alpha of the light through
+//   (shading/opacity.hpp).
+// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. Their
 // triangles are left out, to be modelled as a clear phase of the tree.
 #pragma once
 
@@ -28,7 +29,7 @@ namespace phasetree::tracer::gltf {
 
 struct NamedMaterial {
     std::string name;
-    bool is_clear = false;  ///< then there is nothing else
+    bool is_clear = false;  ///< then only the name and not_shown are set
     Material material{};
     std::optional<Opacity> opacity{};          ///< none is opaque everywhere
     std::optional<Coordinates> coordinates{};  ///< there are none without images

@@ -1,7 +1,6 @@
 #include "gltf/placed_meshes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
@@ -34,8 +33,7 @@ glm::dmat4 placement_of(const Item& node) {
 class Instances {
   public:
     Instances(const Document& document, const Item& node) {
-        const auto extensions = node.item("extensions");
-        const auto instancing = extensions ? extensions->item("EXT_mesh_gpu_instancing") : std::nullopt;
+        const auto instancing = node.extension("EXT_mesh_gpu_instancing");
         const auto attributes = instancing ? instancing->item("attributes") : std::nullopt;
         if (!attributes) return;
         const auto find = [&](const char* name, std::size_t columns) {
@@ -43,7 +41,8 @@ class Instances {
             if (!attributes->has(name)) return found;
             found.emplace(document, attributes->needed_index(name), *attributes);
             if (found->columns() != columns) found->fail("has rows of another length than instances have");
-            if (count_ && *count_ != found->rows()) found->fail("has not as many rows as the others of the instances");
+            if (count_ && *count_ != found->rows())
+                found->fail("has another number of rows than the others of the instances");
             count_ = found->rows();
             return found;
         };
@@ -55,9 +54,7 @@ class Instances {
     std::size_t count() const { return count_.value_or(1); }
     glm::dmat4 placement(std::size_t i) const {
         const auto of = [&](const std::optional<Accessor>& numbers, std::size_t column, double otherwise) {
-            const double value = numbers ? numbers->number(i, column) : otherwise;
-            if (!(std::abs(value) <= 1e15)) numbers->fail("has something that is no number, or is beyond 10¹⁵");
-            return value;
+            return numbers ? numbers->finite_number(i, column) : otherwise;
         };
         const auto vector = [&](const std::optional<Accessor>& numbers, double otherwise) {
             return glm::dvec3(of(numbers, 0, otherwise), of(numbers, 1, otherwise), of(numbers, 2, otherwise));
@@ -147,7 +144,7 @@ class Scene {
 
     static glm::dmat4 matrix(const Accessor& accessor, std::size_t row) {
         if (accessor.columns() != 16) accessor.fail("has no matrices");
-        if (row >= accessor.rows()) accessor.fail("has less matrices than there are joints");
+        if (row >= accessor.rows()) accessor.fail("has fewer matrices than joints");
         glm::dmat4 m;
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = accessor.number(row, static_cast<std::size_t>(i));
         return m;

@@ -17,13 +17,13 @@ using Joints = std::vector<glm::dmat4>;
 struct PlacedMesh {
     std::size_t mesh = 0;  ///< its number in "meshes"
     glm::dmat4 placement{1};
-    std::shared_ptr<const Joints>
-        joints{};             ///< of a mesh with a skin, whose vertices have joints; its placement is not used
+    /// Of a mesh with a skin; only vertices without joints go by the placement then.
+    std::shared_ptr<const Joints> joints{};
     bool is_morphed = false;  ///< whether the node has weights of morph targets that are not 0
 };
 
-/// All of the file's scene, or of the first one if it names none, in the order of its nodes, each in the pose that its
-/// nodes have without animations. Throws GltfError, also for more than `most` of them.
+/// The meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the pose that
+/// its nodes have without animations. Throws GltfError, also for more than `most` of them.
 std::vector<PlacedMesh> placed_meshes(const Document&, std::size_t most);
 
 }  // namespace phasetree::tracer::gltf

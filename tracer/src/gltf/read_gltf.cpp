@@ -24,8 +24,8 @@ namespace {
 
 enum Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
 
-// The matrix whose product with a normal is normal to the surface that the other matrix has moved, of any length; also
-// of a matrix without an inverse.
+// Takes normals of a surface to normals, of any length, of the surface that is moved by m, which need not have an
+// inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -35,7 +35,7 @@ std::optional<Accessor> attribute(const Document& document, const Item& attribut
     std::optional<Accessor> found;
     if (!attributes.has(name)) return found;
     found.emplace(document, attributes.needed_index(name), attributes);
-    if (found->rows() != positions.rows()) found->fail("has not as many rows as the positions");
+    if (found->rows() != positions.rows()) found->fail("has another number of rows than the positions");
     if (found->columns() < least_columns) found->fail("has rows of too few numbers");
     return found;
 }
@@ -62,7 +62,7 @@ class Reader {
         }
         for (auto& [key, begun] : parts_) finish(begun);
         if (file_.parts.empty())
-            throw GltfError(is_clear_.empty() || has_empty_
+            throw GltfError(clear_materials_.empty() || has_empty_
                                 ? "it has no triangles in its scene"
                                 : "all of it is clear, and meshes are opaque; give it a \"material\", or "
                                   "model it as a clear phase in \"tree\"");
@@ -82,9 +82,9 @@ class Reader {
         Coordinates coordinates{};
         bool has_images = false;
         bool lacks_texture = false;  // whether some of it has no texture coordinates
-        // Whether tangents are made for it, because some of it has none or its coordinates are transformed; or whether
-        // none are needed, because it has no map of normals.
-        bool lacks_tangents = false;
+        // Whether the file's tangents are dropped: some are missing, the images use other coordinates, or there is no
+        // map of normals.
+        bool drops_tangents = false;
     };
 
     // Where a primitive's vertices come from, and where they go.
@@ -96,10 +96,9 @@ class Reader {
     };
 
     void say_what_is_passed_over() {
-        const auto extensions = document_.root().item("extensions");
-        if (extensions && extensions->has("KHR_lights_punctual"))
+        if (document_.root().extension("KHR_lights_punctual"))
             say("has lights, which are not read; they go into \"lights\"");
-        if (document_.count("animations") > 0) say("has animations, which are not read; all stands still");
+        if (document_.count("animations") > 0) say("has animations, which are not read; nothing moves");
     }
 
     void add(const Item& primitive, const PlacedMesh& placed) {
@@ -113,7 +112,7 @@ class Reader {
 
         const Key key{has_materials_ ? primitive.index("material") : std::nullopt,
                       has_materials_ && attributes->has("COLOR_0")};
-        if (is_clear_.contains(key.material)) return;
+        if (clear_materials_.contains(key.material)) return;
         if (!parts_.contains(key) && !begin(key, primitive)) return;
         PartBeingRead& begun = parts_.at(key);
         const auto of = [&](const std::string& name, std::size_t columns) {
@@ -130,8 +129,8 @@ class Reader {
                       placed,
                       mode};
         if (source.joints && attributes->has("JOINTS_1")) say("has vertices with more than four joints; four count");
-        // Tangents beside no normals are of no meaning.
-        begun.lacks_tangents = begun.lacks_tangents || !source.tangents || !source.normals;
+        // Tangents without normals mean nothing.
+        begun.drops_tangents = begun.drops_tangents || !source.tangents || !source.normals;
         if (source.colors && source.colors->columns() > 3 && begun.part.opacity)
             say(fmt::format("\"{}\" has opacities of vertices, which are not read", begun.part.name));
         if (primitive.has("indices")) source.indices.emplace(document_, primitive.needed_index("indices"), primitive);
@@ -143,7 +142,7 @@ class Reader {
 
     // False if the material is clear.
     bool begin(const Key& key, const Item& primitive) {
-        if (parts_.size() + is_clear_.size() >= limits_.materials)
+        if (parts_.size() + clear_materials_.size() >= limits_.materials)
             throw GltfError(fmt::format("there are more materials than {}", limits_.materials));
         if (!has_materials_) {
             parts_[key].part.name = "all";
@@ -155,7 +154,7 @@ class Reader {
             say(fmt::format(
                 "\"{}\" is clear, and is left out: meshes are opaque; model it as a clear phase in \"tree\"",
                 made.name));
-            is_clear_.insert(key.material);
+            clear_materials_.insert(key.material);
             return false;
         }
         const bool has_map = normal_map_of(made.material) != nullptr;
@@ -165,7 +164,7 @@ class Reader {
                        .coordinates = made.coordinates.value_or(Coordinates()),
                        .has_images = made.coordinates.has_value(),
                        // The file's tangents are those of its own coordinates, and only a map of normals needs them.
-                       .lacks_tangents = !has_map || made.coordinates != Coordinates()};
+                       .drops_tangents = !has_map || made.coordinates != Coordinates()};
         return true;
     }
 
@@ -178,8 +177,8 @@ class Reader {
         const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
         if (std::ranges::all_of(part.normals.values, is_zero)) part.normals = {};
         if (!part.colors.empty()) part.colors.values.resize(part.mesh.vertices.size(), glm::vec3(1));
-        if (begun.lacks_tangents) part.tangents = {};
-        // Where there are images, triangles without coordinates have (0, 0) at all corners, so one pixel of the image.
+        if (begun.drops_tangents) part.tangents = {};
+        // Where there are images, triangles without coordinates have the same ones at all corners, so one pixel.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
         const std::string name = part.name;
         for (int same = 2; !names_.insert(part.name).second; ++same) part.name = fmt::format("{} {}", name, same);
@@ -193,7 +192,7 @@ class Reader {
         if (triangles_ > limits_.triangles)
             throw GltfError(fmt::format("there are more triangles than {} million", limits_.triangles / 1'000'000));
         ++primitive_number_;
-        if (numbers_.size() < source.positions.rows()) numbers_.resize(source.positions.rows());
+        if (vertices_in_part_.size() < source.positions.rows()) vertices_in_part_.resize(source.positions.rows());
         // Only vertices that triangles have are taken: primitives may share one list of positions.
         const auto vertex_of = [&](std::size_t corner) -> std::size_t {
             return source.indices ? source.indices->index(corner) : corner;
@@ -201,12 +200,12 @@ class Reader {
         const auto vertex = [&](std::size_t corner) {
             const std::size_t i = vertex_of(corner);
             if (i >= source.positions.rows()) primitive.fail("has an index beyond its vertices");
-            if (numbers_[i].primitive != primitive_number_) {
-                numbers_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size()),
-                               is_mirrored(placement_of_vertex(i, source))};
+            if (vertices_in_part_[i].primitive != primitive_number_) {
+                vertices_in_part_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size()),
+                                        is_mirrored(placement_of_vertex(i, source))};
                 add_vertex(i, source, begun);
             }
-            return numbers_[i].number;
+            return vertices_in_part_[i].number;
         };
         for (std::size_t i = 0; i < count; ++i) {
             // Every second triangle of a strip is the other way round.
@@ -214,7 +213,7 @@ class Reader {
                                                   : source.mode == fan     ? std::array{i + 1, i + 2, std::size_t{0}}
                                                                        : std::array{i, i + 1 + i % 2, i + 2 - i % 2};
             const std::uint32_t a = vertex(of[0]), b = vertex(of[1]), c = vertex(of[2]);
-            if (numbers_[vertex_of(of[0])].is_mirrored)
+            if (vertices_in_part_[vertex_of(of[0])].is_mirrored)
                 begun.part.mesh.triangles.emplace_back(a, c, b);
             else
                 begun.part.mesh.triangles.emplace_back(a, b, c);
@@ -226,7 +225,8 @@ class Reader {
         const glm::dmat4 placement = placement_of_vertex(i, source);
         part.mesh.vertices.push_back(
             finite(glm::dvec3(placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
-        // What is mirrored has its corners the other way round; cofactors turn the side of normals, which is to stay.
+        // Mirrored triangles get their corners in reverse order. Cofactors flip their normals, so they are flipped
+        // back.
         const double side = is_mirrored(placement) ? -1 : 1;
         part.normals.values.push_back(source.normals
                                           ? unit(side * (cofactors(glm::dmat3(placement)) * row<3>(*source.normals, i)))
@@ -239,7 +239,7 @@ class Reader {
             part.colors.values.resize(part.mesh.vertices.size() - 1, glm::vec3(1));
             part.colors.values.push_back(glm::clamp(finite(row<3>(*source.colors, i), *source.colors), 0.0f, 1.0f));
         }
-        if (begun.lacks_tangents) return;
+        if (begun.drops_tangents) return;
         const glm::dvec4 tangent = row<4>(*source.tangents, i);
         part.tangents.values.emplace_back(unit(glm::dmat3(placement) * glm::dvec3(tangent)),
                                           std::copysign(1.0f, static_cast<float>(side * tangent.w)));
@@ -247,7 +247,7 @@ class Reader {
 
     static bool is_mirrored(const glm::dmat4& placement) { return glm::determinant(glm::dmat3(placement)) < 0; }
 
-    // Of a vertex with joints the mean of their matrices (Joints).
+    // A vertex with joints has the mean of their matrices.
     static glm::dmat4 placement_of_vertex(std::size_t i, const Source& source) {
         if (!source.joints || !source.weights) return source.placed.placement;
         glm::dmat4 sum(0);
@@ -255,7 +255,8 @@ class Reader {
         for (std::size_t k = 0; k < 4; ++k) {
             const double joint = source.joints->number(i, k), weight = source.weights->number(i, k);
             if (weight == 0) continue;
-            if (!(weight > 0 && weight <= 1e6)) source.weights->fail("has a weight that is negative or no number");
+            if (!(weight > 0 && weight <= 1e6))
+                source.weights->fail("has a weight that is negative, no number, or beyond 10⁶");
             if (!(joint < static_cast<double>(source.placed.joints->size())))
                 source.joints->fail("names a joint that its skin has not");
             sum += weight * (*source.placed.joints)[static_cast<std::size_t>(std::max(joint, 0.0))];
@@ -280,7 +281,8 @@ class Reader {
     template <int count>
     static glm::vec<count, float> finite(const glm::vec<count, double>& v, const Accessor& accessor) {
         for (int k = 0; k < count; ++k)
-            if (!(std::abs(v[k]) <= 1e15)) accessor.fail("has something that is no number, or is beyond 10¹⁵");
+            if (!(std::abs(v[k]) <= most_magnitude))
+                accessor.fail("has something that is no number, or is beyond 10¹⁵");
         return glm::vec<count, float>(v);
     }
 
@@ -288,7 +290,7 @@ class Reader {
         if (said_.insert(sentence).second) file_.not_shown.push_back(sentence);
     }
 
-    // The number that a vertex of the file has in its part, if it has one since that primitive was begun.
+    // A vertex's number in its part; it is valid only while primitive_number_ is `primitive`.
     struct VertexInPart {
         std::uint32_t primitive = 0, number = 0;
         bool is_mirrored = false;
@@ -299,10 +301,10 @@ class Reader {
     bool has_materials_;
     Limits limits_;
     std::size_t triangles_ = 0, primitives_ = 0;
-    std::uint32_t primitive_number_ = 0;  // of the primitive that is read
-    std::vector<VertexInPart> numbers_;   // of the vertices of the primitive that is read
+    std::uint32_t primitive_number_ = 0;          // of the primitive that is read
+    std::vector<VertexInPart> vertices_in_part_;  // of the vertices of the primitive that is read
     std::map<Key, PartBeingRead> parts_;
-    std::set<std::optional<std::size_t>> is_clear_;
+    std::set<std::optional<std::size_t>> clear_materials_;
     bool has_empty_ = false;  // whether something opaque has no triangles
     std::set<std::string> said_, names_;
     GltfFile file_;

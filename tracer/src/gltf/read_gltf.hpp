@@ -23,7 +23,7 @@ struct Part {
     AtCorners<glm::vec3> normals{};  ///< of length 1, or 0 where the file has none; empty if it has none at all
     AtCorners<glm::vec2> texture{};  ///< (0, 0) is the lower left corner of an image
     AtCorners<glm::vec3> colors{};   ///< linear Rec.709
-    /// Those of the file for a material with a map of normals (scene/mesh_tangents.hpp), if it has them for all of it.
+    /// The file's tangents (scene/mesh_tangents.hpp), if the material has a map of normals and every vertex has one.
     AtCorners<glm::vec4> tangents{};
 };
 
@@ -35,8 +35,8 @@ struct Limits {
     std::size_t pixels = 256'000'000;    ///< of all images
 };
 
-/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at. What has
-/// no colours of vertices is white if other triangles of its part have some.
+/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at. If only
+/// some triangles of the part have colours of vertices, the others are white.
 enum class ReadMaterials { all, none };
 
 struct GltfFile {

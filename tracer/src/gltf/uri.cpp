@@ -18,7 +18,7 @@ int digit_of(char c) {
     return -1;
 }
 
-// Whether a text ends with one of small letters, in any case.
+// Whether a text ends so, in upper or lower case. The ending is in lower case.
 bool has_ending(std::string_view text, std::string_view ending) {
     if (text.size() < ending.size()) return false;
     return std::ranges::equal(text.substr(text.size() - ending.size()), ending,

@@ -14,7 +14,7 @@ namespace phasetree::tracer::gltf {
 using ReadFile = std::function<std::string(const std::string& path)>;
 
 /// All bytes that a URI names. Throws GltfError, whose message is to follow the place of the URI, for a URI that is
-/// neither of the two, or that names a file outside of the folder of the document and those in it.
+/// neither of the two, or that names a file outside the document's folder.
 std::string bytes_of_uri(std::string_view uri, const ReadFile& read_file);
 
 /// The path of the file that a URI names, from the folder of the document; empty for data. Throws as above.

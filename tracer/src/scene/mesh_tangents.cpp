@@ -26,7 +26,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0 ? v / length : glm::dvec3(0);
 }
 
-glm::dvec3 along(const glm::dvec3& v, const glm::dvec3& normal) {
+glm::dvec3 without_normal_part(const glm::dvec3& v, const glm::dvec3& normal) {
     return v - normal * glm::dot(v, normal);
 }
 
@@ -52,9 +52,10 @@ std::array<Corner, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
         const bool has_normal = !mesh.normals.empty();
         corner.normal = has_normal ? mesh.normals.at(mesh.triangles, triangle, static_cast<int>(i)) : glm::vec3(flat);
         const glm::dvec3 n = corner.normal == glm::vec3(0) ? flat : glm::dvec3(corner.normal);
-        const glm::dvec3 next = unit(along(p[(i + 1) % 3] - p[i], n)), last = unit(along(p[(i + 2) % 3] - p[i], n));
-        const double angle = std::acos(std::clamp(glm::dot(next, last), -1.0, 1.0));
-        corner.tangent = glm::vec3(angle * unit(along(direction, n)));
+        const glm::dvec3 next = unit(without_normal_part(p[(i + 1) % 3] - p[i], n)),
+                         previous = unit(without_normal_part(p[(i + 2) % 3] - p[i], n));
+        const double angle = std::acos(std::clamp(glm::dot(next, previous), -1.0, 1.0));
+        corner.tangent = glm::vec3(angle * unit(without_normal_part(direction, n)));
     }
     return corners;
 }

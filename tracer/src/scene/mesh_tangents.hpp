@@ -5,10 +5,10 @@
 //     ∂p/∂u ∥ (v₂ a − v₁ b) · sign(u₁ v₂ − u₂ v₁).
 // A corner has the mean of those of all triangles around it, each made perpendicular to the corner's normal and
 // weighted by its angle there. Triangles count together if they agree in the corner's place, normal and texture
-// coordinates, and in whether they show the image mirrored. Programs that bake normals do the same.
+// coordinates, and in whether they show the image mirrored. Programs that bake normals do nearly the same.
 //
-// Reference: Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008. Weights and groups follow it, but corners that
-// no triangles with common edges join count together, too.
+// Reference: Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008. Weights and groups follow it, except that
+// corners count together even if no triangles with common edges connect them.
 #pragma once
 
 #include "scene/mesh.hpp"

@@ -7,16 +7,16 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Two vectors in the plane of a triangle with the sides `a` and `b`: the first has the product 1 with a and 0 with b,
-// the second 0 with a and 1 with b. A function that is linear in the triangle, and grows by α along a and by β along b,
-// has the gradient of α times the first and β times the second.
+// Two vectors in the plane of a triangle with the sides `a` and `b`: the first has the dot product 1 with a and 0 with
+// b, the second 0 with a and 1 with b. A function that is linear in the triangle, and grows by α along a and by β along
+// b, has the gradient of α times the first and β times the second.
 glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
     const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
     if (!(determinant > 0.0f)) return glm::mat2x3(0.0f);
     return {(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
 }
 
-// A column for each number of T: its gradient in the plane of a triangle.
+// Column i is the gradient of component i in the triangle's plane.
 template <int count>
 glm::mat<count, 3, float> gradients_of(const glm::vec<count, float>& along_a, const glm::vec<count, float>& along_b,
                                        const glm::mat2x3& dual) {

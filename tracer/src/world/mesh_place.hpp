@@ -17,7 +17,7 @@ struct MeshPlace {
     std::size_t triangle;
     float u, v;
 
-    /// Exact to an ulp of the coordinates of the triangle, however far the ray has come.
+    /// Exact to a few ulps of the triangle's coordinates, however far the ray came.
     glm::vec3 point() const;
     /// The mean of values at the triangle's corners.
     template <class T>
@@ -25,8 +25,8 @@ struct MeshPlace {
         return at_barycentric(mesh, values, triangle, u, v);
     }
     /// Where the smooth surface is that the triangle stands for, if it bulges out of the triangle towards the ray's
-    /// side there; else the point itself. The corners' tangent planes are met in the direction of their normals, and
-    /// of the three points the mean is taken. The mesh has normals.
+    /// side there; else the point itself. The point is projected onto the corners' tangent planes,
+    /// and the three results are averaged. The mesh has normals.
     ///
     /// Rays that leave from there are not in the shadow of the triangles around, whose edges would show where light
     /// grazes the surface. Reference: Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021, chapter 4.
