@@ -154,11 +154,11 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     write("parts/a.bin");
     CHECK(scene().meshes.at(0).vertices.size() == 3);
     write("parts/b.bin");
-    CHECK(problem().find("there is no file") == 0);
+    CHECK(problem().find("a.gltf: buffers[0] cannot be read: there is no file") != std::string::npos);
     phasetree::support::write_text(elsewhere / "c.bin", bytes);
     std::filesystem::create_symlink(elsewhere / "c.bin", folder / "parts/c.bin");
     write("parts/c.bin");
-    CHECK(problem().find("names parts/c.bin, which leads out of its folder") != std::string::npos);
+    CHECK(problem().find("parts/c.bin leads out of the folder of") != std::string::npos);
     // What the document names belongs to the scene's identity, so that shares of a picture are of the same.
     const auto identity = [&] {
         return fingerprint(phasetree::Document::from_text(

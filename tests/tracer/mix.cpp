@@ -168,7 +168,7 @@ TEST_CASE("what cannot be mixed, and a reflectance beside an index, is refused")
         return std::string();
     };
     const std::string paper = diffuse("[1, 1, 1]");
-    CHECK(said(mix(paper, R"({"glowing": {}})", "0.5")).find("what is mixed cannot glow") == 0);
+    CHECK(said(mix(paper, R"({"glowing": {}})", "0.5")).find("what is mixed cannot glow;") == 0);
     CHECK(said(mix(R"({"clear": {"ior": 1.5}})", paper, "0.5")).find("a mesh and a mixture have no inside") == 0);
     CHECK(said(mix(paper, paper, "1.5")).find("amount") != std::string::npos);
     CHECK(said(R"({"conductor": {"metal": "gold", "reflectance": [1, 1, 1]}})").find("give either") !=

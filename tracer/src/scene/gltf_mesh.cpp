@@ -30,7 +30,7 @@ std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std:
     const std::filesystem::path within = std::filesystem::canonical(folder, problem);
     const auto [end, rest] = std::mismatch(within.begin(), within.end(), real.begin(), real.end());
     if (problem || end != within.end())
-        throw ParameterError("file", fmt::format("{} names {}, which leads out of its folder", gltf.string(), name));
+        throw ParameterError("file", fmt::format("{} leads out of the folder of {}", name, gltf.string()));
     return folder / name;
 }
 
@@ -53,13 +53,17 @@ std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gl
 
 MeshGroup GltfParameters::made() const {
     check_ending_of_mesh(file, {".gltf", ".glb"});
+    const auto read_named = [&](const std::string& name) {
+        try {
+            return read_whole_file(file_of_gltf(file, name), most_bytes_of_mesh, most);
+        } catch (const ParameterError& e) {
+            throw gltf::GltfError(fmt::format("cannot be read: {}", e.what()));
+        }
+    };
     gltf::GltfFile read;
     try {
         read = gltf::read_gltf(read_whole_file(file, most_bytes_of_mesh, most),
-                               material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all, {},
-                               [&](const std::string& name) {
-                                   return read_whole_file(file_of_gltf(file, name), most_bytes_of_mesh, most);
-                               });
+                               material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all, {}, read_named);
     } catch (const gltf::GltfError& e) {
         throw ParameterError("file", fmt::format("{}: {}", file.string(), e.what()));
     }

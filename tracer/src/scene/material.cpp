@@ -119,7 +119,7 @@ Conductor ConductorParameters::made() const {
 Mix MixParameters::made() const {
     for (const auto& [key, material] : {std::pair("first", &first), {"second", &second}})
         if (std::holds_alternative<Glowing>(*material))
-            throw ParameterError(key, "what is mixed cannot glow: a light is found by where it is");
+            throw ParameterError(key, "what is mixed cannot glow; a \"glowing\" material stands by itself");
     return {std::make_shared<const Mixture>(Mixture{first, second}), amount};
 }
 
