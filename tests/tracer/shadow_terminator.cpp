@@ -100,6 +100,11 @@ TEST_CASE("a smooth ball of few triangles has no shadow of its own where the sun
     }
     CHECK(flat > 0.03);
     CHECK(farthest < flat);
+    // From within the ball's triangles are before its surface, so rays leave them as they are: none gets out.
+    for (int i = 0; i < 500; ++i) {
+        const Surface surface = *smooth.met({0, 0, 0}, direction(i, 500));
+        CHECK(glm::length(surface.near_side.origin - surface.place.position) == 0);
+    }
     // A mesh that is not smooth is what it is.
     const Shown facets(paper, far_away, R"(, "smooth": false)");
     const Surface facet = *facets.met({0, 0, 3}, {0.1f, 0.12f, -1});
