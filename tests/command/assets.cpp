@@ -232,6 +232,21 @@ TEST_CASE("--assets-within: what leaves the folder is refused, whatever it is") 
         CHECK(o.code == 2);
         CHECK(o.err.find("leads out of") != std::string::npos);
     }
+    // A stack of images of which a link leads one out of the folder.
+    SceneText stack;
+    stack.tree = R"({"under": [{"set": {"phase": "glass", "of": "ball"}},
+                      {"labels": {"file": "layer_##.pgm", "phases": ["glass"], "spacing": [1, 1, 1]}}]})";
+    const std::string layer = std::string("P5 2 2 255\n") + std::string(4, '\1');
+    write_text(at("layer_02.pgm"), layer);
+    write_text(at("assets/layer_01.pgm"), layer);
+    fs::create_symlink("../layer_02.pgm", at("assets/layer_02.pgm"));
+    CHECK(check(stack, {}).err == "");
+    CHECK(check(stack, confined).err.find("\"layer_##.pgm\" leads out of") != std::string::npos);
+    fs::remove(at("assets/layer_02.pgm"));
+    write_text(at("assets/deep/layer_02.pgm"), layer);
+    fs::create_symlink("deep/layer_02.pgm", at("assets/layer_02.pgm"));
+    CHECK(check(stack, confined).err == "");
+
     for (const char* const command : {"render", "info", "eval", "trace"}) {
         CAPTURE(command);
         write_text(at("assets/scene.json"), with_weights("../outside.json").text());

@@ -15,6 +15,7 @@
 #include "image/read_image.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "phasetree_support/temporary_directory.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/named_files.hpp"
 #include "scene/read_transform.hpp"
@@ -153,6 +154,14 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     const std::uintmax_t vase = std::filesystem::file_size(folder / "vase.json");
     CHECK(bytes(R"({"objects": [{"name": "v", "file": "vase.json"}]})") == vase + 1000);
     CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // no scene: its reader says so
+    // A stack of images is all of its layers; a colour is none.
+    write_text(folder / "layer_01.pgm", std::string(100, ' '));
+    write_text(folder / "layer_02.pgm", std::string(20, ' '));
+    CHECK(bytes(R"({"x": "layer_##.pgm", "y": "#808080", "z": "none_##.pgm"})") == 120);
+    const auto identity = [&] { return fingerprint(Document::from_file(folder / "scene.json")); };
+    const std::uint64_t before = identity();
+    write_text(folder / "layer_02.pgm", std::string(20, '!'));
+    CHECK(identity() != before);
     const Document strict = Document::from_file(folder / "scene.json").with_files_within(folder / "..");
     CHECK(bytes_of_named_files(strict) > 0);
 }

@@ -47,6 +47,45 @@ double depth_to(double t) {
     return sum;
 }
 
+// Along the ray through the middle of a turned grid, of which three fifths are empty: the density is linear between
+// voxels 0.05 apart, so its integral is exact by the trapezoidal rule.
+struct Column {
+    static constexpr int count = 40;
+    static constexpr double spacing = 0.05;
+    std::array<double, count> values{};
+
+    Column() {
+        for (int i = 0; i < count; ++i) {
+            const bool is_empty = i < 10 || (i >= 17 && i < 31);
+            values[static_cast<std::size_t>(i)] = is_empty ? 0 : 0.25 + 0.75 * std::abs(std::sin(1.7 * i));
+        }
+        values[12] = 1;
+        values.front() = values.back() = 0;
+    }
+    static Way turned_way(const VoxelPlacement& placement) {
+        const glm::dvec3 from = placement.linear * glm::dvec3(0.02, -0.03, -0.5 * spacing) + placement.by;
+        return {glm::vec3(from), glm::vec3(glm::normalize(placement.linear[2])), 2.0f};
+    }
+    VoxelDensity density(const VoxelPlacement& placement) const {
+        const VoxelLattice lattice{{3, 9, count}, {-0.1, -0.4, 0}, {0.1, 0.1, spacing}};
+        return {VoxelGrid::of_voxels("test", lattice,
+                                     [&](int, int, int z) { return 3 * values[static_cast<std::size_t>(z)]; }),
+                placement};
+    }
+    double at(double t) const {
+        const double u = std::clamp(t / spacing - 0.5, 0.0, count - 1.0);
+        const auto i = std::min(static_cast<std::size_t>(u), std::size_t{count - 2});
+        return values[i] + (u - static_cast<double>(i)) * (values[i + 1] - values[i]);
+    }
+    double depth_to(double t) const {
+        constexpr int steps = 8000;
+        double sum = 0;
+        for (int i = 0; i < steps; ++i) sum += at(t * (i + 0.5) / steps) * t / steps;
+        return sum;
+    }
+};
+const VoxelPlacement turned{glm::dmat3{{0.36, 0.48, 0.8}, {-0.8, 0.6, 0}, {-0.48, -0.64, 0.6}}, {3, -2, 1}};
+
 const ScatteringCoefficients coloured{.absorption = glm::vec3(0.1f, 0.4f, 0.2f),
                                       .scattering = {1.9f, 0.6f, 3.8f},
                                       .emission = {0.5f, 0.2f, 0.1f},
@@ -96,7 +135,8 @@ TEST_CASE("free flights: distances follow the exponential law, weighted or not")
     const ScatteringCoefficients grey{.absorption = glm::vec3(0.2f), .scattering = glm::vec3(1.8f)};
     const HomogeneousMedium even(grey);
     const std::size_t count = samples_to_detect(1e-4, cells);
-    const auto test = [&](const auto& medium, double length, auto&& depth, double error) {
+    const auto test_way = [&](const auto& medium, const Way& way, auto&& depth, double error) {
+        const auto length = static_cast<double>(way.length);
         std::vector<double> observed(cells + 1), expected(cells + 1);
         for (std::size_t i = 0; i < cells; ++i) {
             const double a = length * static_cast<double>(i) / cells, b = length * static_cast<double>(i + 1) / cells;
@@ -106,7 +146,7 @@ TEST_CASE("free flights: distances follow the exponential law, weighted or not")
         expected[cells] = static_cast<double>(count) * std::exp(-2 * error * depth(length));
         for (std::size_t n = 0; n < count; ++n) {
             Sampler sampler = sampler_of(static_cast<std::uint32_t>(n));
-            const Flight flight = medium.fly({below, up, static_cast<float>(length)}, glm::vec3(1.0f), sampler);
+            const Flight flight = medium.fly(way, glm::vec3(1.0f), sampler);
             if (!flight.scattered_at)
                 ++observed[cells];
             else
@@ -115,27 +155,35 @@ TEST_CASE("free flights: distances follow the exponential law, weighted or not")
         }
         return chi_squared_test(observed, expected).p_value;
     };
+    const auto test = [&](const auto& medium, double length, auto&& depth, double error) {
+        return test_way(medium, {below, up, static_cast<float>(length)}, depth, error);
+    };
     const auto straight = [](double t) { return t; };
     CHECK(test(even, 1.5, straight, 1) > 1e-4);
     CHECK(test(even, 1.5, straight, 1.02) < 1e-4);
     const ScatteringCoefficients white{.scattering = glm::vec3(2.0f)};
-    const VaryingMedium varying_white(white, Density(box, 0.25f));
+    const VaryingMedium varying_white(white, FieldDensity(box, 0.25f));
     CHECK(test(varying_white, 2, depth_to, 1) > 1e-4);
     CHECK(test(varying_white, 2, depth_to, 1.02) < 1e-4);
+    const Column column;
+    const VaryingMedium by_voxels(white, column.density(turned));
+    const auto depth_in_column = [&](double t) { return column.depth_to(t); };
+    CHECK(test_way(by_voxels, Column::turned_way(turned), depth_in_column, 1) > 1e-4);
+    CHECK(test_way(by_voxels, Column::turned_way(turned), depth_in_column, 1.02) < 1e-4);
 }
 
 TEST_CASE("a flight's weights: what passes, what is scattered, what shines, by channel, against closed forms") {
     constexpr std::uint32_t count = 200000;
     const glm::vec3 throughput(0.9f, 0.5f, 0.05f);
     const double significance = sidak(1e-4, 18);
-    const auto test = [&](const auto& medium, float length, double depth) {
+    const auto test = [&](const auto& medium, const Way& way, double depth) {
         std::array<Moments, 3> passed, scattered, emitted, transmitted;
         const float before = throughput.x + throughput.y + throughput.z;
         for (std::uint32_t n = 0; n < count; ++n) {
             Sampler sampler = sampler_of(n);
-            const Flight flight = medium.fly({below, up, length}, throughput, sampler);
+            const Flight flight = medium.fly(way, throughput, sampler);
             REQUIRE(glm::dot(throughput, flight.weight) <= before * 1.0001f);
-            const glm::vec3 left = medium.transmittance({below, up, length}, sampler);
+            const glm::vec3 left = medium.transmittance(way, sampler);
             for (int c = 0; c < 3; ++c) {
                 const auto i = static_cast<std::size_t>(c);
                 const auto w = static_cast<double>(flight.weight[c]);
@@ -160,8 +208,10 @@ TEST_CASE("a flight's weights: what passes, what is scattered, what shines, by c
             if (c < 2) CHECK(mean_p_value(scattered[i], 1.02 * scattering) < significance);
         }
     };
-    test(HomogeneousMedium(coloured), 1.2f, 1.2);
-    test(VaryingMedium(coloured, Density(box, 0.25f)), 2.0f, depth_to(2));
+    test(HomogeneousMedium(coloured), {below, up, 1.2f}, 1.2);
+    test(VaryingMedium(coloured, FieldDensity(box, 0.25f)), {below, up, 2.0f}, depth_to(2));
+    const Column column;
+    test(VaryingMedium(coloured, column.density(turned)), Column::turned_way(turned), column.depth_to(2));
 }
 
 TEST_CASE("ways without end, and through nothing") {
@@ -171,7 +221,7 @@ TEST_CASE("ways without end, and through nothing") {
     CHECK(even.fly({below, up, infinity}, glm::vec3(1.0f), sampler).scattered_at.has_value());
     CHECK(even.transmittance({below, up, infinity}, sampler) == glm::vec3(0.0f));
     CHECK(even.transmittance({below, up, 0}, sampler) == glm::vec3(1.0f));
-    const VaryingMedium varying(coloured, Density(box, 0.25f));
+    const VaryingMedium varying(coloured, FieldDensity(box, 0.25f));
     const Flight past = varying.fly({glm::vec3(3, 0, -1), up, infinity}, glm::vec3(1.0f), sampler);
     CHECK_FALSE(past.scattered_at.has_value());
     CHECK(past.weight == glm::vec3(1.0f));

@@ -37,6 +37,7 @@ inline const support::TemporaryDirectory& folder() {
                             "0\n0 1 0\n3 0 1 2\n");
         support::write_text(made / "mesh.stl",
                             "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n");
+        support::write_text(made / "layer.pgm", std::string("P5 3 2 255\n") + "\x50\xa0\x30\x90\x60\xff");
         GlbBytes bytes;
         const std::string view = bytes.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
         support::write_text(made / "mesh.glb",
@@ -263,6 +264,7 @@ inline std::vector<Case> cases_of_materials() {
     const std::string measured = R"("ior": 1.5, "medium": "cream", "scale": 1)";
     const std::string dense =
         R"("ior": 1.5, "absorption": [1, 2, 3], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5)";
+    const std::string by_voxels = R"("ior": 1.5, "absorption": [1, 2, 3])";
     material("clear", R"("ior": 1.5)",
              {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
               {"albedo", free_path},
@@ -274,6 +276,7 @@ inline std::vector<Case> cases_of_materials() {
               {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
               {"density", dense},
               {"density_depth", dense},
+              {"density_grid", by_voxels},
               {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
               {"glass", R"("glass": "bk7")"}});
     // A bump needs a height, and a height a bump.
@@ -328,6 +331,15 @@ inline std::vector<Case> cases() {
                    tell_material_of_scene});
     all.push_back({"Maps of normals", "normal_map", R"("file": "sky.hdr")",
                    scene + R"(diffuse": {"color": [1, 1, 1], "normal_map": )", "}}}", tell_material_of_scene});
+    const std::string images = R"("file": "layer.pgm", "spacing": [0.5, 0.4, 0.6])";
+    const std::string aside = images + R"(, "translate": [0.25, 0.15, -0.4])";
+    all.push_back({"Voxels",
+                   "voxels",
+                   images,
+                   R"({"clear": {"ior": 1, "absorption": [1, 2, 3], "density_grid": )",
+                   "}}",
+                   tell_material,
+                   {{"rotate_z", aside}, {"y_up", aside}, {"scale", aside}}});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
     };

@@ -2,6 +2,7 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -155,6 +156,57 @@ TEST_CASE("a scene is told the place of what is wrong with its volumes") {
     contains(R"({"set": {"phase": "a", "of": {"volume": {"file": "s_1.png"}}}})", "89", "its name must end with .vdb");
     contains(R"({"set": {"phase": "a", "of": {"volume": {"file": ""}}}})", "89", "\"file\" must not be empty");
     contains(R"({"set": {"phase": "a", "of": {"volume": {"grid": "g"}}}})", "80", "\"file\"");
+}
+
+TEST_CASE("numbers of a stack stand about the origin, the first row at the largest y, integers from 0 to 1") {
+    Stack stack;
+    stack.write<unsigned char>("a_1.png", 3, 2, {0, 51, 102, 153, 204, 255});
+    stack.write<unsigned short>("a_2.png", 3, 2, {0, 65535, 0, 0, 0, 13107});
+    const glm::dvec3 spacing(0.5, 0.25, 2);
+    const VoxelGrid grid = tracer::read_number_stack(stack.path("a_#.png"), spacing);
+    CHECK(grid.lattice.size == std::array<int, 3>{3, 2, 2});
+    const voxels::Table at(grid.table.data());
+    for (int x = 0; x < 3; ++x) {
+        CAPTURE(x);
+        CHECK(at(x, 1, 0) == doctest::Approx(0.2 * x));
+        CHECK(at(x, 0, 0) == doctest::Approx(0.6 + 0.2 * x));
+    }
+    CHECK(at(1, 1, 1) == 1.0f);
+    CHECK(at(2, 0, 1) == doctest::Approx(0.2));
+    const Bounds box = grid.extent();
+    CHECK(box.low == glm::vec3(-0.75f, -0.25f, -2));
+    CHECK(box.high == glm::vec3(0.75f, 0.25f, 2));
+    // Floats are what they are, but for what is below 0.
+    stack.write<float>("f.exr", 2, 1, {-3, 12.5f});
+    const VoxelGrid floats = tracer::read_number_stack(stack.path("f.exr"), spacing);
+    const voxels::Table of_floats(floats.table.data());
+    CHECK(of_floats(0, 0, 0) == 0.0f);
+    CHECK(of_floats(1, 0, 0) == 12.5f);
+}
+
+TEST_CASE("what a stack of numbers is refused for") {
+    Stack stack;
+    stack.write<unsigned char>("rgb.png", 2, 2, Bytes(12), 3);
+    stack.write<unsigned char>("b_1.png", 2, 2, Bytes(4));
+    stack.write<unsigned char>("b_2.png", 2, 3, Bytes(6));
+    stack.write<float>("nan.exr", 1, 1, {std::nanf("")});
+    const auto said = [&](const std::string& name) {
+        try {
+            (void)tracer::read_number_stack(stack.path(name), glm::dvec3(1));
+        } catch (const std::runtime_error& e) {
+            return std::string(e.what());
+        }
+        return std::string("nothing");
+    };
+    const auto is_said = [&](const std::string& text, const std::string& part) {
+        CAPTURE(text);
+        CHECK(text.find(part) != std::string::npos);
+        CHECK(text.find("cannot use the voxels \"") == 0);
+    };
+    is_said(said("rgb.png"), "numbers are grey values, but it has 3 channels");
+    is_said(said("b_#.png"), "it is of 2 × 3 pixels, but the layers below it of 2 × 2");
+    is_said(said("nan.exr"), "the value at the voxel (0, 0, 0) is too large, or no number");
+    is_said(said("no_#.png"), "there is no file of such a name");
 }
 
 }  // namespace test_image_stack

@@ -1,4 +1,4 @@
-// Level sets and labels from OpenVDB files, against OpenVDB's own sampling; and what files are refused for.
+// Level sets, labels and numbers from OpenVDB files, against OpenVDB's own sampling; and what files are refused for.
 #include "volume/read_volume.hpp"
 
 #include <doctest/doctest.h>
@@ -117,6 +117,79 @@ TEST_CASE("grids of doubles and of halves, shifted and scaled") {
     const Field of_halves = Volume{.file = held_content(tracer::read_level_set(folder.write("h.vdb", {halves}), ""))};
     CHECK(distance(of_halves, {0.5f, 0, 0}) == doctest::Approx(0).epsilon(0.01).scale(1));
     CHECK(distance(of_halves, {0.42f, 0, 0}) < 0);
+}
+
+TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds that reach over many blocks") {
+    Folder folder;
+    Random rng(633);
+    auto cloud = openvdb::FloatGrid::create(0);
+    const openvdb::Vec3d spacing(0.1, 0.2, 0.05);
+    cloud->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
+    cloud->transform().preScale(spacing);
+    cloud->transform().postTranslate({3, -1, 0.5});
+    cloud->setGridClass(openvdb::GRID_FOG_VOLUME);
+    cloud->setName("density");
+    for (int i = 0; i < 4000; ++i) {
+        const openvdb::Coord at(rng.below(40) - 20, rng.below(17), rng.below(70) + 5);
+        cloud->tree().setValueOn(at, rng.uniform(0, 3));
+    }
+    // A tile of one value, as fill() leaves them.
+    cloud->fill({{8, 0, 96}, {23, 15, 111}}, 1.5f);
+    // What a solver leaves below 0 is nothing.
+    cloud->tree().setValueOn({-20, 0, 5}, -0.25f);
+    const VoxelGrid read = tracer::read_number_grid(folder.write("cloud.vdb", {cloud}), "");
+    cloud->tree().setValueOn({-20, 0, 5}, 0.0f);
+    openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sampler(*cloud);
+    const openvdb::Vec3d low = cloud->indexToWorld(openvdb::Vec3d(-20, 0, 5)),
+                         high = cloud->indexToWorld(openvdb::Vec3d(23, 16, 111));
+    double worst = 0;
+    int dense = 0;
+    for (int k = 0; k < 50'000; ++k) {
+        openvdb::Vec3d p;
+        for (int i = 0; i < 3; ++i)
+            p[i] = low[i] + (high[i] - low[i]) * static_cast<double>(rng.uniform(-0.02f, 1.02f));
+        const auto expected = static_cast<double>(sampler.wsSample(p));
+        const Vec3<float> at{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+        worst = std::max(worst, std::abs(static_cast<double>(voxels::linear_at(read.table.data(), at)) - expected));
+        dense += expected > 0.01;
+    }
+    CHECK(dense > 5000);
+    CHECK(worst < 1e-4);
+    // Around what there is all is 0, so that it has no edge.
+    const Bounds box = read.extent();
+    for (const float share : {0.0f, 0.3f, 1.0f}) {
+        const glm::vec3 p = box.low + glm::vec3(share, 0.5f, share) * box.extent();
+        if (share != 0.3f) CHECK(voxels::linear_at(read.table.data(), Vec3<float>{p.x, p.y, p.z}) == 0.0f);
+    }
+}
+
+TEST_CASE("which grids of numbers are taken, and what the others are refused for") {
+    Folder folder;
+    const auto said = [](const fs::path& path, const std::string& grid = "") {
+        return said_by([&] { return tracer::read_number_grid(path, grid); });
+    };
+    const auto named = [](const char* name, float background = 0) {
+        auto grid = openvdb::FloatGrid::create(background);
+        grid->tree().setValueOn({0, 0, 0}, 1);
+        grid->setName(name);
+        return grid;
+    };
+    const fs::path two = folder.write("two.vdb", {named("density"), named("temperature")});
+    CHECK(said(two) == "2 of its grids are one of densities: \"grid\" must name one");
+    CHECK(said(two, "density") == "nothing");
+    CHECK(said(two, "flame") == "none of its 2 grids is called \"flame\"");
+    CHECK(said(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))
+              .starts_with("it is a level set, whose numbers are distances"));
+    CHECK(said(folder.write("bg.vdb", {named("d", 0.5f)})) == "its background is not 0, so that it is without end");
+    CHECK(said(folder.write("ints.vdb", {openvdb::Int32Grid::create(0)})) ==
+          "it is a grid of int32, but numbers are floats or doubles");
+    // A frame of a simulation in which there is nothing yet.
+    const VoxelGrid nothing = tracer::read_number_grid(folder.write("empty.vdb", {openvdb::FloatGrid::create(0)}), "");
+    CHECK(voxels::linear_at(nothing.table.data(), Vec3<float>{0, 0, 0}) == 0.0f);
+    const auto doubles = openvdb::DoubleGrid::create(0);
+    doubles->tree().setValueOn({2, 1, 0}, 0.75);
+    const VoxelGrid of_doubles = tracer::read_number_grid(folder.write("d.vdb", {doubles}), "");
+    CHECK(voxels::linear_at(of_doubles.table.data(), Vec3<float>{2, 1, 0}) == 0.75f);
 }
 
 TEST_CASE("labels are at OpenVDB's voxels what they are in the file") {

@@ -8,6 +8,7 @@
 #include "io/lexis.hpp"
 #include "io/parse.hpp"
 #include "io/read_file.hpp"
+#include "phasetree_support/folder.hpp"
 
 namespace phasetree {
 
@@ -138,15 +139,39 @@ const std::string& Document::name() const {
     return data_->name;
 }
 
+namespace {
+
+// Whether a path, without links, is in a folder or in folders within it.
+bool is_within(const std::filesystem::path& folder, const std::filesystem::path& real) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end());
+    return end == folder.end();
+}
+
+// Whether all of what a name with # may stand for is within a folder: links in its own folder, of files that begin as
+// it does, may lead elsewhere.
+bool are_layers_within(const std::filesystem::path& folder, const std::filesystem::path& name) {
+    const std::string file_name = name.filename().string();
+    const std::string begin = file_name.substr(0, file_name.find('#'));
+    bool all = true;
+    (void)support::each_entry(name.parent_path(), [&](const std::filesystem::path& entry) {
+        std::error_code problem;
+        if (entry.filename().string().starts_with(begin) && std::filesystem::is_symlink(entry, problem))
+            all = all && is_within(folder, std::filesystem::weakly_canonical(entry, problem)) && !problem;
+        return all;
+    });
+    return all;
+}
+
+}  // namespace
+
 std::filesystem::path Document::file(Value named) const {
     const std::filesystem::path path = std::filesystem::path(name()).parent_path() / named.string();
     if (!files_within_) return path;
     // What is opened is the path without links, so that it is the one that was looked at.
     std::error_code problem;
     std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
-    const auto [end, rest] = std::mismatch(files_within_->begin(), files_within_->end(), real.begin(), real.end());
-    const bool is_within = !problem && end == files_within_->end();
-    if (!is_within)
+    const bool is_stack = named.string().find('#') != std::string_view::npos;
+    if (problem || !is_within(*files_within_, real) || (is_stack && !are_layers_within(*files_within_, real)))
         throw error(named, fmt::format("\"{}\" leads out of {}, the folder that files must lie in", named.string(),
                                        files_within_->string()));
     return real;

@@ -32,11 +32,12 @@ globals().update(vars(materials))
 globals().update(_formula.functions)
 image = _parts.image
 normal_map = _parts.normal_map
+voxels = _parts.voxels
 camera = cameras.thin_lens
 
 __all__ = [
     "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
-    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view",
+    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

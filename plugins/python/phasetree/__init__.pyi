@@ -32,6 +32,10 @@ class NormalMap:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
 
+class Voxels:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
 class Light:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
@@ -2514,7 +2518,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
             exp(−(a + s) d)
@@ -2537,6 +2541,7 @@ class materials:
         emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
         density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
+        density_grid: In place of a field of densities: numbers at voxels, of which absorption, scattering and emission are multiples. (voxels; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
@@ -2601,7 +2606,7 @@ class materials:
         amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
         """
 
-def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
         exp(−(a + s) d)
@@ -2624,6 +2629,7 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
     density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
+    density_grid: In place of a field of densities: numbers at voxels, of which absorption, scattering and emission are multiples. (voxels; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
@@ -2803,6 +2809,19 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
     repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
     strength: A factor of red and green: 0 is smooth, and 2 twice as steep. (number; at least 0 and at most 100; default 1)
     green_down: Whether green is down in the image, as DirectX has it, and not up as in OpenGL. (true or false; default false)
+    """
+
+def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
+    r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, below 0 they count as 0, and outside of all voxels there is nothing. The grid is made larger or smaller first, then turned, then moved.
+
+    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Integers in images are from 0 to 1. Images are seen from above, and stand about the origin. (name of a file)
+    grid: Which of an OpenVDB file's grids; needed if it has several of numbers. (text; default "")
+    spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; positive; default none)
+    factor: A factor of the numbers. (number; zero or more; default 1)
+    scale: A factor of its size. (number; positive; default 1)
+    rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
+    translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+    y_up: Whether y is up in the file, and not z. (true or false; default false)
     """
 
 class lights:

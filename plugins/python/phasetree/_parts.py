@@ -13,6 +13,7 @@ _CHECKED_AS = {
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
     "Numbers": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
     "Maps of normals": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
+    "Voxels": ("material", lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
     "Cameras": ("camera", lambda text: text),
@@ -21,7 +22,7 @@ _CHECKED_AS = {
 
 
 class Part:
-    """A material, texture, number, map of normals, light, mesh, camera, or the image's settings: a kind and its
+    """A material, texture, number, map of normals, grid of voxels, light, mesh, camera, or the image's settings: a kind and its
     parameters, checked."""
 
     __slots__ = ("_text", "chapter", "kind")
@@ -36,7 +37,7 @@ class Part:
 
     def written(self):
         """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
-        return self.parameters() if self.chapter == "Maps of normals" else json.loads(self._text)
+        return self.parameters() if self.chapter in ("Maps of normals", "Voxels") else json.loads(self._text)
 
     def parameters(self):
         """What was said of it."""
@@ -93,6 +94,7 @@ cameras = _module("Cameras.", _chapters["Cameras"])
 image = _function(_chapters["Image"][0])
 image.__name__ = image.__qualname__ = "image"
 normal_map = _function(_chapters["Maps of normals"][0])
+voxels = _function(_chapters["Voxels"][0])
 
 
 def part_of(chapter, value):

@@ -29,6 +29,7 @@ _TYPES = {
     "list of [number, colour or texture]": "Sequence[Sequence[float | str | Sequence[float] | Texture]]",
     "opaque material": "Material",
     "normal map": "NormalMap",
+    "voxels": "Voxels",
     "list of fields": "Field | Expression | Sequence[Field | Expression]",
     "list of objects": "Object | Sequence[Object]",
 }
@@ -37,6 +38,7 @@ _CLASSES = {
     "Textures": "Texture",
     "Numbers": "Number",
     "Maps of normals": "NormalMap",
+    "Voxels": "Voxels",
     "Lights": "Light",
     "Meshes": "Mesh",
     "Cameras": "Camera",
@@ -182,7 +184,7 @@ def text():
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():
-        if title in ("Image", "Maps of normals"):
+        if title in ("Image", "Maps of normals", "Voxels"):
             out += _function(kinds[0].name if title != "Image" else "image", kinds[0], _CLASSES[title]) + "\n"
             continue
         out += f"class {title.lower()}:\n"

@@ -1,5 +1,5 @@
-// OpenVDB files, by the readers of the nodes `volume` and `labels`: what is read is sound, and everything else is
-// refused without more memory than a small file may take.
+// OpenVDB files, by the readers of the nodes `volume` and `labels` and of numbers at voxels: what is read is sound, and
+// everything else is refused without more memory than a small file may take.
 #include <cmath>
 #include <stdexcept>
 
@@ -20,6 +20,14 @@ void run_volume(Bytes input) {
             const float value = voxels::linear_at(grid.table.data(), Vec3<float>{at.x, at.y, at.z});
             promised(std::isfinite(value), "a volume has a value everywhere");
         }
+    } catch (const std::runtime_error&) {
+    }
+    try {
+        const VoxelGrid numbers = tracer::read_number_grid(path, "");
+        const Bounds box = numbers.extent();
+        const glm::vec3 at = box.low + 0.3f * box.extent();
+        promised(voxels::linear_at(numbers.table.data(), Vec3<float>{at.x, at.y, at.z}) >= 0.0f,
+                 "numbers are not below 0");
     } catch (const std::runtime_error&) {
     }
     try {

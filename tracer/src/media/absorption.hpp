@@ -33,25 +33,34 @@ class Absorption {
     /// distance of one over its mean, which lets a third of white light through, or more.
     static Absorption of(SharedSpectrum spectrum);
 
-    const glm::vec3& rgb() const { return rgb_; }
+    /// The same of what is so many times as dense.
+    Absorption times(float factor) const {
+        Absorption scaled = *this;
+        scaled.factor_ *= factor;
+        return scaled;
+    }
+
+    glm::vec3 rgb() const { return factor_ * rgb_; }
     /// At least the greatest at any wavelength and for any of the colours, together with a scattering.
     float greatest_with(const glm::vec3& scattering) const {
-        const glm::vec3 sum = rgb_ + scattering;
+        const glm::vec3 sum = rgb() + scattering;
         const float colours = std::max({sum.x, sum.y, sum.z});
         if (!spectrum_) return colours;
-        return std::max(colours, spectrum_->greatest() + std::max({scattering.x, scattering.y, scattering.z}));
+        return std::max(colours,
+                        factor_ * spectrum_->greatest() + std::max({scattering.x, scattering.y, scattering.z}));
     }
     glm::vec3 for_light(const Wavelengths* wavelengths) const {
-        if (!wavelengths) return rgb_;
-        if (spectrum_ && wavelengths->is_spectral) return spectrum_->at(*wavelengths);
-        if (!(distance_ > 0.0f)) return tracer::for_light(rgb_, wavelengths);
+        if (!wavelengths) return rgb();
+        if (spectrum_ && wavelengths->is_spectral) return factor_ * spectrum_->at(*wavelengths);
+        if (!(distance_ > 0.0f)) return tracer::for_light(rgb(), wavelengths);
         const glm::vec3 left = glm::min(tracer::for_light(left_, wavelengths), glm::vec3(1.0f));
-        return -glm::log(left) / distance_;
+        return factor_ * -glm::log(left) / distance_;
     }
 
   private:
     glm::vec3 rgb_{0.0f}, left_{1.0f};
     float distance_ = 0.0f;  ///< 0 if no colour was given
+    float factor_ = 1.0f;    ///< of all the others
     SharedSpectrum spectrum_{};
 };
 

@@ -22,6 +22,14 @@ struct ScatteringCoefficients {
     /// At least σt at any wavelength.
     float greatest_extinction() const { return absorption.greatest_with(scattering); }
     bool scatters() const { return scattering != glm::vec3(0.0f); }
+    /// The same of what is so many times as dense.
+    ScatteringCoefficients times(float factor) const {
+        ScatteringCoefficients scaled = *this;
+        scaled.absorption = absorption.times(factor);
+        scaled.scattering *= factor;
+        scaled.emission *= factor;
+        return scaled;
+    }
 
     /// All of it for one path.
     struct ForLight {

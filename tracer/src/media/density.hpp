@@ -1,35 +1,34 @@
-// How dense a medium is at each point, from 0 to 1, by a field φ of the tree: with a depth d > 0
-//     ρ(p) = min(max(−φ(p)/d, 0), 1).
-// It is 0 at the field's surface and outside, and rises evenly to 1 within the depth d. So 1 is a majorant by itself,
-// whatever the field is, and outside of the field's bounds there is nothing.
+// The list of all kinds of density, and one of any kind by value.
 #pragma once
 
-#include <memory>
+#include <variant>
 
-#include "phasetree/evaluation/evaluator.hpp"
-#include "phasetree/math/bounds.hpp"
-#include "phasetree/model/handle.hpp"
+#include "media/field_density.hpp"
+#include "media/voxel_density.hpp"
 
 namespace phasetree::tracer {
 
-class Density {
-  public:
-    /// Throws ModelError for a field that cannot be recorded.
-    Density(const Field& field, float depth);
-
-    /// ρ at eight points.
-    BatchOfFloats at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
-    /// ρ at eight points of a ray, by one run of the field's program.
-    BatchOfFloats along(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t) const;
-    /// A box outside of which ρ is 0.
-    const Bounds& bounds() const { return bounds_; }
-
-  private:
-    std::shared_ptr<const Evaluator> evaluator_;
-    Bounds bounds_;
-    std::size_t outputs_;
-    std::size_t field_output_;  ///< which of the program's outputs φ is
-    float inverse_depth_;
+/// A kind of density, once its contract has been asked of it. If it does not meet that, the message names the kind and
+/// the member.
+template <class Kind>
+struct CheckedDensity {
+    static_assert(DensityKind<Kind>);
+    using Type = Kind;
 };
+
+template <class... Kinds>
+using DensityOf = std::variant<typename CheckedDensity<Kinds>::Type...>;
+
+using Density = DensityOf<FieldDensity, VoxelDensity>;
+
+/// DensityKind's at() of a density of any kind.
+inline BatchOfFloats density_at(const Density& density, const BatchOfFloats& x, const BatchOfFloats& y,
+                                const BatchOfFloats& z) {
+    return std::visit([&](const auto& kind) { return kind.at(x, y, z); }, density);
+}
+/// DensityKind's bounds() of a density of any kind.
+inline const Bounds& bounds_of(const Density& density) {
+    return std::visit([](const auto& kind) -> const Bounds& { return kind.bounds(); }, density);
+}
 
 }  // namespace phasetree::tracer

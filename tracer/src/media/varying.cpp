@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <optional>
 
 namespace phasetree::tracer {
 
@@ -17,53 +16,83 @@ constexpr int most_collisions = 1 << 16;
 // them estimate what is left and what shines with less noise.
 constexpr float collisions_of_passage = 5;
 
-// The part of a way within a box: from the first distance to the second, which is not greater if there is none.
-std::pair<float, float> within(const Bounds& box, const Way& way) {
-    float from = 0.0f, to = way.length;
-    for (int i = 0; i < 3; ++i) {
-        if (way.direction[i] == 0.0f) {
-            if (!(way.origin[i] >= box.low[i] && way.origin[i] <= box.high[i])) return {0.0f, 0.0f};
-            continue;
-        }
-        const float a = (box.low[i] - way.origin[i]) / way.direction[i];
-        const float b = (box.high[i] - way.origin[i]) / way.direction[i];
-        from = std::max(from, std::min(a, b));
-        to = std::min(to, std::max(a, b));
+// The places at which a way may meet something, sampled in the stretches of a density. The rate of these tentative
+// collisions, per unit of length, is at least `extinction` times the bound on the density, and high enough for `least`
+// collisions on average on a way that may meet something everywhere.
+template <DensityKind D>
+class TentativeCollisions {
+  public:
+    TentativeCollisions(const D& density, float extinction, const Way& way, float least)
+        : stretches_(density.stretches(way)), extinction_(extinction) {
+        if (!(stretches_.length() > 0.0f)) return;
+        least_rate_ = std::min(least / stretches_.length(), 1e30f);
+        stretch_ = stretches_.next();
     }
-    return {from, to};
-}
+
+    // The next one's distance and rate, or nothing at the way's end.
+    struct Collision {
+        float distance, rate;
+        float greatest;  // bound on the density there
+    };
+    std::optional<Collision> next(Sampler& sampler) {
+        if (!stretch_) return std::nullopt;
+        // So much is gone through before it: the integral of the rate.
+        float thickness = -std::log1p(-sampler.next());
+        for (; stretch_; stretch_ = stretches_.next(), gone_ = 0.0f) {
+            const float length = stretch_->to - stretch_->from;
+            const float rate = std::max(extinction_ * stretch_->greatest, least_rate_);
+            if (gone_ + thickness / rate < length) {
+                gone_ += thickness / rate;
+                return Collision{stretch_->from + gone_, rate, stretch_->greatest};
+            }
+            thickness = std::max(thickness - (length - gone_) * rate, 0.0f);
+        }
+        return std::nullopt;
+    }
+
+  private:
+    typename D::Stretches stretches_;
+    float extinction_;
+    float least_rate_ = 0.0f;
+    std::optional<DensityStretch> stretch_{};
+    // It is counted from where the stretch begins: far away, steps may be less than floats resolve.
+    float gone_ = 0.0f;
+};
 
 }  // namespace
 
 VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density)
     : coefficients_(coefficients), density_(density) {
-    majorant_ = coefficients.greatest_extinction();
+    densest_ = coefficients.greatest_extinction();
 }
 
-// Calls visit(distance, density, rate) until it returns false. `rate` is that of collisions per unit of length: at
-// least the majorant, and high enough for `least` collisions on average within the bounds. The points of eight
-// collisions are evaluated together.
+// Calls visit(distance, density, rate) at each tentative collision until it returns false. The densities of eight
+// are evaluated together.
 template <class Visit>
 void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
-    const auto [from, to] = within(density_.bounds(), way);
-    if (!(majorant_ > 0.0f) || !(from < to)) return;
-    const float length = to - from, rate = std::max(majorant_, std::min(least / length, 1e30f));
-    // It is counted from where the bounds begin: far away, steps may be less than floats resolve.
-    float gone = 0.0f;
-    for (int collisions = 0; collisions < most_collisions;) {
-        BatchOfFloats at;
-        std::size_t count = 0;
-        while (count < batch_size && gone < length) {
-            gone -= std::log1p(-sampler.next()) / rate;
-            if (gone < length) at[count++] = from + gone;
+    if (!(densest_ > 0.0f)) return;
+    const auto visit_those_of = [&]<DensityKind D>(const D& kind) {
+        TentativeCollisions<D> tentative(kind, densest_, way, least);
+        for (int collisions = 0; collisions < most_collisions;) {
+            BatchOfFloats at, rate, greatest;
+            std::size_t count = 0;
+            while (count < batch_size) {
+                const auto collision = tentative.next(sampler);
+                if (!collision) break;
+                at[count] = collision->distance;
+                rate[count] = collision->rate;
+                greatest[count++] = collision->greatest;
+            }
+            if (count == 0) return;
+            for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
+            const BatchOfFloats density = density_along(kind, way, at);
+            for (std::size_t i = 0; i < count; ++i)
+                // At the border of a stretch it may be above the bound by a rounding error.
+                if (!visit(at[i], std::min(density[i], greatest[i]), rate[i])) return;
+            collisions += static_cast<int>(count);
         }
-        if (count == 0) return;
-        for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
-        const BatchOfFloats density = density_.along(way.origin, way.direction, at);
-        for (std::size_t i = 0; i < count; ++i)
-            if (!visit(at[i], density[i], rate)) return;
-        collisions += static_cast<int>(count);
-    }
+    };
+    std::visit(visit_those_of, density_);
 }
 
 Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
@@ -81,10 +110,10 @@ Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
     const auto coefficients = coefficients_.for_light(way.wavelengths);
     Flight flight;
-    for_each_tentative_collision(way, sampler, 0.0f, [&](float distance, float density, float) {
+    for_each_tentative_collision(way, sampler, 0.0f, [&](float distance, float density, float rate) {
         const glm::vec3 scattering = coefficients.scattering * density;
-        const glm::vec3 null = glm::max(majorant_ - coefficients.extinction() * density, glm::vec3(0.0f));
-        flight.emitted += flight.weight * coefficients.emission * (density / majorant_);
+        const glm::vec3 null = glm::max(rate - coefficients.extinction() * density, glm::vec3(0.0f));
+        flight.emitted += flight.weight * coefficients.emission * (density / rate);
         const glm::vec3 history = throughput * flight.weight;
         const float scattered = glm::dot(history, scattering), going_on = glm::dot(history, null);
         if (!(scattered + going_on > 0.0f)) {
@@ -93,11 +122,11 @@ Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& 
         }
         const float probability = scattered / (scattered + going_on);
         if (scattered > 0.0f && sampler.next() < probability) {
-            flight.weight *= scattering / (majorant_ * probability);
+            flight.weight *= scattering / (rate * probability);
             flight.scattered_at = distance;
             return false;
         }
-        flight.weight *= null / (majorant_ * (1.0f - probability));
+        flight.weight *= null / (rate * (1.0f - probability));
         return true;
     });
     return flight;

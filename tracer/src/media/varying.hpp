@@ -1,7 +1,8 @@
-// A medium that scatters, whose density ρ(p) in [0, 1] a field varies: σ(p) = ρ(p) σ.
+// A medium that scatters, whose density ρ(p) in [0, 1] a field or numbers at voxels vary: σ(p) = ρ(p) σ.
 //
-// Distances are sampled as in a medium that is everywhere as dense as the densest channel, σ̄ = max σt. At each such
-// tentative collision light is scattered really or goes on as if nothing were there (a null collision of σ̄ − σt_c).
+// Distances are sampled as in a medium that is everywhere as dense as its densest channel can be, σ̄ = ρ̄ max σt, with a
+// bound ρ̄ on the density that is a constant in each stretch of the way (media/density_contract.hpp). At each such
+// tentative collision light is scattered really or goes on as if nothing were there (a null collision of σ̄ − σt_c ρ).
 // With the throughput β of the path, its weights so far included,
 //     P_s = Σ β_c σs_c ρ / Σ β_c (σs_c ρ + σ̄ − σt_c ρ),   P_n = 1 − P_s,
 // and the weights become σs_c ρ/(σ̄ P_s) or (σ̄ − σt_c ρ)/(σ̄ P_n). As in a homogeneous medium Σ β_c does not grow. The
@@ -32,10 +33,10 @@ class VaryingMedium {
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
     /// The share of the coefficients at eight points.
     BatchOfFloats density_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
-        return density_.at(x, y, z);
+        return tracer::density_at(density_, x, y, z);
     }
     /// A box outside of which there is nothing of it.
-    const Bounds& bounds() const { return density_.bounds(); }
+    const Bounds& bounds() const { return bounds_of(density_); }
 
   private:
     template <class Visit>
@@ -43,7 +44,7 @@ class VaryingMedium {
 
     ScatteringCoefficients coefficients_;
     Density density_;
-    float majorant_;  ///< σ̄
+    float densest_;  ///< max σt where ρ is 1
 };
 
 }  // namespace phasetree::tracer

@@ -78,7 +78,7 @@ MeshGroup GltfParameters::made() const {
                   .opacity = std::move(part.opacity),
                   .material = material.value_or(part.material),
                   .name = std::move(part.name)};
-        MeshPlacement(scale, rotate_z_degrees, translate, true).apply(mesh, file);
+        place(mesh, Placement(scale, rotate_z_degrees, translate, true), file);
         group.meshes.push_back(std::move(mesh));
     }
     for (const std::string& sentence : read.not_shown)

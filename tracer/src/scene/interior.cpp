@@ -45,8 +45,10 @@ void check(const P& p) {
     needs(p.scale.has_value(), p.medium.has_value(), "scale", "medium");
     const bool is_scattering = p.scattering || p.albedo || p.medium;
     needs(p.anisotropy.has_value(), is_scattering, "anisotropy", "scattering");
-    needs(p.density.has_value(), is_scattering || p.absorption || p.absorption_spectrum || p.color, "density",
-          "scattering");
+    const bool attenuates = is_scattering || p.absorption || p.absorption_spectrum || p.color;
+    either(p.density_grid.has_value(), p.density.has_value(), "density_grid", "density");
+    needs(p.density.has_value(), attenuates, "density", "scattering");
+    needs(p.density_grid.has_value(), attenuates, "density_grid", "scattering");
     needs(p.emission_spectrum != nullptr, p.emission.has_value(), "emission_spectrum", "emission");
     needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
     needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
@@ -84,7 +86,11 @@ Medium ClearParameters::interior() const {
             throw ParameterError("emission",
                                  "\"emission\" needs absorption or scattering in the same channel: without "
                                  "any, light would grow without end along a ray");
-    if (density) return VaryingMedium(c, Density(*density, *density_depth));
+    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth));
+    if (density_grid) {
+        const VoxelDensity voxels = density_grid->read();
+        return VaryingMedium(c.times(density_grid->factor * voxels.greatest()), voxels);
+    }
     if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
     return AbsorbingMedium{c.absorption};
 }

@@ -10,6 +10,7 @@
 #include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "scene/parameter_types.hpp"
+#include "scene/voxels.hpp"
 #include "shading/material.hpp"
 #include "shading/thin_film.hpp"
 
@@ -89,6 +90,7 @@ struct ClearParameters : FilmParameters {
     SharedLightSpectrum emission_spectrum{};
     std::optional<Field> density{};
     std::optional<float> density_depth{};
+    std::optional<Voxels> density_grid{};
 
     template <class V>
     static void parameters(V&& v) {
@@ -156,6 +158,10 @@ struct ClearParameters : FilmParameters {
         v(&P::density_depth,
           Parameter{"density_depth", "m", "How deep inside of the density's field the medium is as dense as it gets.",
                     limits::positive, true});
+        v(&P::density_grid, Parameter{"density_grid", "",
+                                      "In place of a field of densities: numbers at voxels, of which absorption, "
+                                      "scattering and emission are multiples.",
+                                      limits::any, true});
         film_parameters<P>(v);
     }
     Medium interior() const;

@@ -11,6 +11,7 @@
 #include "phasetree/model/concepts.hpp"
 #include "scene/mesh.hpp"
 #include "scene/parameter_types.hpp"
+#include "scene/placement.hpp"
 
 namespace phasetree::tracer {
 
@@ -36,16 +37,6 @@ struct OpacityParameters {
     std::optional<Opacity> opacity() const;
 };
 
-// Where a mesh from a file goes.
-template <class P, class V>
-void placement_parameters(V&& v) {
-    v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
-    v(&P::rotate_z_degrees,
-      Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
-                limits::any, true});
-    v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
-}
-
 // What meshes from files of one mesh have.
 struct MeshFileParameters : OpacityParameters {
     Material material{};
@@ -62,7 +53,7 @@ struct MeshFileParameters : OpacityParameters {
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
         opacity_parameters<P>(v);
-        v(&P::y_up, Parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true});
+        v(&P::y_up, y_up_parameter);
         v(&P::smooth, Parameter{"smooth", "",
                                 "Whether it is shaded as if it were smooth: by the normals that its file has, or else "
                                 "by the mean of those of the faces around each vertex.",

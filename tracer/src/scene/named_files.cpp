@@ -1,10 +1,12 @@
 #include "scene/named_files.hpp"
 
 #include <optional>
+#include <stdexcept>
 #include <system_error>
 
 #include "scene/gltf_files.hpp"
 #include "scene/placed.hpp"
+#include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
 
@@ -19,6 +21,19 @@ std::optional<std::filesystem::path> named_file(const Document& document, Value 
     } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
     }
     return std::nullopt;
+}
+
+// The images of a stack; none if it is no name of one.
+std::vector<std::filesystem::path> layers_named_by(const Document& document, Value string) {
+    std::vector<std::filesystem::path> layers;
+    try {
+        for (std::filesystem::path& layer : layers_of_stack(document.file(string))) {
+            std::error_code problem;
+            if (std::filesystem::is_regular_file(layer, problem)) layers.push_back(std::move(layer));
+        }
+    } catch (const std::runtime_error&) {  // which whoever reads it says, if it should be one
+    }
+    return layers;
 }
 
 std::uint64_t bytes_named_in(const Document& document, Value value) {
@@ -39,6 +54,10 @@ std::uint64_t bytes_named_in(const Document& document, Value value) {
 }  // namespace
 
 std::vector<std::filesystem::path> named_files(const Document& document, Value string) {
+    // A colour is written with a #, too, and has no dot.
+    const std::string_view text = string.string();
+    if (text.find('#') != std::string_view::npos && text.find('.') != std::string_view::npos)
+        return layers_named_by(document, string);
     std::vector<std::filesystem::path> files;
     if (const auto path = named_file(document, string)) {
         files.push_back(*path);

@@ -192,6 +192,16 @@ ValueType NormalMapType::describe(const Parameter&) {
     return {"normal map", schema_reference("normal_map")};
 }
 
+using VoxelsType = ParameterType<tracer::Voxels, Parameter>;
+
+tracer::Voxels VoxelsType::read(const Document& document, Value value, std::string_view what, const Parameter&) {
+    return read_kind<tracer::Voxels>(document, value, what, [](const tracer::Voxels& voxels) { return voxels; });
+}
+
+ValueType VoxelsType::describe(const Parameter&) {
+    return {"voxels", schema_reference("voxels")};
+}
+
 using FieldType = ParameterType<Field, Parameter>;
 
 Field FieldType::read(const Document& document, Value value, std::string_view, const Parameter&) {

@@ -3,6 +3,7 @@
 
 #include "phasetree/io/parameter_type.hpp"
 #include "phasetree/model/handle.hpp"
+#include "scene/voxels.hpp"
 #include "shading/material.hpp"
 
 namespace phasetree::tracer {
@@ -87,6 +88,14 @@ struct ParameterType<tracer::NormalMap, Parameter> {
     static tracer::NormalMap read(const Document&, Value, std::string_view what, const Parameter&);
     static ValueType describe(const Parameter&);
     static std::string written(const tracer::NormalMap&) { return "none"; }
+};
+
+// The file is not read yet.
+template <>
+struct ParameterType<tracer::Voxels, Parameter> {
+    static tracer::Voxels read(const Document&, Value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const tracer::Voxels&) { return "none"; }
 };
 
 // Not a clear one: meshes have no inside.

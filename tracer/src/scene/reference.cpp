@@ -67,6 +67,9 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back({"Maps of normals",
                         "An opaque material of a mesh may have one, `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
+    chapters.push_back({"Voxels",
+                        "The medium of a clear material may vary by them, `\"density_grid\": {parameters}`.",
+                        {page_of<Voxels>()}});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
                         pages_of(LightKinds())});
     chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
@@ -97,6 +100,7 @@ std::string scene_json_schema() {
         {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(NamedTextures())))},
         {"number_texture", schema_of_one(pages_of(NumberTextures()))},
         {"normal_map", schema_of(page_of<NormalMap>())},
+        {"voxels", schema_of(page_of<Voxels>())},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},

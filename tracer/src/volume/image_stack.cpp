@@ -1,4 +1,5 @@
-// A segmented scan as images, one for each layer of voxels: grey values of 8 or 16 bits are the voxels' numbers.
+// Voxels as images, one for each layer: of a segmented scan grey values of 8 or 16 bits are the voxels' numbers; of
+// what has more or less of something at each place they are how much, from 0 to 1, or floats.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "phasetree_support/folder.hpp"
 #include "volume/formats.hpp"
 #include "volume/label_numbers.hpp"
+#include "volume/number_grid.hpp"
 
 namespace phasetree::tracer {
 
@@ -77,15 +79,13 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
 
 namespace {
 
-void add_layer(const fs::path& file, bool is_first, LabelGrid& grid, LabelNumbers& numbers) {
-    const std::string name = file.filename().string();
-    float greatest = 255;
-    std::array<int, 3>& size = grid.lattice.size;
+// Adds a layer's voxels to those of the layers below it. `check` is asked about the layer before its size is, which the
+// first one decides; `number` makes a voxel's number of a grey value.
+template <class T, class Check, class Number>
+void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, std::vector<T>& voxels,
+               const Check& check, const Number& number) {
     const auto begin = [&](const ImageHeader& header) {
-        if (header.is_floating_point || (header.bits != 8 && header.bits != 16))
-            throw std::runtime_error("labels are grey values of 8 or 16 bits");
-        if (header.channels != 1)
-            throw std::runtime_error(fmt::format("labels are grey values, but it has {} channels", header.channels));
+        check(header);
         if (is_first) {
             size = {header.width, header.height, size[2]};
             checked_count(size);
@@ -93,18 +93,21 @@ void add_layer(const fs::path& file, bool is_first, LabelGrid& grid, LabelNumber
         if (header.width != size[0] || header.height != size[1])
             throw std::runtime_error(fmt::format("it is of {} × {} pixels, but the layers below it of {} × {}",
                                                  header.width, header.height, size[0], size[1]));
-        greatest = header.bits == 8 ? 255.f : 65535.f;
         return 1;
     };
-    const std::size_t first = grid.voxels.size();
+    const std::size_t first = voxels.size();
     read_image(file, "layer", begin, [&](std::span<const float> values) {
-        for (const float v : values)
-            grid.voxels.push_back(numbers.index_of(static_cast<std::int32_t>(std::lround(v * greatest))));
+        for (const float v : values) voxels.push_back(number(v));
     });
     // The first row is at the largest y; in the grid y rises.
     const auto columns = static_cast<std::ptrdiff_t>(size[0]);
-    auto low = grid.voxels.begin() + static_cast<std::ptrdiff_t>(first), high = grid.voxels.end() - columns;
+    auto low = voxels.begin() + static_cast<std::ptrdiff_t>(first), high = voxels.end() - columns;
     for (; low < high; low += columns, high -= columns) std::swap_ranges(low, low + columns, high);
+}
+
+void check_is_grey(const ImageHeader& header, const char* what) {
+    if (header.channels != 1)
+        throw std::runtime_error(fmt::format("{} are grey values, but it has {} channels", what, header.channels));
 }
 
 }  // namespace
@@ -114,8 +117,30 @@ LabelGrid labels_of_images(const fs::path& path) {
     LabelGrid grid;
     grid.lattice.size[2] = static_cast<int>(layers.size());
     LabelNumbers numbers(grid);
-    for (const fs::path& layer : layers) add_layer(layer, layer == layers.front(), grid, numbers);
+    float greatest = 255;
+    const auto check = [&](const ImageHeader& header) {
+        if (header.is_floating_point || (header.bits != 8 && header.bits != 16))
+            throw std::runtime_error("labels are grey values of 8 or 16 bits");
+        check_is_grey(header, "labels");
+        greatest = header.bits == 8 ? 255.f : 65535.f;
+    };
+    const auto label = [&](float v) { return numbers.index_of(static_cast<std::int32_t>(std::lround(v * greatest))); };
+    for (const fs::path& layer : layers)
+        add_layer(layer, layer == layers.front(), grid.lattice.size, grid.voxels, check, label);
     return grid;
+}
+
+VoxelGrid numbers_of_images(const fs::path& path, const glm::dvec3& spacing) {
+    const std::vector<fs::path> layers = layers_of_stack(path);
+    VoxelLattice lattice{.spacing = spacing};
+    lattice.size[2] = static_cast<int>(layers.size());
+    std::vector<float> values;
+    const auto check = [](const ImageHeader& header) { check_is_grey(header, "numbers"); };
+    for (const fs::path& layer : layers)
+        add_layer(layer, layer == layers.front(), lattice.size, values, check, [](float v) { return v; });
+    for (glm::length_t i = 0; i < 3; ++i)
+        lattice.first[i] = -0.5 * (lattice.size[static_cast<std::size_t>(i)] - 1) * spacing[i];
+    return number_grid(lattice, values);
 }
 
 }  // namespace phasetree::tracer

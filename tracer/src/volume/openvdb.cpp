@@ -16,6 +16,7 @@
 #include "phasetree_support/reading.hpp"
 #include "volume/formats.hpp"
 #include "volume/label_numbers.hpp"
+#include "volume/number_grid.hpp"
 #include "volume/vdb_structure.hpp"
 
 namespace phasetree::tracer {
@@ -52,6 +53,11 @@ bool has_whole_numbers(const GridBase& grid) {
     return grid.isType<openvdb::Int32Grid>() || grid.isType<openvdb::Int64Grid>();
 }
 
+bool has_numbers(const GridBase& grid) {
+    return (grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>()) &&
+           grid.getGridClass() != openvdb::GRID_LEVEL_SET;
+}
+
 std::string why_no_level_set(const GridBase& grid) {
     if (!grid.isType<openvdb::FloatGrid>() && !grid.isType<openvdb::DoubleGrid>())
         return fmt::format("it is {}, but a level set has floats or doubles", kind_of(grid));
@@ -61,6 +67,11 @@ std::string why_no_level_set(const GridBase& grid) {
 }
 std::string why_no_labels(const GridBase& grid) {
     return fmt::format("it is {}, but labels are int32 or int64", kind_of(grid));
+}
+std::string why_no_numbers(const GridBase& grid) {
+    if (is_level_set(grid))
+        return "it is a level set, whose numbers are distances; OpenVDB's tools make a fog volume of it";
+    return fmt::format("it is {}, but numbers are floats or doubles", kind_of(grid));
 }
 
 // Reads the grid of a name, or the only one that will do.
@@ -112,8 +123,7 @@ VoxelLattice lattice_of(const GridBase& grid, const CoordBBox& box) {
             if (i == j ? !(step[j] > 0) : std::abs(step[j]) > 1e-9 * std::abs(step[i]))
                 throw std::runtime_error(
                     "its voxels do not lie along the axes: a turned grid must be stored as it was before it was "
-                    "turned, "
-                    "and be turned by the node \"rotate\"");
+                    "turned, and be turned in the scene");
         lattice.spacing[i] = step[i];
         const long long size = static_cast<long long>(box.max()[i]) - box.min()[i] + 1;
         if (!map.isLinear()) throw std::runtime_error("its voxels are not of one size");
@@ -141,6 +151,31 @@ CoordBBox active_leaves(const GridBase& grid, int around) {
     return box;
 }
 
+// The values of the voxels in a box, which all leaves are within, of active_leaves().
+template <class Grid, class Value>
+VoxelGrid voxels_of(const Grid& grid, const CoordBBox& box, const VoxelLattice& lattice, const char* who,
+                    const Value& value) {
+    const auto at = grid.getConstAccessor();
+    return VoxelGrid::make(who, lattice, [&](const std::array<int, 3>& before, std::span<float, 1000> values) {
+        const openvdb::Coord corner = box.min().offsetBy(before[0], before[1], before[2]);
+        const float first = value(at.getValue(corner.offsetBy(1)));
+        bool is_flat = true;
+        for (int i = 0; i < 27 && is_flat; ++i) {
+            const openvdb::Coord there =
+                corner.offsetBy(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
+            is_flat = !at.probeConstLeaf(there) && value(at.getValue(there)) == first;
+        }
+        if (is_flat) {
+            std::ranges::fill(values, first);
+            return;
+        }
+        float* to = values.data();
+        for (int z = 0; z < 10; ++z)
+            for (int y = 0; y < 10; ++y)
+                for (int x = 0; x < 10; ++x) *to++ = value(at.getValue(corner.offsetBy(x, y, z)));
+    });
+}
+
 template <class Grid>
 VoxelGrid level_set_of(const Grid& grid) {
     // The background is all around.
@@ -151,26 +186,19 @@ VoxelGrid level_set_of(const Grid& grid) {
         throw std::runtime_error("its voxels are no cubes");
     if (!(static_cast<double>(grid.background()) > 0))
         throw std::runtime_error("its background is not positive, so that it has no outside");
-    const auto at = grid.getConstAccessor();
-    // All leaves are within the box, and what is next to it is the background.
-    return VoxelGrid::make("volume", lattice, [&](const std::array<int, 3>& before, std::span<float, 1000> values) {
-        const openvdb::Coord corner = box.min().offsetBy(before[0], before[1], before[2]);
-        const auto first = static_cast<float>(at.getValue(corner.offsetBy(1)));
-        bool is_flat = true;
-        for (int i = 0; i < 27 && is_flat; ++i) {
-            const openvdb::Coord there =
-                corner.offsetBy(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
-            is_flat = !at.probeConstLeaf(there) && static_cast<float>(at.getValue(there)) == first;
-        }
-        if (is_flat) {
-            std::ranges::fill(values, first);
-            return;
-        }
-        float* to = values.data();
-        for (int z = 0; z < 10; ++z)
-            for (int y = 0; y < 10; ++y)
-                for (int x = 0; x < 10; ++x) *to++ = static_cast<float>(at.getValue(corner.offsetBy(x, y, z)));
-    });
+    // What is next to the box is the background.
+    return voxels_of(grid, box, lattice, "volume", [](auto v) { return static_cast<float>(v); });
+}
+
+template <class Grid>
+VoxelGrid numbers_of(const Grid& grid) {
+    // A frame of a simulation may have nothing yet.
+    if (grid.evalActiveVoxelBoundingBox().empty()) return number_grid({.size = {1, 1, 1}}, {{0.0f}});
+    if (static_cast<double>(grid.background()) != 0)
+        throw std::runtime_error("its background is not 0, so that it is without end");
+    const CoordBBox box = active_leaves(grid, 1);
+    return voxels_of(grid, box, lattice_of(grid, box), "voxels",
+                     [](auto v) { return number_at_voxel(static_cast<float>(v)); });
 }
 
 template <class Grid>
@@ -211,6 +239,14 @@ LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string
         const GridBase::Ptr grid = read_grid(path, name, "one of whole numbers", has_whole_numbers, why_no_labels);
         if (const auto ints = openvdb::gridConstPtrCast<openvdb::Int32Grid>(grid)) return labels_of(*ints);
         return labels_of(*openvdb::gridConstPtrCast<openvdb::Int64Grid>(grid));
+    });
+}
+
+VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::string& name) {
+    return by_openvdb([&] {
+        const GridBase::Ptr grid = read_grid(path, name, "one of densities", has_numbers, why_no_numbers);
+        if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return numbers_of(*floats);
+        return numbers_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
     });
 }
 

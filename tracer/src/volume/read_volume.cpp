@@ -19,15 +19,15 @@ auto named(const std::filesystem::path& path, std::string_view what, Read&& read
     }
 }
 
-bool is_openvdb(const std::filesystem::path& path) {
+}  // namespace
+
+bool has_ending_of_openvdb(const std::filesystem::path& path) {
     return path.extension() == ".vdb";
 }
 
-}  // namespace
-
 VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& grid) {
     return named(path, "volume", [&] {
-        if (!is_openvdb(path)) throw std::runtime_error("its name must end with .vdb");
+        if (!has_ending_of_openvdb(path)) throw std::runtime_error("its name must end with .vdb");
         VoxelGrid found = level_set_of_openvdb(path, grid);
         const double steepest = found.steepest_linear();
         if (steepest > 1e4)
@@ -41,10 +41,18 @@ VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& g
 
 LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& grid) {
     return named(path, "labels", [&] {
-        if (is_openvdb(path)) return labels_of_openvdb(path, grid);
+        if (has_ending_of_openvdb(path)) return labels_of_openvdb(path, grid);
         if (!grid.empty()) throw std::runtime_error("images have no grids that \"grid\" could name");
         return labels_of_images(path);
     });
+}
+
+VoxelGrid read_number_grid(const std::filesystem::path& path, const std::string& grid) {
+    return named(path, "voxels", [&] { return numbers_of_openvdb(path, grid); });
+}
+
+VoxelGrid read_number_stack(const std::filesystem::path& path, const glm::dvec3& spacing) {
+    return named(path, "voxels", [&] { return numbers_of_images(path, spacing); });
 }
 
 }  // namespace phasetree::tracer

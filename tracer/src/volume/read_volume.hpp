@@ -1,5 +1,6 @@
-// Grids of voxels that nodes name: level sets of OpenVDB for `volume`, and whole numbers of OpenVDB or of stacks of
-// images for `labels`. A name that ends with .vdb is OpenVDB's.
+// Grids of voxels that scenes name: level sets of OpenVDB for the node `volume`, whole numbers of OpenVDB or of stacks
+// of images for the node `labels`, and how much there is of something, such as smoke, of either for media. A name that
+// ends with .vdb is OpenVDB's.
 //
 // Whatever is wrong is std::runtime_error "cannot use the <what> "<path>": …", which quotes nothing of the file, not
 // even the names of its grids, because a scene may name what its reader may not read.
@@ -19,6 +20,14 @@ namespace phasetree::tracer {
 VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& grid);
 
 LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& grid);
+
+// Numbers at voxels, of which those below 0 count as 0: of OpenVDB's where the file has them, of a stack of images
+// about the origin, with the spacing from voxel to voxel.
+VoxelGrid read_number_grid(const std::filesystem::path& path, const std::string& grid);
+VoxelGrid read_number_stack(const std::filesystem::path& path, const glm::dvec3& spacing);
+
+// Whether the name of a file is that of an OpenVDB file, and not of images.
+bool has_ending_of_openvdb(const std::filesystem::path& path);
 
 // The images that a name with # in place of a number stands for, from the lowest layer to the highest; a name without
 // is one image. std::runtime_error where there is none, or where a number is left out between two.

@@ -121,7 +121,8 @@ class Document {
     const std::string& name() const;
 
     /// The file that a string of the text names, relative to the text's own file. SceneError at the value if it leaves
-    /// the folder that the files must lie in; then nothing is said of the file, not even whether there is one.
+    /// the folder that the files must lie in; then nothing is said of the file, not even whether there is one. A name
+    /// with # stands for several files, of which a link must lead none out of that folder.
     std::filesystem::path file(Value named) const;
     /// Another document, whose file a string of the text names, at the same time. Its own files must lie in the same
     /// folder, if any.

@@ -1,4 +1,4 @@
-#include "media/density.hpp"
+#include "media/field_density.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,14 @@
 
 namespace phasetree::tracer {
 
-Density::Density(const Field& field, float depth)
+FieldDensity::Stretches::Stretches(const Bounds& box, const Way& way) {
+    const auto [from, to] = part_within(box, way);
+    if (!(from < to)) return;
+    only_ = {from, to, 1.0f};
+    length_ = to - from;
+}
+
+FieldDensity::FieldDensity(const Field& field, float depth)
     : evaluator_(std::make_shared<const Evaluator>(record(field))),
       bounds_(phasetree::bounds(field)),
       inverse_depth_(1.0f / depth) {
@@ -17,17 +24,7 @@ Density::Density(const Field& field, float depth)
         std::ranges::find_if(outputs, [](const Output& o) { return o.phase != vacuum; }) - outputs.begin());
 }
 
-BatchOfFloats Density::along(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t) const {
-    BatchOfFloats x, y, z;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        x[i] = origin.x + t[i] * direction.x;
-        y[i] = origin.y + t[i] * direction.y;
-        z[i] = origin.z + t[i] * direction.z;
-    }
-    return at(x, y, z);
-}
-
-BatchOfFloats Density::at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
+BatchOfFloats FieldDensity::at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
     // Those of a recorded field are two: its phase and the vacuum.
     std::array<BatchOfFloats, 2> values;
     evaluator_->evaluate(x, y, z, std::span(values).first(outputs_), Evaluator::thread_workspace());

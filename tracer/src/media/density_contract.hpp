@@ -1,0 +1,64 @@
+// What a kind of density must provide: how dense a medium is at each point, ρ in [0, 1].
+//
+// A ray's way is divided into stretches, each with a bound on ρ in it, so that where little can be nothing is asked for
+// (media/varying.hpp).
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <utility>
+
+#include "media/contract.hpp"
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/program/batch.hpp"
+
+namespace phasetree::tracer {
+
+/// A part of a way, by distances from its origin, and at least the greatest ρ in it.
+struct DensityStretch {
+    float from, to;
+    float greatest;
+};
+
+/// * at(x, y, z): ρ at eight points.
+/// * bounds(): a box outside of which ρ is 0.
+/// * stretches(way): what gives with next() the stretches of a way, in their order, and none after the last. Outside of
+///   all ρ is 0. Their length() is the distance from where the first may begin to where the last may end.
+template <class D>
+concept DensityKind = std::copyable<D> && requires(const D& density, const BatchOfFloats& x, const Way& way) {
+    { density.at(x, x, x) } -> std::same_as<BatchOfFloats>;
+    { density.bounds() } -> std::same_as<const Bounds&>;
+    { density.stretches(way).next() } -> std::same_as<std::optional<DensityStretch>>;
+    { density.stretches(way).length() } -> std::same_as<float>;
+};
+
+/// The part of a way within a box: from the first distance to the second, which is not greater if there is none.
+inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
+    float from = 0.0f, to = way.length;
+    for (int i = 0; i < 3; ++i) {
+        if (way.direction[i] == 0.0f) {
+            if (!(way.origin[i] >= box.low[i] && way.origin[i] <= box.high[i])) return {0.0f, 0.0f};
+            continue;
+        }
+        const float a = (box.low[i] - way.origin[i]) / way.direction[i];
+        const float b = (box.high[i] - way.origin[i]) / way.direction[i];
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return {from, to};
+}
+
+/// ρ at eight points of a way.
+template <class D>
+BatchOfFloats density_along(const D& density, const Way& way, const BatchOfFloats& t) {
+    BatchOfFloats x, y, z;
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        x[i] = way.origin.x + t[i] * way.direction.x;
+        y[i] = way.origin.y + t[i] * way.direction.y;
+        z[i] = way.origin.z + t[i] * way.direction.z;
+    }
+    return density.at(x, y, z);
+}
+
+}  // namespace phasetree::tracer

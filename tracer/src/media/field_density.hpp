@@ -1,0 +1,44 @@
+// How dense a medium is by a field φ of the tree: with a depth d > 0
+//     ρ(p) = min(max(−φ(p)/d, 0), 1).
+// It is 0 at the field's surface and outside, and rises evenly to 1 within the depth d. So 1 is a majorant by itself,
+// whatever the field is, and outside of the field's bounds there is nothing.
+#pragma once
+
+#include <memory>
+
+#include "media/density_contract.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree::tracer {
+
+class FieldDensity {
+  public:
+    /// The part of a way within the field's bounds.
+    class Stretches {
+      public:
+        Stretches(const Bounds& box, const Way& way);
+        std::optional<DensityStretch> next() { return std::exchange(only_, std::nullopt); }
+        float length() const { return length_; }
+
+      private:
+        std::optional<DensityStretch> only_{};
+        float length_ = 0.0f;
+    };
+
+    /// Throws ModelError for a field that cannot be recorded.
+    FieldDensity(const Field& field, float depth);
+
+    BatchOfFloats at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
+    const Bounds& bounds() const { return bounds_; }
+    Stretches stretches(const Way& way) const { return {bounds_, way}; }
+
+  private:
+    std::shared_ptr<const Evaluator> evaluator_;
+    Bounds bounds_;
+    std::size_t outputs_;
+    std::size_t field_output_;  ///< which of the program's outputs φ is
+    float inverse_depth_;
+};
+
+}  // namespace phasetree::tracer

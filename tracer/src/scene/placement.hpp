@@ -1,0 +1,49 @@
+// Where what a file holds goes in the scene: it is made larger or smaller first, then turned, then moved.
+#pragma once
+
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "phasetree/model/parameter.hpp"
+
+namespace phasetree::tracer {
+
+template <class P, class V>
+void placement_parameters(V&& v) {
+    v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
+    v(&P::rotate_z_degrees,
+      Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
+                limits::any, true});
+    v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
+}
+inline constexpr Parameter y_up_parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true};
+
+class Placement {
+  public:
+    Placement(float scale, float rotate_z_degrees, const glm::vec3& translate, bool y_up)
+        : scale_(scale),
+          translate_(translate),
+          y_up_(y_up),
+          cosine_(std::cos(glm::radians(rotate_z_degrees))),
+          sine_(std::sin(glm::radians(rotate_z_degrees))) {}
+
+    /// Of a direction, whose length stays.
+    glm::vec3 turned(glm::vec3 p) const {
+        if (y_up_) p = {p.x, -p.z, p.y};
+        return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y, p.z};
+    }
+    glm::vec3 operator()(const glm::vec3& p) const { return turned(scale_ * p) + translate_; }
+    /// The same but for the translation.
+    glm::mat3 linear() const { return {turned({scale_, 0, 0}), turned({0, scale_, 0}), turned({0, 0, scale_})}; }
+    const glm::vec3& translate() const { return translate_; }
+
+  private:
+    float scale_;
+    glm::vec3 translate_;
+    bool y_up_;
+    float cosine_, sine_;
+};
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,33 @@
+#include "scene/voxels.hpp"
+
+#include <stdexcept>
+
+#include "parameters/world_limits.hpp"
+#include "volume/read_volume.hpp"
+
+namespace phasetree::tracer {
+
+VoxelDensity Voxels::read() const {
+    const bool is_openvdb = has_ending_of_openvdb(file);
+    if (is_openvdb && spacing)
+        throw ParameterError("spacing", "grids of OpenVDB have a spacing of their own; leave this out",
+                             ParameterError::Place::key);
+    if (!is_openvdb && !spacing) throw ParameterError("spacing", "images do not say how large their voxels are");
+    if (!is_openvdb && !grid.empty())
+        throw ParameterError("grid", "images have no grids that this could name", ParameterError::Place::key);
+    try {
+        VoxelGrid numbers = is_openvdb ? read_number_grid(file, grid) : read_number_stack(file, glm::dvec3(*spacing));
+        const Placement placement(scale, rotate_z_degrees, translate, y_up);
+        VoxelDensity density(std::move(numbers), {glm::dmat3(placement.linear()), glm::dvec3(translate)});
+        for (int i = 0; i < 3; ++i)
+            if (!coordinate.contains(density.bounds().low[i]) || !coordinate.contains(density.bounds().high[i]))
+                throw ParameterError("file", "its voxels would lie beyond 10¹⁵");
+        return density;
+    } catch (const ParameterError&) {
+        throw;
+    } catch (const std::runtime_error& e) {
+        throw ParameterError("file", e.what());
+    }
+}
+
+}  // namespace phasetree::tracer

@@ -1,0 +1,54 @@
+// Numbers at voxels as a scene file says them: which file, and where it goes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "media/voxel_density.hpp"
+#include "phasetree/io/kind.hpp"
+#include "scene/placement.hpp"
+
+namespace phasetree::tracer {
+
+struct Voxels {
+    static constexpr KindInfo info{
+        "voxels",
+        "Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres "
+        "they are interpolated, below 0 they count as 0, and outside of all voxels there is nothing. The grid is made "
+        "larger or smaller first, then turned, then moved."};
+
+    std::filesystem::path file{};
+    std::string grid{};
+    std::optional<glm::vec3> spacing{};
+    float factor = 1.0f;
+    float scale = 1.0f;
+    float rotate_z_degrees = 0.0f;
+    glm::vec3 translate{0.0f};
+    bool y_up = false;
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = Voxels;
+        v(&P::file,
+          Parameter{
+              "file", "",
+              "An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose "
+              "background is 0; or grey images, one for each layer from the lowest z to the highest: a name in "
+              "which #### stands for their numbers, such as \"layer_###.png\". Integers in images are from 0 to "
+              "1. Images are seen from above, and stand about the origin."});
+        v(&P::grid, Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of numbers.",
+                              limits::any, true});
+        v(&P::spacing,
+          Parameter{"spacing", "m", "From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own.",
+                    limits::positive, true});
+        v(&P::factor, Parameter{"factor", "", "A factor of the numbers.", limits::non_negative, true});
+        placement_parameters<P>(v);
+        v(&P::y_up, y_up_parameter);
+    }
+    /// What they are as a density: a share of the greatest number, which is told with the factor. Throws
+    /// ParameterError for a file that cannot be used.
+    VoxelDensity read() const;
+};
+
+}  // namespace phasetree::tracer
