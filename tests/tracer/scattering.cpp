@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "image/luminance.hpp"
 #include "media/medium.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 #include "support/statistics.hpp"
@@ -212,6 +213,90 @@ TEST_CASE("a flight's weights: what passes, what is scattered, what shines, by c
     test(VaryingMedium(coloured, FieldDensity(box, 0.25f)), {below, up, 2.0f}, depth_to(2));
     const Column column;
     test(VaryingMedium(coloured, column.density(turned)), Column::turned_way(turned), column.depth_to(2));
+}
+
+// Along a way on which the temperature rises evenly, what shines is the integral of Planck's law, and a planted error
+// of 1 % of the temperature is found.
+TEST_CASE("what is hot shines by its temperature, in red, green and blue and by wavelength") {
+    constexpr int count = 33;
+    constexpr double hottest = 2400, sigma = 1.5, length = 1.6;
+    const VoxelLattice lattice{{2, 2, count}, {-0.5, -0.5, 0}, {1, 1, length / (count - 1)}};
+    const auto rising = [](int, int, int z) { return 0.25 + 0.75 * z / (count - 1); };
+    const VoxelDensity temperatures(VoxelGrid::of_voxels("test", lattice, rising), {});
+    const VoxelDensity even(VoxelGrid::of_voxels("test", lattice, [](int, int, int) { return 1; }), {});
+    const auto spectrum = std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(hottest));
+    const ScatteringCoefficients glowing{
+        .absorption = glm::vec3(sigma), .emission = glm::vec3(2.0f), .emission_spectrum = spectrum};
+    const VaryingMedium medium(glowing, even, Heat(temperatures, static_cast<float>(hottest)));
+    const Wavelengths three = Wavelengths::three(0.2f, WavelengthDistribution());
+    // 2 ∫ exp(−σ t) B(λ, T(t))/B(λ, T̄) dt times the light at the hottest, of luminance 1.
+    const auto expected = [&](double nanometres, double error) {
+        constexpr int steps = 2000;
+        double sum = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double t = length * (i + 0.5) / steps;
+            const double kelvin = hottest * (0.25 + 0.75 * t / length) * error;
+            const double c2 = 1.438776877e7 / nanometres;
+            sum += std::exp(-sigma * t) * std::expm1(c2 / hottest) / std::expm1(c2 / kelvin) * length / steps;
+        }
+        return 2 * sum * static_cast<double>(spectrum->relative_at(static_cast<float>(nanometres)));
+    };
+    // In red, green and blue the light of each temperature is a colour that they can mix, of its luminance.
+    const auto rgb = [&](double error) {
+        constexpr int steps = 400;
+        glm::dvec3 sum(0);
+        for (int i = 0; i < steps; ++i) {
+            const double t = length * (i + 0.5) / steps;
+            const double kelvin = hottest * (0.25 + 0.75 * t / length) * error;
+            const glm::dvec3 mixed = colour_of([&](double nm) {
+                const double c2 = 1.438776877e7 / nm;
+                return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / hottest) /
+                       std::expm1(c2 / kelvin);
+            });
+            const glm::dvec3 positive = glm::max(mixed, glm::dvec3(0));
+            const double kept = static_cast<double>(luminance(glm::vec3(mixed)) / luminance(glm::vec3(positive)));
+            sum += std::exp(-sigma * t) * 2 * kept * positive * length / static_cast<double>(steps);
+        }
+        return sum;
+    };
+    for (const bool is_spectral : {false, true}) {
+        CAPTURE(is_spectral);
+        const Way way{{0, 0, 0}, up, static_cast<float>(length), is_spectral ? &three : nullptr};
+        std::array<Moments, 3> passed, flown;
+        for (std::uint32_t n = 0; n < 300000; ++n) {
+            Sampler sampler = sampler_of(n);
+            const glm::vec3 a = medium.pass(way, sampler).emitted;
+            const glm::vec3 b = medium.fly(way, glm::vec3(1.0f), sampler).emitted;
+            for (std::size_t c = 0; c < 3; ++c) {
+                passed[c].add(static_cast<double>(a[static_cast<int>(c)]));
+                flown[c].add(static_cast<double>(b[static_cast<int>(c)]));
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(c);
+            const auto i = static_cast<std::size_t>(c);
+            const double nanometres = static_cast<double>(three.nanometres[c]);
+            const auto of = [&](double error) { return is_spectral ? expected(nanometres, error) : rgb(error)[c]; };
+            const double significance = sidak(1e-4, 12);
+            CHECK(mean_p_value(passed[i], of(1), 1e-5) > significance);
+            CHECK(mean_p_value(flown[i], of(1), 1e-5) > significance);
+            CHECK(mean_p_value(passed[i], of(1.01)) < significance);
+        }
+    }
+    // Half as hot it is as bright as Planck's law says.
+    const Heat heat(temperatures, static_cast<float>(hottest));
+    CHECK(heat.luminance(1) == doctest::Approx(1).epsilon(1e-4));
+    CHECK(heat.luminance(0) == 0.0f);
+    const auto brightness = [&](double kelvin) {
+        return luminance(glm::vec3(colour_of([&](double nm) {
+            const double c2 = 1.438776877e7 / nm;
+            return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / hottest) /
+                   std::expm1(c2 / kelvin);
+        })));
+    };
+    for (const float share : {0.4f, 0.5f, 0.73f, 0.9f})
+        CHECK(heat.luminance(share) ==
+              doctest::Approx(static_cast<double>(brightness(hottest * static_cast<double>(share)))).epsilon(2e-3));
 }
 
 TEST_CASE("ways without end, and through nothing") {

@@ -277,6 +277,7 @@ inline std::vector<Case> cases_of_materials() {
               {"density", dense},
               {"density_depth", dense},
               {"density_grid", by_voxels},
+              {"temperature_grid", dense + R"(, "emission": [1, 1, 1])"},
               {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
               {"glass", R"("glass": "bk7")"}});
     // A bump needs a height, and a height a bump.

@@ -49,16 +49,19 @@ inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
     return {from, to};
 }
 
-/// ρ at eight points of a way.
-template <class D>
-BatchOfFloats density_along(const D& density, const Way& way, const BatchOfFloats& t) {
+struct PointsOfWay {
     BatchOfFloats x, y, z;
+};
+
+/// Eight points of a way, by their distances.
+inline PointsOfWay points_along(const Way& way, const BatchOfFloats& t) {
+    PointsOfWay points;
     for (std::size_t i = 0; i < batch_size; ++i) {
-        x[i] = way.origin.x + t[i] * way.direction.x;
-        y[i] = way.origin.y + t[i] * way.direction.y;
-        z[i] = way.origin.z + t[i] * way.direction.z;
+        points.x[i] = way.origin.x + t[i] * way.direction.x;
+        points.y[i] = way.origin.y + t[i] * way.direction.y;
+        points.z[i] = way.origin.z + t[i] * way.direction.z;
     }
-    return density.at(x, y, z);
+    return points;
 }
 
 }  // namespace phasetree::tracer

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "image/luminance.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -29,12 +31,11 @@ class TentativeCollisions {
         stretch_ = stretches_.next();
     }
 
-    // The next one's distance and rate, or nothing at the way's end.
-    struct Collision {
-        float distance, rate;
-        float greatest;  // bound on the density there
+    // The next one's distance and rate, and the bound on the density there; nothing at the way's end.
+    struct Next {
+        float distance, rate, greatest;
     };
-    std::optional<Collision> next(Sampler& sampler) {
+    std::optional<Next> next(Sampler& sampler) {
         if (!stretch_) return std::nullopt;
         // So much is gone through before it: the integral of the rate.
         float thickness = -std::log1p(-sampler.next());
@@ -43,7 +44,7 @@ class TentativeCollisions {
             const float rate = std::max(extinction_ * stretch_->greatest, least_rate_);
             if (gone_ + thickness / rate < length) {
                 gone_ += thickness / rate;
-                return Collision{stretch_->from + gone_, rate, stretch_->greatest};
+                return Next{stretch_->from + gone_, rate, stretch_->greatest};
             }
             thickness = std::max(thickness - (length - gone_) * rate, 0.0f);
         }
@@ -61,13 +62,24 @@ class TentativeCollisions {
 
 }  // namespace
 
-VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density)
-    : coefficients_(coefficients), density_(density) {
-    densest_ = coefficients.greatest_extinction();
+VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density,
+                             const std::optional<Heat>& heat)
+    : coefficients_(coefficients),
+      density_(density),
+      heat_(heat),
+      densest_(coefficients.greatest_extinction()),
+      luminance_(tracer::luminance(coefficients.emission)) {}
+
+BatchOfFloats VaryingMedium::brightness_at(const BatchOfFloats& x, const BatchOfFloats& y,
+                                           const BatchOfFloats& z) const {
+    BatchOfFloats brightness = density_at(density_, x, y, z);
+    if (!heat_) return brightness;
+    const BatchOfFloats shares = heat_->shares_at(x, y, z);
+    for (std::size_t i = 0; i < batch_size; ++i) brightness[i] *= heat_->luminance(shares[i]);
+    return brightness;
 }
 
-// Calls visit(distance, density, rate) at each tentative collision until it returns false. The densities of eight
-// are evaluated together.
+// Calls visit(collision) for each until it returns false. Eight are evaluated together.
 template <class Visit>
 void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
     if (!(densest_ > 0.0f)) return;
@@ -85,10 +97,14 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
             }
             if (count == 0) return;
             for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
-            const BatchOfFloats density = density_along(kind, way, at);
+            const PointsOfWay points = points_along(way, at);
+            const BatchOfFloats density = kind.at(points.x, points.y, points.z);
+            BatchOfFloats heat;
+            if (heat_) heat = heat_->shares_at(points.x, points.y, points.z);
             for (std::size_t i = 0; i < count; ++i)
-                // At the border of a stretch it may be above the bound by a rounding error.
-                if (!visit(at[i], std::min(density[i], greatest[i]), rate[i])) return;
+                // At the border of a stretch the density may be above the bound by a rounding error.
+                if (!visit(Collision{at[i], std::min(density[i], greatest[i]), rate[i], heat_ ? heat[i] : 1.0f}))
+                    return;
             collisions += static_cast<int>(count);
         }
     };
@@ -99,9 +115,9 @@ Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
     const auto coefficients = coefficients_.for_light(way.wavelengths);
     const glm::vec3 extinction = coefficients.extinction();
     Passage passage;
-    for_each_tentative_collision(way, sampler, collisions_of_passage, [&](float, float density, float rate) {
-        passage.emitted += passage.left * coefficients.emission * (density / rate);
-        passage.left *= 1.0f - extinction * (density / rate);
+    for_each_tentative_collision(way, sampler, collisions_of_passage, [&](const Collision& c) {
+        passage.emitted += passage.left * emission(coefficients, c.heat, way) * (c.density / c.rate);
+        passage.left *= 1.0f - extinction * (c.density / c.rate);
         return passage.left != glm::vec3(0.0f);
     });
     return passage;
@@ -110,10 +126,10 @@ Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
     const auto coefficients = coefficients_.for_light(way.wavelengths);
     Flight flight;
-    for_each_tentative_collision(way, sampler, 0.0f, [&](float distance, float density, float rate) {
-        const glm::vec3 scattering = coefficients.scattering * density;
-        const glm::vec3 null = glm::max(rate - coefficients.extinction() * density, glm::vec3(0.0f));
-        flight.emitted += flight.weight * coefficients.emission * (density / rate);
+    for_each_tentative_collision(way, sampler, 0.0f, [&](const Collision& c) {
+        const glm::vec3 scattering = coefficients.scattering * c.density;
+        const glm::vec3 null = glm::max(c.rate - coefficients.extinction() * c.density, glm::vec3(0.0f));
+        flight.emitted += flight.weight * emission(coefficients, c.heat, way) * (c.density / c.rate);
         const glm::vec3 history = throughput * flight.weight;
         const float scattered = glm::dot(history, scattering), going_on = glm::dot(history, null);
         if (!(scattered + going_on > 0.0f)) {
@@ -122,11 +138,11 @@ Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& 
         }
         const float probability = scattered / (scattered + going_on);
         if (scattered > 0.0f && sampler.next() < probability) {
-            flight.weight *= scattering / (rate * probability);
-            flight.scattered_at = distance;
+            flight.weight *= scattering / (c.rate * probability);
+            flight.scattered_at = c.distance;
             return false;
         }
-        flight.weight *= null / (rate * (1.0f - probability));
+        flight.weight *= null / (c.rate * (1.0f - probability));
         return true;
     });
     return flight;

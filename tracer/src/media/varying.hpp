@@ -18,33 +18,44 @@
 #include "media/coefficients.hpp"
 #include "media/contract.hpp"
 #include "media/density.hpp"
+#include "media/heat.hpp"
 
 namespace phasetree::tracer {
 
 class VaryingMedium {
   public:
-    /// The coefficients are those at density 1.
-    VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density);
+    /// The coefficients are those at density 1, and their emission that where it is hottest, if heat is given.
+    VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density,
+                  const std::optional<Heat>& heat = std::nullopt);
 
     glm::vec3 transmittance(const Way& way, Sampler& sampler) const { return pass(way, sampler).left; }
     Passage pass(const Way& way, Sampler& sampler) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
-    /// The share of the coefficients at eight points.
-    BatchOfFloats density_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
-        return tracer::density_at(density_, x, y, z);
-    }
+    /// The luminance of what shines at eight points, over that where it is densest and hottest.
+    BatchOfFloats brightness_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
     /// A box outside of which there is nothing of it.
     const Bounds& bounds() const { return bounds_of(density_); }
 
   private:
+    // What a tentative collision is like: how far it is along the way, the density there, the rate of such collisions
+    // per unit of length, and the temperature's share of the greatest, which is 1 where none is given.
+    struct Collision {
+        float distance, density, rate, heat;
+    };
     template <class Visit>
     void for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const;
+    glm::vec3 emission(const ScatteringCoefficients::ForLight& coefficients, float heat, const Way& way) const {
+        if (!heat_) return coefficients.emission;
+        return heat_->light(heat, coefficients.emission, luminance_, way.wavelengths);
+    }
 
     ScatteringCoefficients coefficients_;
     Density density_;
-    float densest_;  ///< max σt where ρ is 1
+    std::optional<Heat> heat_;
+    float densest_;    ///< max σt where ρ is 1
+    float luminance_;  ///< of the coefficients' emission
 };
 
 }  // namespace phasetree::tracer

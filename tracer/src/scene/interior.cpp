@@ -50,8 +50,30 @@ void check(const P& p) {
     needs(p.density.has_value(), attenuates, "density", "scattering");
     needs(p.density_grid.has_value(), attenuates, "density_grid", "scattering");
     needs(p.emission_spectrum != nullptr, p.emission.has_value(), "emission_spectrum", "emission");
+    either(p.temperature_grid.has_value(), p.emission_spectrum != nullptr, "temperature_grid", "emission_spectrum");
+    needs(p.temperature_grid.has_value(), p.emission.has_value(), "temperature_grid", "emission");
+    needs(p.temperature_grid.has_value(), p.density || p.density_grid, "temperature_grid", "density");
     needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
     needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
+}
+
+// With the emission's spectrum at the hottest place, if anything is hot enough to shine.
+std::optional<Heat> heat_of(const Voxels& temperatures, ScatteringCoefficients& c) {
+    // Nothing that a scene may hold is colder, so numbers below are in another unit.
+    constexpr float coldest = 100, coolest_that_shines = 500, hottest = 100000;
+    const VoxelDensity shares = temperatures.read();
+    const float kelvin = temperatures.factor * shares.greatest();
+    if (kelvin > hottest || (kelvin > 0 && kelvin < coldest))
+        throw ParameterError("temperature_grid",
+                             fmt::format("its greatest temperature would be {:.4g} K; \"factor\" makes kelvin of the "
+                                         "numbers, from {} to {}",
+                                         kelvin, coldest, hottest));
+    if (kelvin < coolest_that_shines) {
+        c.emission = glm::vec3(0.0f);
+        return std::nullopt;
+    }
+    c.emission_spectrum = std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(kelvin));
+    return Heat(shares, kelvin);
 }
 
 Absorption absorption_of(const P& p) {
@@ -79,17 +101,18 @@ Medium ClearParameters::interior() const {
         c.absorption = measured.absorption * *scale;
     }
     // By wavelength a medium may lose nothing here and there.
-    const bool has_spectrum = absorption_spectrum || emission_spectrum;
+    const bool has_spectrum = absorption_spectrum || emission_spectrum || temperature_grid;
     const glm::vec3 extinction = has_spectrum ? glm::vec3(c.greatest_extinction()) : c.extinction();
     for (int i = 0; i < 3; ++i)
         if (c.emission[i] > 0.0f && !(extinction[i] > 0.0f))
             throw ParameterError("emission",
                                  "\"emission\" needs absorption or scattering in the same channel: without "
                                  "any, light would grow without end along a ray");
-    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth));
+    const std::optional<Heat> heat = temperature_grid ? heat_of(*temperature_grid, c) : std::nullopt;
+    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth), heat);
     if (density_grid) {
         const VoxelDensity voxels = density_grid->read();
-        return VaryingMedium(c.times(density_grid->factor * voxels.greatest()), voxels);
+        return VaryingMedium(c.times(density_grid->factor * voxels.greatest()), voxels, heat);
     }
     if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
     return AbsorbingMedium{c.absorption};

@@ -91,6 +91,7 @@ struct ClearParameters : FilmParameters {
     std::optional<Field> density{};
     std::optional<float> density_depth{};
     std::optional<Voxels> density_grid{};
+    std::optional<Voxels> temperature_grid{};
 
     template <class V>
     static void parameters(V&& v) {
@@ -162,6 +163,12 @@ struct ClearParameters : FilmParameters {
                                       "In place of a field of densities: numbers at voxels, of which absorption, "
                                       "scattering and emission are multiples.",
                                       limits::any, true});
+        v(&P::temperature_grid,
+          Parameter{"temperature_grid", "K",
+                    "With a density: temperatures at voxels, by which the medium shines as what is hot does, in "
+                    "proportion to its density. The emission is that of the hottest place where the density is 1, and "
+                    "only its brightness counts. The \"factor\" makes kelvin of the numbers.",
+                    limits::any, true});
         film_parameters<P>(v);
     }
     Medium interior() const;

@@ -137,9 +137,9 @@ class Brightness {
             const EightPoints at(eighth);
             const BatchOfFloats distance = finder_.distances(at, phase_);
             const auto* varying = std::get_if<VaryingMedium>(&clear.interior);
-            const BatchOfFloats density = varying ? varying->density_at(at.x, at.y, at.z) : BatchOfFloats{};
+            const BatchOfFloats brightness = varying ? varying->brightness_at(at.x, at.y, at.z) : BatchOfFloats{};
             for (std::size_t i = 0; i < batch_size; ++i)
-                if (distance[i] < 0.0f) inside += (varying ? density[i] : 1.0f) / 64;
+                if (distance[i] < 0.0f) inside += (varying ? brightness[i] : 1.0f) / 64;
         }
         // The volume of a large box is more than a float holds.
         const glm::dvec3 extent(box.extent());

@@ -7,6 +7,7 @@
 
 #include "image/luminance.hpp"
 #include "spectrum/daylight.hpp"
+#include "spectrum/planck.hpp"
 
 namespace phasetree::tracer {
 
@@ -41,9 +42,8 @@ LightSpectrum::LightSpectrum(const Spectrum& power)
 }
 
 LightSpectrum LightSpectrum::of_temperature(float kelvin) {
-    constexpr double second_radiation_constant = 1.438776877e7;  // nm K
     std::vector<Spectrum::Point> points;
-    const auto exponent = [&](double nm) { return second_radiation_constant / (nm * static_cast<double>(kelvin)); };
+    const auto exponent = [&](double nm) { return planck_exponent(nm, static_cast<double>(kelvin)); };
     // Divided by the power at 780 nm, all are good floats from 500 K on, which is the least that scene files may say.
     const double reference = exponent(last_nanometre);
     for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {

@@ -1,6 +1,5 @@
-// How the power of a light is spread over the wavelengths: by measured points, or as what is hot shines,
-//     S(λ) ∝ λ⁻⁵/(exp(c₂/(λ T)) − 1),   c₂ = 1.4388·10⁷ nm K          (Planck's law)
-// at the temperature T in kelvin: a candle has 1,900, a light bulb 2,700, a halogen lamp 3,000.
+// How the power of a light is spread over the wavelengths: by measured points, or as what is hot shines, by Planck's
+// law (planck.hpp) at a temperature in kelvin: a candle has 1,900, a light bulb 2,700, a halogen lamp 3,000.
 //
 // Only its shape counts. How bright the light is, is said as for any other, as a radiance in red, green and blue, of
 // which the luminance is kept and the colour replaced. Light of all spectra is relative to D65 (wavelength.hpp), so a
@@ -9,7 +8,7 @@
 // and one of colours that spectrum's colour. What of that is negative, because red, green and blue cannot mix the
 // colour, is 0.
 //
-// References: CODATA 2018 (c₂); temperatures: Wyszecki & Stiles, Color Science, 2nd ed., 1982, section 1.2.
+// Temperatures: Wyszecki & Stiles, Color Science, 2nd ed., 1982, section 1.2.
 #pragma once
 
 #include <glm/vec3.hpp>

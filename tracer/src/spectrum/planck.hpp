@@ -1,0 +1,22 @@
+// Planck's law: what is hot sends at a wavelength λ in proportion to
+//     B(λ, T) ∝ λ⁻⁵/(exp(c₂/(λ T)) − 1),   c₂ = 1.4388·10⁷ nm K,
+// at the temperature T in kelvin. Reference: CODATA 2018 (c₂).
+#pragma once
+
+#include <cmath>
+
+namespace phasetree::tracer {
+
+/// c₂/(λ T).
+inline double planck_exponent(double nanometres, double kelvin) {
+    constexpr double second_radiation_constant = 1.438776877e7;  // nm K
+    return second_radiation_constant / (nanometres * kelvin);
+}
+
+/// B(λ, T) at a wavelength over B(λ, hottest); 0 for 0 K.
+inline double planck_ratio(double nanometres, double kelvin, double hottest) {
+    if (!(kelvin > 0)) return 0;
+    return std::expm1(planck_exponent(nanometres, hottest)) / std::expm1(planck_exponent(nanometres, kelvin));
+}
+
+}  // namespace phasetree::tracer
