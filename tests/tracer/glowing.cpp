@@ -1,12 +1,14 @@
 // Phases and meshes that shine by themselves: closed forms, a furnace whose walls glow, and shadow rays against the
 // paths' own directions. Balls must cover what shines, or shadow rays find it by chance.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "paths.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 #include "sampling/warps.hpp"
 #include "scene/shining_parts.hpp"
 #include "support/uniform.hpp"
@@ -216,6 +218,24 @@ TEST_CASE("shadow rays and directions find the same light of flames") {
                 R"({"over": [{"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 1], "of": {"sphere": {"radius": 0.5}}}}}},
                                   {"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 1], "of": {"sphere": {"radius": 0.7}}}}}},
                                   {"set": {"phase": "wall", "of": {"translate": {"by": [0, 0, 3], "of": {"box": {"size": [6, 6, 0.5]}}}}}}]})",
+                floor_of + ", " + dark),
+            60'000);
+    }
+    SUBCASE("a flame of temperatures at voxels") {
+        const phasetree::support::TemporaryDirectory folder;
+        for (int layer = 0; layer < 12; ++layer) {
+            std::string image = "P5 6 6 255\n";
+            for (int i = 0; i < 36; ++i) image += static_cast<char>(120 + 11 * layer);
+            phasetree::support::write_text(folder / fmt::format("t_{:02}.pgm", layer), image);
+        }
+        check_against_directions(
+            scene_of(
+                fmt::format(
+                    R"("flame": {{"clear": {{{}, "density": {{"translate": {{"by": [0, 0, 1], "of": {{"sphere": {{"radius": 0.45}}}}}}}},
+                        "density_depth": 0.3, "temperature_grid": {{"file": "{}", "spacing": [0.2, 0.2, 0.1],
+                        "translate": [0, 0, 1], "factor": 2200}}}}}})",
+                    flame, (folder / "t_##.pgm").string()),
+                R"({"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 1], "of": {"sphere": {"radius": 0.5}}}}}})",
                 floor_of + ", " + dark),
             60'000);
     }

@@ -158,6 +158,12 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     write_text(folder / "layer_01.pgm", std::string(100, ' '));
     write_text(folder / "layer_02.pgm", std::string(20, ' '));
     CHECK(bytes(R"({"x": "layer_##.pgm", "y": "#808080", "z": "none_##.pgm"})") == 120);
+    // Other files may have a # in their names, too.
+    write_text(folder / "part#1.obj", std::string(7, ' '));
+    std::filesystem::create_directory(folder / "a#b");
+    write_text(folder / "a#b/part.obj", std::string(3, ' '));
+    CHECK(bytes(R"({"x": "part#1.obj", "y": "a#b/part.obj"})") == 10);
+    CHECK(bytes(R"({"x": "layer_##.pgm"})") == 120);
     const auto identity = [&] { return fingerprint(Document::from_file(folder / "scene.json")); };
     const std::uint64_t before = identity();
     write_text(folder / "layer_02.pgm", std::string(20, '!'));

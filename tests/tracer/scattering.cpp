@@ -219,17 +219,17 @@ TEST_CASE("a flight's weights: what passes, what is scattered, what shines, by c
 // of 1 % of the temperature is found.
 TEST_CASE("what is hot shines by its temperature, in red, green and blue and by wavelength") {
     constexpr int count = 33;
-    constexpr double hottest = 2400, sigma = 1.5, length = 1.6;
+    constexpr double hottest = 2400, reference = 2000, sigma = 1.5, length = 1.6;
     const VoxelLattice lattice{{2, 2, count}, {-0.5, -0.5, 0}, {1, 1, length / (count - 1)}};
     const auto rising = [](int, int, int z) { return 0.25 + 0.75 * z / (count - 1); };
     const VoxelDensity temperatures(VoxelGrid::of_voxels("test", lattice, rising), {});
     const VoxelDensity even(VoxelGrid::of_voxels("test", lattice, [](int, int, int) { return 1; }), {});
-    const auto spectrum = std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(hottest));
+    const auto spectrum = std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(reference));
     const ScatteringCoefficients glowing{
         .absorption = glm::vec3(sigma), .emission = glm::vec3(2.0f), .emission_spectrum = spectrum};
-    const VaryingMedium medium(glowing, even, Heat(temperatures, static_cast<float>(hottest)));
+    const VaryingMedium medium(glowing, even, Heat(temperatures, hottest, reference));
     const Wavelengths three = Wavelengths::three(0.2f, WavelengthDistribution());
-    // 2 ∫ exp(−σ t) B(λ, T(t))/B(λ, T̄) dt times the light at the hottest, of luminance 1.
+    // 2 ∫ exp(−σ t) B(λ, T(t))/B(λ, T₀) dt times the light at T₀, of luminance 1.
     const auto expected = [&](double nanometres, double error) {
         constexpr int steps = 2000;
         double sum = 0;
@@ -237,7 +237,7 @@ TEST_CASE("what is hot shines by its temperature, in red, green and blue and by 
             const double t = length * (i + 0.5) / steps;
             const double kelvin = hottest * (0.25 + 0.75 * t / length) * error;
             const double c2 = 1.438776877e7 / nanometres;
-            sum += std::exp(-sigma * t) * std::expm1(c2 / hottest) / std::expm1(c2 / kelvin) * length / steps;
+            sum += std::exp(-sigma * t) * std::expm1(c2 / reference) / std::expm1(c2 / kelvin) * length / steps;
         }
         return 2 * sum * static_cast<double>(spectrum->relative_at(static_cast<float>(nanometres)));
     };
@@ -250,7 +250,7 @@ TEST_CASE("what is hot shines by its temperature, in red, green and blue and by 
             const double kelvin = hottest * (0.25 + 0.75 * t / length) * error;
             const glm::dvec3 mixed = colour_of([&](double nm) {
                 const double c2 = 1.438776877e7 / nm;
-                return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / hottest) /
+                return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / reference) /
                        std::expm1(c2 / kelvin);
             });
             const glm::dvec3 positive = glm::max(mixed, glm::dvec3(0));
@@ -283,20 +283,74 @@ TEST_CASE("what is hot shines by its temperature, in red, green and blue and by 
             CHECK(mean_p_value(passed[i], of(1.01)) < significance);
         }
     }
-    // Half as hot it is as bright as Planck's law says.
-    const Heat heat(temperatures, static_cast<float>(hottest));
-    CHECK(heat.luminance(1) == doctest::Approx(1).epsilon(1e-4));
+    // It is as bright as Planck's law says.
+    const Heat heat(temperatures, hottest, reference);
+    CHECK(heat.luminance(static_cast<float>(reference / hottest)) == doctest::Approx(1).epsilon(1e-3));
     CHECK(heat.luminance(0) == 0.0f);
     const auto brightness = [&](double kelvin) {
         return luminance(glm::vec3(colour_of([&](double nm) {
             const double c2 = 1.438776877e7 / nm;
-            return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / hottest) /
+            return static_cast<double>(spectrum->relative_at(static_cast<float>(nm))) * std::expm1(c2 / reference) /
                    std::expm1(c2 / kelvin);
         })));
     };
     for (const float share : {0.4f, 0.5f, 0.73f, 0.9f})
         CHECK(heat.luminance(share) ==
               doctest::Approx(static_cast<double>(brightness(hottest * static_cast<double>(share)))).epsilon(2e-3));
+}
+
+TEST_CASE("shadow rays are sent to flames by their density and their heat") {
+    const VoxelLattice lattice{{2, 2, 17}, {-0.5, -0.5, 0}, {1, 1, 0.125}};
+    const auto rising = [](int, int, int z) { return 0.25 + 0.75 * z / 16; };
+    const VoxelDensity temperatures(VoxelGrid::of_voxels("test", lattice, rising), {});
+    const Heat heat(temperatures, 2000, 2000);
+    const VaryingMedium medium({.absorption = glm::vec3(1.0f), .emission = glm::vec3(1.0f)}, FieldDensity(box, 0.25f),
+                               heat);
+    BatchOfFloats x{}, y{}, z{};
+    for (std::size_t i = 0; i < batch_size; ++i) z[i] = 0.05f * static_cast<float>(i);
+    const BatchOfFloats brightness = medium.brightness_at(x, y, z);
+    for (std::size_t i = 0; i < batch_size; ++i) {
+        const double share = 0.25 + 0.75 * static_cast<double>(z[i]) / 2;
+        const double expected =
+            density_at(1 + static_cast<double>(z[i])) * static_cast<double>(heat.luminance(static_cast<float>(share)));
+        CHECK(static_cast<double>(brightness[i]) == doctest::Approx(expected).epsilon(1e-4));
+    }
+    CHECK(brightness[0] < 0.01f * heat.luminance(0.6f));
+}
+
+TEST_CASE("absorption that is so many times as dense, by colour and by wavelength") {
+    const Wavelengths three = Wavelengths::three(0.3f, WavelengthDistribution());
+    const auto spectrum =
+        std::make_shared<const Spectrum>(std::vector<Spectrum::Point>{{400, 1}, {500, 4}, {600, 0.5f}, {700, 2}});
+    const Absorption all[] = {glm::vec3(1, 2, 3), Absorption::left_after({0.2f, 0.5f, 0.8f}, 0.5f),
+                              Absorption::of(spectrum)};
+    for (const Absorption& one : all) {
+        const Absorption denser = one.times(2).times(1.5f);
+        for (const Wavelengths* const wavelengths : {static_cast<const Wavelengths*>(nullptr), &three})
+            for (int c = 0; c < 3; ++c)
+                CHECK(denser.for_light(wavelengths)[c] == doctest::Approx(3 * one.for_light(wavelengths)[c]));
+        const glm::vec3 scattering(0.5f, 1, 0.25f);
+        CHECK(denser.greatest_with(3.0f * scattering) == doctest::Approx(3 * one.greatest_with(scattering)));
+    }
+}
+
+TEST_CASE("behind a block of voxels of which one is far denser there is still something") {
+    // The bound on the density in the first two blocks is 10⁶, of which a way that passes the voxel meets nothing.
+    const VoxelLattice lattice{{8, 8, 64}, {-3.5, -3.5, 0.5}, {1, 1, 1}};
+    const VoxelDensity density(VoxelGrid::of_voxels("test", lattice,
+                                                    [](int x, int y, int z) {
+                                                        if (x == 0 && y == 0 && z == 4) return 1e6;
+                                                        return z >= 32 ? 0.05 : 0.0;
+                                                    }),
+                               {});
+    const VaryingMedium medium(ScatteringCoefficients{.absorption = glm::vec3(1.0f)}.times(density.greatest()),
+                               density);
+    Moments left;
+    for (std::uint32_t n = 0; n < 300; ++n) {
+        Sampler sampler = sampler_of(n);
+        left.add(static_cast<double>(medium.transmittance({{2, 2, -1}, up, 80}, sampler).x));
+    }
+    CHECK(mean_p_value(left, std::exp(-0.05 * 32), 1e-2) > 1e-4);
 }
 
 TEST_CASE("ways without end, and through nothing") {

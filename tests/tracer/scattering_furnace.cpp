@@ -5,12 +5,14 @@
 // are alike, and else in the mean of the channels. So few samples tell exactly whether any light is lost or found
 // twice. With shadow rays it is the mean over paths.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "paths.hpp"
+#include "phasetree_support/temporary_directory.hpp"
 
 namespace test_scattering_furnace {
 
@@ -39,6 +41,27 @@ struct Case {
 const std::string cloud =
     R"("density": {"displace": {"amplitude": 0.1, "scale": 0.4, "of": {"sphere": {"radius": 0.9}}}}, "density_depth": 0.3)";
 
+// Most of it is empty, and blocks of its voxels are of different densities.
+const std::string& smoke() {
+    static const phasetree::support::TemporaryDirectory folder;
+    static const std::string grid = [] {
+        for (int layer = 0; layer < 20; ++layer) {
+            std::string image = "P5 20 20 255\n";
+            for (int i = 0; i < 400; ++i) {
+                const int x = i % 20, y = i / 20;
+                const bool is_empty = (x / 5 + y / 5 + layer / 5) % 3 == 0;
+                image +=
+                    static_cast<char>(is_empty ? 0 : 10 + (37 * x + 91 * y + 53 * layer) % (layer < 10 ? 60 : 240));
+            }
+            phasetree::support::write_text(folder / fmt::format("smoke_{:02}.pgm", layer), image);
+        }
+        return fmt::format(
+            R"("density_grid": {{"file": "{}", "spacing": [0.09, 0.09, 0.09], "rotate_z": 20, "factor": 2}})",
+            (folder / "smoke_##.pgm").string());
+    }();
+    return grid;
+}
+
 const Case cases[] = {
     {"isotropic", R"("ior": 1, "scattering": [3, 3, 3])", ball, true},
     {"forwards", R"("ior": 1, "scattering": [8, 8, 8], "anisotropy": 0.9)", ball, true},
@@ -46,6 +69,8 @@ const Case cases[] = {
     {"in a glass", R"("ior": 1.35, "scattering": [4, 4, 4], "anisotropy": 0.3)", glass, true},
     {"of varying density", R"("ior": 1, "scattering": [9, 9, 9], )" + cloud, ball, true},
     {"of varying density in a glass", R"("ior": 1.35, "scattering": [9, 9, 9], )" + cloud, glass, true},
+    {"of voxels", R"("ior": 1, "scattering": [9, 9, 9], )" + smoke(), ball, true},
+    {"colours of voxels in a glass", R"("ior": 1.35, "scattering": [1, 3, 9], )" + smoke(), glass, false},
     {"colours", R"("ior": 1, "scattering": [0.5, 2, 6])", ball, false},
     {"colours of varying density in a glass", R"("ior": 1.35, "scattering": [1, 3, 9], )" + cloud, glass, false},
 };

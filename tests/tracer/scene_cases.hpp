@@ -265,21 +265,25 @@ inline std::vector<Case> cases_of_materials() {
     const std::string dense =
         R"("ior": 1.5, "absorption": [1, 2, 3], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5)";
     const std::string by_voxels = R"("ior": 1.5, "absorption": [1, 2, 3])";
-    material("clear", R"("ior": 1.5)",
-             {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
-              {"albedo", free_path},
-              {"mean_free_path", free_path},
-              {"medium", measured},
-              {"scale", measured},
-              {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
-              {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
-              {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
-              {"density", dense},
-              {"density_depth", dense},
-              {"density_grid", by_voxels},
-              {"temperature_grid", dense + R"(, "emission": [1, 1, 1])"},
-              {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
-              {"glass", R"("glass": "bk7")"}});
+    material(
+        "clear", R"("ior": 1.5)",
+        {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
+         {"albedo", free_path},
+         {"mean_free_path", free_path},
+         {"medium", measured},
+         {"scale", measured},
+         {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
+         {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
+         {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
+         {"density", dense},
+         {"density_depth", dense},
+         {"density_grid", by_voxels},
+         {"temperature_grid", dense + R"(, "emission": [1, 1, 1])"},
+         {"emission_temperature",
+          dense +
+              R"(, "emission": [1, 1, 1], "temperature_grid": {"file": "layer.pgm", "spacing": [1, 1, 1], "factor": 2000})"},
+         {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
+         {"glass", R"("glass": "bk7")"}});
     // A bump needs a height, and a height a bump.
     const auto bumped = [](const std::string& needed, std::map<std::string, std::string> instead) {
         for (const char* const key : {"bump", "bump_height"})
@@ -340,7 +344,7 @@ inline std::vector<Case> cases() {
                    R"({"clear": {"ior": 1, "absorption": [1, 2, 3], "density_grid": )",
                    "}}",
                    tell_material,
-                   {{"rotate_z", aside}, {"y_up", aside}, {"scale", aside}}});
+                   {{"rotate_z", aside}, {"y_up", aside}}});
     const auto light = [&](const std::string& name, const std::string& needed) {
         all.push_back({"Lights", name, needed, "{\"lights\": [{\"" + name + "\": ", "}]}", tell_lights});
     };

@@ -216,6 +216,7 @@ TEST_CASE("every key changes what is read") {
             if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
                 value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
             if (key == "turbidity") value = "5";
+            if (key == "emission_temperature") value = "3000";
             // Not where the lamp itself is, and seen from it.
             if (key == "centre") value = "[0.25, 0.5, 5]";
             const bool is_of_metal = c.name == "conductor" && key == "reflectance";

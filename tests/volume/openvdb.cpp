@@ -175,7 +175,7 @@ TEST_CASE("which grids of numbers are taken, and what the others are refused for
         return grid;
     };
     const fs::path two = folder.write("two.vdb", {named("density"), named("temperature")});
-    CHECK(said(two) == "2 of its grids are one of densities: \"grid\" must name one");
+    CHECK(said(two) == "2 of its grids are one of numbers: \"grid\" must name one");
     CHECK(said(two, "density") == "nothing");
     CHECK(said(two, "flame") == "none of its 2 grids is called \"flame\"");
     CHECK(said(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))

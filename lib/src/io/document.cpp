@@ -147,15 +147,17 @@ bool is_within(const std::filesystem::path& folder, const std::filesystem::path&
     return end == folder.end();
 }
 
-// Whether all of what a name with # may stand for is within a folder: links in its own folder, of files that begin as
-// it does, may lead elsewhere.
+// Whether all of what a name with # may stand for is within a folder: links in its own folder may lead elsewhere, and
+// count if their names begin and end as it does.
 bool are_layers_within(const std::filesystem::path& folder, const std::filesystem::path& name) {
     const std::string file_name = name.filename().string();
     const std::string begin = file_name.substr(0, file_name.find('#'));
+    const std::string end = file_name.substr(file_name.rfind('#') + 1);
     bool all = true;
     (void)support::each_entry(name.parent_path(), [&](const std::filesystem::path& entry) {
         std::error_code problem;
-        if (entry.filename().string().starts_with(begin) && std::filesystem::is_symlink(entry, problem))
+        const std::string found = entry.filename().string();
+        if (found.starts_with(begin) && found.ends_with(end) && std::filesystem::is_symlink(entry, problem))
             all = all && is_within(folder, std::filesystem::weakly_canonical(entry, problem)) && !problem;
         return all;
     });

@@ -2518,7 +2518,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
             exp(−(a + s) d)
@@ -2541,7 +2541,9 @@ class materials:
         emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
         density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
-        density_grid: In place of a field of densities: numbers at voxels, of which absorption, scattering and emission are multiples. (voxels; default none)
+        density_grid: In place of a field of densities: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+        temperature_grid: With a density: temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. The grid's "factor" makes kelvin of its numbers. Only the brightness of the emission counts then. (voxels in K; default none)
+        emission_temperature: With a grid of temperatures: at which the emission is as it is said. What is hotter shines more. (number in K; at least 500 and at most 100000; default 2000)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
@@ -2606,7 +2608,7 @@ class materials:
         amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
         """
 
-def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
 
         exp(−(a + s) d)
@@ -2629,7 +2631,9 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
     density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
-    density_grid: In place of a field of densities: numbers at voxels, of which absorption, scattering and emission are multiples. (voxels; default none)
+    density_grid: In place of a field of densities: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+    temperature_grid: With a density: temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. The grid's "factor" makes kelvin of its numbers. Only the brightness of the emission counts then. (voxels in K; default none)
+    emission_temperature: With a grid of temperatures: at which the emission is as it is said. What is hotter shines more. (number in K; at least 500 and at most 100000; default 2000)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
@@ -2814,11 +2818,11 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
 def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
     r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, below 0 they count as 0, and outside of all voxels there is nothing. The grid is made larger or smaller first, then turned, then moved.
 
-    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Integers in images are from 0 to 1. Images are seen from above, and stand about the origin. (name of a file)
+    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Integers in images are from 0 to 1. Images are seen from above, x to the right and y up, and stand about the origin. (name of a file)
     grid: Which of an OpenVDB file's grids; needed if it has several of numbers. (text; default "")
     spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; positive; default none)
-    factor: A factor of the numbers. (number; zero or more; default 1)
-    scale: A factor of its size. (number; positive; default 1)
+    factor: What the numbers are multiplied by. (number; zero or more; default 1)
+    scale: What its size is multiplied by. (number; positive; default 1)
     rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
     translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
     y_up: Whether y is up in the file, and not z. (true or false; default false)
@@ -2975,7 +2979,7 @@ class meshes:
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
-        scale: A factor of its size. (number; positive; default 1)
+        scale: What its size is multiplied by. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
@@ -2989,7 +2993,7 @@ class meshes:
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
-        scale: A factor of its size. (number; positive; default 1)
+        scale: What its size is multiplied by. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
@@ -3003,7 +3007,7 @@ class meshes:
 
         material: What it is made of. (opaque material)
         file: The file. (name of a file)
-        scale: A factor of its size. (number; positive; default 1)
+        scale: What its size is multiplied by. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
@@ -3017,7 +3021,7 @@ class meshes:
 
         file: The file. (name of a file)
         material: What all of it is made of, clear parts and holes too, in place of the file's materials. (opaque material; default none)
-        scale: A factor of its size. (number; positive; default 1)
+        scale: What its size is multiplied by. (number; positive; default 1)
         rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         """

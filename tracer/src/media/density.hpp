@@ -31,4 +31,10 @@ inline const Bounds& bounds_of(const Density& density) {
     return std::visit([](const auto& kind) -> const Bounds& { return kind.bounds(); }, density);
 }
 
+/// The bytes that a density's voxels take.
+inline std::size_t bytes_of(const Density& density) {
+    const auto* voxels = std::get_if<VoxelDensity>(&density);
+    return voxels ? voxels->bytes() : 0;
+}
+
 }  // namespace phasetree::tracer

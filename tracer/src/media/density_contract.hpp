@@ -1,7 +1,7 @@
 // What a kind of density must provide: how dense a medium is at each point, ρ in [0, 1].
 //
-// A ray's way is divided into stretches, each with a bound on ρ in it, so that where little can be nothing is asked for
-// (media/varying.hpp).
+// A ray's way is divided into stretches, each with a bound on ρ in it, so that thin parts of a medium take few lookups
+// and empty ones none (media/varying.hpp).
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct DensityStretch {
 /// * at(x, y, z): ρ at eight points.
 /// * bounds(): a box outside of which ρ is 0.
 /// * stretches(way): what gives with next() the stretches of a way, in their order, and none after the last. Outside of
-///   all ρ is 0. Their length() is the distance from where the first may begin to where the last may end.
+///   all stretches ρ is 0. Their length() is the distance from where the first may begin to where the last may end.
 template <class D>
 concept DensityKind = std::copyable<D> && requires(const D& density, const BatchOfFloats& x, const Way& way) {
     { density.at(x, x, x) } -> std::same_as<BatchOfFloats>;
@@ -33,7 +33,7 @@ concept DensityKind = std::copyable<D> && requires(const D& density, const Batch
     { density.stretches(way).length() } -> std::same_as<float>;
 };
 
-/// The part of a way within a box: from the first distance to the second, which is not greater if there is none.
+/// The part of a way within a box, from the first distance to the second. If no part is, the second is not greater.
 inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
     float from = 0.0f, to = way.length;
     for (int i = 0; i < 3; ++i) {

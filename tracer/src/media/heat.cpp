@@ -11,18 +11,18 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Between two of so many steps light is linear to a thousandth where it is a thousandth as bright as at the hottest.
+// Between two of so many steps light is interpolated. It is wrong by less than a thousandth where it is brighter than a
+// thousandth of what the hottest place shines.
 constexpr std::size_t steps = 1024;
 
-std::vector<glm::vec3> colours_up_to(float hottest) {
-    const auto kelvin = static_cast<double>(hottest);
-    const LightSpectrum at_hottest = LightSpectrum::of_temperature(hottest);
+std::vector<glm::vec3> colours_up_to(float hottest, float reference) {
+    const LightSpectrum at_reference = LightSpectrum::of_temperature(reference);
     std::vector<glm::vec3> colours(steps + 1, glm::vec3(0.0f));
     for (std::size_t i = 1; i <= steps; ++i) {
-        const double temperature = kelvin * static_cast<double>(i) / steps;
+        const double temperature = static_cast<double>(hottest) * static_cast<double>(i) / steps;
         const glm::vec3 mixed(colour_of([&](double nm) {
-            return static_cast<double>(at_hottest.relative_at(static_cast<float>(nm))) *
-                   planck_ratio(nm, temperature, kelvin);
+            return static_cast<double>(at_reference.relative_at(static_cast<float>(nm))) *
+                   planck_ratio(nm, temperature, static_cast<double>(reference));
         }));
         // What red, green and blue cannot mix is cut off, and its luminance kept, as light of one temperature does.
         const glm::vec3 positive = glm::max(mixed, glm::vec3(0.0f));
@@ -34,10 +34,11 @@ std::vector<glm::vec3> colours_up_to(float hottest) {
 
 }  // namespace
 
-Heat::Heat(const VoxelDensity& shares, float hottest)
+Heat::Heat(const VoxelDensity& shares, float hottest, float reference)
     : shares_(shares),
       hottest_(hottest),
-      colours_(std::make_shared<const std::vector<glm::vec3>>(colours_up_to(hottest))) {}
+      reference_(reference),
+      colours_(std::make_shared<const std::vector<glm::vec3>>(colours_up_to(hottest, reference))) {}
 
 glm::vec3 Heat::colour(float share) const {
     const float at = std::clamp(share, 0.0f, 1.0f) * static_cast<float>(steps);
@@ -49,15 +50,17 @@ float Heat::luminance(float share) const {
     return tracer::luminance(colour(share));
 }
 
-glm::vec3 Heat::light(float share, const glm::vec3& hottest_light, float hottest_luminance,
+glm::vec3 Heat::light(float share, const glm::vec3& light_at_reference, float luminance_at_reference,
                       const Wavelengths* wavelengths) const {
-    if (!wavelengths || !wavelengths->is_spectral) return for_light(hottest_luminance * colour(share), wavelengths);
+    if (!wavelengths || !wavelengths->is_spectral)
+        return for_light(luminance_at_reference * colour(share), wavelengths);
+    const double kelvin = static_cast<double>(share) * static_cast<double>(hottest_);
     glm::vec3 light;
-    for (int i = 0; i < 3; ++i)
-        light[i] = hottest_light[i] *
-                   static_cast<float>(planck_ratio(static_cast<double>(wavelengths->nanometres[i]),
-                                                   static_cast<double>(share) * static_cast<double>(hottest_),
-                                                   static_cast<double>(hottest_)));
+    for (int i = 0; i < 3; ++i) {
+        const auto nanometres = static_cast<double>(wavelengths->nanometres[i]);
+        light[i] = light_at_reference[i] *
+                   static_cast<float>(planck_ratio(nanometres, kelvin, static_cast<double>(reference_)));
+    }
     return light;
 }
 

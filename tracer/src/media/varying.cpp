@@ -10,9 +10,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// After so many collisions the rest of a way counts as empty. It ends ways without end through a field without bounds,
-// and those that are longer than so many mean free paths of the densest place.
-constexpr int most_collisions = 1 << 16;
+// After so many collisions the rest of a stretch counts as empty, and after so many in all the rest of a way. That ends
+// ways without end through a field without bounds, and those through blocks of voxels of which one is far denser than
+// the others.
+constexpr int most_collisions_of_stretch = 1 << 16, most_collisions = 1 << 20;
 
 // A passage has at least this many tentative collisions on average. Eight are evaluated in the time of one, and more of
 // them estimate what is left and what shines with less noise.
@@ -39,11 +40,13 @@ class TentativeCollisions {
         if (!stretch_) return std::nullopt;
         // So much is gone through before it: the integral of the rate.
         float thickness = -std::log1p(-sampler.next());
-        for (; stretch_; stretch_ = stretches_.next(), gone_ = 0.0f) {
+        for (; stretch_; begin_next()) {
+            if (collisions_ >= most_collisions_of_stretch) continue;
             const float length = stretch_->to - stretch_->from;
             const float rate = std::max(extinction_ * stretch_->greatest, least_rate_);
             if (gone_ + thickness / rate < length) {
                 gone_ += thickness / rate;
+                ++collisions_;
                 return Next{stretch_->from + gone_, rate, stretch_->greatest};
             }
             thickness = std::max(thickness - (length - gone_) * rate, 0.0f);
@@ -52,12 +55,19 @@ class TentativeCollisions {
     }
 
   private:
+    void begin_next() {
+        stretch_ = stretches_.next();
+        gone_ = 0.0f;
+        collisions_ = 0;
+    }
+
     typename D::Stretches stretches_;
     float extinction_;
     float least_rate_ = 0.0f;
     std::optional<DensityStretch> stretch_{};
     // It is counted from where the stretch begins: far away, steps may be less than floats resolve.
     float gone_ = 0.0f;
+    int collisions_ = 0;  // in the stretch
 };
 
 }  // namespace
@@ -67,7 +77,7 @@ VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const D
     : coefficients_(coefficients),
       density_(density),
       heat_(heat),
-      densest_(coefficients.greatest_extinction()),
+      greatest_extinction_(coefficients.greatest_extinction()),
       luminance_(tracer::luminance(coefficients.emission)) {}
 
 BatchOfFloats VaryingMedium::brightness_at(const BatchOfFloats& x, const BatchOfFloats& y,
@@ -82,9 +92,9 @@ BatchOfFloats VaryingMedium::brightness_at(const BatchOfFloats& x, const BatchOf
 // Calls visit(collision) for each until it returns false. Eight are evaluated together.
 template <class Visit>
 void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
-    if (!(densest_ > 0.0f)) return;
+    if (!(greatest_extinction_ > 0.0f)) return;
     const auto visit_those_of = [&]<DensityKind D>(const D& kind) {
-        TentativeCollisions<D> tentative(kind, densest_, way, least);
+        TentativeCollisions<D> tentative(kind, greatest_extinction_, way, least);
         for (int collisions = 0; collisions < most_collisions;) {
             BatchOfFloats at, rate, greatest;
             std::size_t count = 0;

@@ -24,7 +24,8 @@ namespace phasetree::tracer {
 
 class VaryingMedium {
   public:
-    /// The coefficients are those at density 1, and their emission that where it is hottest, if heat is given.
+    /// The coefficients are those at density 1, and their emission is that at the heat's own temperature, if there is
+    /// heat.
     VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density,
                   const std::optional<Heat>& heat = std::nullopt);
 
@@ -33,14 +34,16 @@ class VaryingMedium {
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
-    /// The luminance of what shines at eight points, over that where it is densest and hottest.
+    /// The luminance of what shines at eight points, over that of the coefficients' emission.
     BatchOfFloats brightness_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
+    /// What its voxels take.
+    std::size_t bytes() const { return bytes_of(density_) + (heat_ ? heat_->bytes() : 0); }
     /// A box outside of which there is nothing of it.
     const Bounds& bounds() const { return bounds_of(density_); }
 
   private:
     // What a tentative collision is like: how far it is along the way, the density there, the rate of such collisions
-    // per unit of length, and the temperature's share of the greatest, which is 1 where none is given.
+    // per unit of length, and the temperature's share of the greatest, if there is heat.
     struct Collision {
         float distance, density, rate, heat;
     };
@@ -54,8 +57,8 @@ class VaryingMedium {
     ScatteringCoefficients coefficients_;
     Density density_;
     std::optional<Heat> heat_;
-    float densest_;    ///< max σt where ρ is 1
-    float luminance_;  ///< of the coefficients' emission
+    float greatest_extinction_;  ///< at least σt of any colour or wavelength, where ρ is 1
+    float luminance_;            ///< of the coefficients' emission
 };
 
 }  // namespace phasetree::tracer

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <stdexcept>
 #include <utility>
 
 namespace phasetree::tracer {
@@ -19,18 +20,38 @@ float greatest_of(const VoxelGrid& grid) {
 
 }  // namespace
 
-VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement)
-    : greatest_(greatest_of(grid)), box_(grid.extent()) {
+VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement) : greatest_(greatest_of(grid)) {
     if (greatest_ > 0.0f) grid.divide_by(static_cast<double>(greatest_));
-    grid_ = std::make_shared<const VoxelGrid>(std::move(grid));
+    // Near the grid's own origin floats resolve what they do not where a file may have it.
+    const glm::dvec3 by = placement.linear * grid.lattice.first + placement.by;
+    grid.lattice.first = glm::dvec3(0);
+    for (std::size_t i = 0; i < 3; ++i) grid.table[voxels::first + i] = 0.0f;
+    box_ = grid.extent();
     const glm::dmat3 back = glm::inverse(placement.linear);
     linear_ = glm::mat3(back);
-    by_ = glm::vec3(back * -placement.by);
+    by_ = glm::vec3(back * -by);
     for (int corner = 0; corner < 8; ++corner) {
         glm::dvec3 at;
         for (int i = 0; i < 3; ++i) at[i] = static_cast<double>((corner >> i & 1) != 0 ? box_.high[i] : box_.low[i]);
-        const glm::vec3 p(placement.linear * at + placement.by);
+        const glm::vec3 p(placement.linear * at + by);
         bounds_ = unite(bounds_, {p, p});
+    }
+    check_resolution(placement, by, grid.lattice.spacing);
+    grid_ = std::make_shared<const VoxelGrid>(std::move(grid));
+}
+
+// That coordinates in the scene are a hundred times finer than voxels, and all numbers good floats.
+void VoxelDensity::check_resolution(const VoxelPlacement& placement, const glm::dvec3& by,
+                                    const glm::dvec3& spacing) const {
+    constexpr double finest = 1e2 * 0x1p-24, least = 1e-30, most = 1e30;
+    for (int i = 0; i < 3; ++i) {
+        const double voxel = glm::length(placement.linear[i]) * spacing[i];
+        const double farthest =
+            std::max(std::abs(static_cast<double>(bounds_.low[i])), std::abs(static_cast<double>(bounds_.high[i])));
+        const bool is_good = voxel > least && voxel < most && std::abs(by[i]) < most && voxel > finest * farthest &&
+                             std::isfinite(by_[i]) && std::abs(by_[i]) < static_cast<float>(most);
+        if (!is_good)
+            throw std::invalid_argument("its voxels are too small for where they are, or too large or far away");
     }
 }
 
@@ -86,7 +107,7 @@ std::optional<DensityStretch> VoxelDensity::Stretches::next() {
         const int number = block_.x + blocks_.x * (block_.y + blocks_.y * block_.z);
         const float greatest = directory_[voxels::entry * static_cast<std::size_t>(number) + 2];
         leaves = std::max(leaves, at_);
-        const DensityStretch stretch{from_ + at_, from_ + leaves, greatest};
+        const DensityStretch stretch{from_ + at_, std::min(from_ + leaves, to_), greatest};
         at_ = leaves;
         if (axis) block_[*axis] += step_[*axis] > 0.0f ? 1 : -1;
         if (greatest > 0.0f && stretch.from < stretch.to) return stretch;

@@ -37,17 +37,20 @@ class VoxelDensity {
         glm::ivec3 block_{0}, blocks_{0};  ///< the next block, and how many there are
     };
 
-    /// The grid's values are not negative. `linear` can be inverted.
+    /// The grid's values are not negative. Throws std::invalid_argument for a grid that is so small, so far away or so
+    /// large where it is placed that floats do not tell its voxels apart.
     VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement);
 
     /// The greatest value of a voxel, of which ρ is a share.
     float greatest() const { return greatest_; }
     BatchOfFloats at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
     const Bounds& bounds() const { return bounds_; }
+    std::size_t bytes() const { return grid_->bytes(); }
     Stretches stretches(const Way& way) const { return {*this, way}; }
 
   private:
-    // From the scene to the grid's own space.
+    void check_resolution(const VoxelPlacement& placement, const glm::dvec3& by, const glm::dvec3& spacing) const;
+    // From the scene to the grid's own space, whose origin is the first voxel's centre.
     glm::vec3 to_grid(const glm::vec3& p) const { return linear_ * p + by_; }
 
     std::shared_ptr<const VoxelGrid> grid_;

@@ -47,33 +47,42 @@ void check(const P& p) {
     needs(p.anisotropy.has_value(), is_scattering, "anisotropy", "scattering");
     const bool attenuates = is_scattering || p.absorption || p.absorption_spectrum || p.color;
     either(p.density_grid.has_value(), p.density.has_value(), "density_grid", "density");
-    needs(p.density.has_value(), attenuates, "density", "scattering");
-    needs(p.density_grid.has_value(), attenuates, "density_grid", "scattering");
+    needs(p.density.has_value(), attenuates, "density", "scattering\" or \"absorption");
+    needs(p.density_grid.has_value(), attenuates, "density_grid", "scattering\" or \"absorption");
     needs(p.emission_spectrum != nullptr, p.emission.has_value(), "emission_spectrum", "emission");
     either(p.temperature_grid.has_value(), p.emission_spectrum != nullptr, "temperature_grid", "emission_spectrum");
     needs(p.temperature_grid.has_value(), p.emission.has_value(), "temperature_grid", "emission");
-    needs(p.temperature_grid.has_value(), p.density || p.density_grid, "temperature_grid", "density");
+    needs(p.temperature_grid.has_value(), p.density || p.density_grid, "temperature_grid",
+          "density_grid\" or \"density");
     needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
     needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
 }
 
-// With the emission's spectrum at the hottest place, if anything is hot enough to shine.
-std::optional<Heat> heat_of(const Voxels& temperatures, ScatteringCoefficients& c) {
-    // Nothing that a scene may hold is colder, so numbers below are in another unit.
-    constexpr float coldest = 100, coolest_that_shines = 500, hottest = 100000;
-    const VoxelDensity shares = temperatures.read();
-    const float kelvin = temperatures.factor * shares.greatest();
-    if (kelvin > hottest || (kelvin > 0 && kelvin < coldest))
+// None where nothing is hot at all.
+std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
+    constexpr float hottest = 1e6f, coldest = 100;
+    const float kelvin = temperatures.greatest();
+    const bool is_no_kelvin = kelvin > 0 && kelvin < coldest && temperatures.factor == 1;
+    if (!(kelvin <= hottest) || is_no_kelvin)
         throw ParameterError("temperature_grid",
                              fmt::format("its greatest temperature would be {:.4g} K; \"factor\" makes kelvin of the "
-                                         "numbers, from {} to {}",
-                                         kelvin, coldest, hottest));
-    if (kelvin < coolest_that_shines) {
-        c.emission = glm::vec3(0.0f);
-        return std::nullopt;
-    }
-    c.emission_spectrum = std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(kelvin));
-    return Heat(shares, kelvin);
+                                         "numbers",
+                                         kelvin));
+    if (!(kelvin > 0)) return std::nullopt;
+    return Heat(*temperatures.shares, kelvin, reference);
+}
+
+// Of what is as dense as the voxels are at most.
+ScatteringCoefficients densest(const ScatteringCoefficients& coefficients, float density) {
+    constexpr float most = 1e15f;
+    const ScatteringCoefficients c = coefficients.times(density);
+    const glm::vec3 emission = c.emission;
+    if (!(c.greatest_extinction() <= most) || !(std::max({emission.x, emission.y, emission.z}) <= most))
+        throw ParameterError(
+            "density_grid", fmt::format("where its numbers, by their \"factor\", are {:.4g}, absorption, scattering or "
+                                        "emission would be beyond 10¹⁵ per metre",
+                                        density));
+    return c;
 }
 
 Absorption absorption_of(const P& p) {
@@ -108,12 +117,15 @@ Medium ClearParameters::interior() const {
             throw ParameterError("emission",
                                  "\"emission\" needs absorption or scattering in the same channel: without "
                                  "any, light would grow without end along a ray");
-    const std::optional<Heat> heat = temperature_grid ? heat_of(*temperature_grid, c) : std::nullopt;
-    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth), heat);
-    if (density_grid) {
-        const VoxelDensity voxels = density_grid->read();
-        return VaryingMedium(c.times(density_grid->factor * voxels.greatest()), voxels, heat);
+    std::optional<Heat> heat;
+    if (temperature_grid) {
+        heat = heat_of(*temperature_grid, emission_temperature);
+        if (!heat) c.emission = glm::vec3(0.0f);
+        c.emission_spectrum =
+            std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(emission_temperature));
     }
+    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth), heat);
+    if (density_grid) return VaryingMedium(densest(c, density_grid->greatest()), *density_grid->shares, heat);
     if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
     return AbsorbingMedium{c.absorption};
 }

@@ -92,6 +92,7 @@ struct ClearParameters : FilmParameters {
     std::optional<float> density_depth{};
     std::optional<Voxels> density_grid{};
     std::optional<Voxels> temperature_grid{};
+    float emission_temperature = 2000.0f;
 
     template <class V>
     static void parameters(V&& v) {
@@ -160,15 +161,19 @@ struct ClearParameters : FilmParameters {
           Parameter{"density_depth", "m", "How deep inside of the density's field the medium is as dense as it gets.",
                     limits::positive, true});
         v(&P::density_grid, Parameter{"density_grid", "",
-                                      "In place of a field of densities: numbers at voxels, of which absorption, "
-                                      "scattering and emission are multiples.",
+                                      "In place of a field of densities: numbers at voxels, by which absorption, "
+                                      "scattering and emission are multiplied.",
                                       limits::any, true});
         v(&P::temperature_grid,
           Parameter{"temperature_grid", "K",
                     "With a density: temperatures at voxels, by which the medium shines as what is hot does, in "
-                    "proportion to its density. The emission is that of the hottest place where the density is 1, and "
-                    "only its brightness counts. The \"factor\" makes kelvin of the numbers.",
+                    "proportion to its density. The grid's \"factor\" makes kelvin of its numbers. Only the brightness "
+                    "of the emission counts then.",
                     limits::any, true});
+        v(&P::emission_temperature,
+          Parameter{"emission_temperature", "K",
+                    "With a grid of temperatures: at which the emission is as it is said. What is hotter shines more.",
+                    Limits{.low = 500, .high = 100000}, true});
         film_parameters<P>(v);
     }
     Medium interior() const;

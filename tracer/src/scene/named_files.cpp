@@ -23,6 +23,11 @@ std::optional<std::filesystem::path> named_file(const Document& document, Value 
     return std::nullopt;
 }
 
+// "#rrggbb", and what looks like it, is no name of a file.
+bool is_colour(std::string_view text) {
+    return text.starts_with('#') && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string_view::npos;
+}
+
 // The images of a stack; none if it is no name of one.
 std::vector<std::filesystem::path> layers_named_by(const Document& document, Value string) {
     std::vector<std::filesystem::path> layers;
@@ -54,11 +59,10 @@ std::uint64_t bytes_named_in(const Document& document, Value value) {
 }  // namespace
 
 std::vector<std::filesystem::path> named_files(const Document& document, Value string) {
-    // A colour is written with a #, too, and has no dot.
-    const std::string_view text = string.string();
-    if (text.find('#') != std::string_view::npos && text.find('.') != std::string_view::npos)
-        return layers_named_by(document, string);
+    if (is_colour(string.string())) return {};
     std::vector<std::filesystem::path> files;
+    if (std::filesystem::path(string.string()).filename().string().find('#') != std::string::npos)
+        files = layers_named_by(document, string);
     if (const auto path = named_file(document, string)) {
         files.push_back(*path);
         if (is_gltf(*path))

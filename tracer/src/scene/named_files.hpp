@@ -10,10 +10,9 @@
 
 namespace phasetree::tracer {
 
-/// The regular file that a string names, if there is one, and those that it names itself; or the images of the stack
-/// that it names, "layer_###.png". Which strings name files only
-/// their readers know: one that is a file's name by chance counts, too. No file that lies outside of the folder that
-/// files must lie in is asked for.
+/// The regular file that a string names, if there is one, and those that it names itself; and the images of the stack
+/// that a string such as "layer_###.png" names. Which strings name files only their readers know: one that is a file's
+/// name by chance counts, too. No file that lies outside of the folder that files must lie in is asked for.
 std::vector<std::filesystem::path> named_files(const Document& document, Value string);
 
 /// Calls f with each document from which a scene takes an object, after `document` itself. Throws SceneError for one

@@ -195,7 +195,7 @@ ValueType NormalMapType::describe(const Parameter&) {
 using VoxelsType = ParameterType<tracer::Voxels, Parameter>;
 
 tracer::Voxels VoxelsType::read(const Document& document, Value value, std::string_view what, const Parameter&) {
-    return read_kind<tracer::Voxels>(document, value, what, [](const tracer::Voxels& voxels) { return voxels; });
+    return read_kind<tracer::Voxels>(document, value, what, prepared<tracer::Voxels>);
 }
 
 ValueType VoxelsType::describe(const Parameter&) {

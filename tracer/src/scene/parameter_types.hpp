@@ -90,7 +90,7 @@ struct ParameterType<tracer::NormalMap, Parameter> {
     static std::string written(const tracer::NormalMap&) { return "none"; }
 };
 
-// The file is not read yet.
+// The file is read.
 template <>
 struct ParameterType<tracer::Voxels, Parameter> {
     static tracer::Voxels read(const Document&, Value, std::string_view what, const Parameter&);

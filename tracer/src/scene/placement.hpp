@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 
 template <class P, class V>
 void placement_parameters(V&& v) {
-    v(&P::scale, Parameter{"scale", "", "A factor of its size.", limits::positive, true});
+    v(&P::scale, Parameter{"scale", "", "What its size is multiplied by.", limits::positive, true});
     v(&P::rotate_z_degrees,
       Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
                 limits::any, true});

@@ -76,7 +76,7 @@ Material read_phase_material(const Document& document, Value phase) {
 
 namespace {
 
-// A field of densities stands still in the scene, so an object that has one must, too.
+// What varies a density stands still in the scene, so an object that has one must, too.
 void refuse_moved_densities(const Document& document, const Scene& scene) {
     PhaseSet dense;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -89,12 +89,26 @@ void refuse_moved_densities(const Document& document, const Scene& scene) {
     scene.placed.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
         const bool moves = moving[static_cast<std::size_t>(&object - scene.placed.objects.data())];
         if (!(phases(object.tree) & dense).empty() && (moves || to_scene != Transform()))
-            throw document.error(*document.root().find("objects"),
-                                 fmt::format("\"{}\" has a phase with a \"density\", which is of the scene's space, so "
-                                             "it can have no transform and no instances",
-                                             object.name));
+            throw document.error(
+                *document.root().find("objects"),
+                fmt::format("\"{}\" has a phase with a \"density\" or \"density_grid\", which is of the scene's "
+                            "space, so "
+                            "it can have no transform and no instances",
+                            object.name));
         return true;
     });
+}
+
+// Adds a phase's material, unless the voxels of all would be more than a machine may hold.
+void add_material(const Document& document, Value phase, Scene& scene) {
+    constexpr std::size_t most_bytes_of_voxels = std::size_t{4} << 30;
+    scene.materials.push_back(read_phase_material(document, phase));
+    std::size_t bytes = 0;
+    for (const Material& material : scene.materials)
+        if (const Clear* clear = std::get_if<Clear>(&material))
+            if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes += varying->bytes();
+    if (bytes > most_bytes_of_voxels)
+        throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
 }
 
 void refuse_places_of_nothing(const Document& document) {
@@ -110,8 +124,7 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         ObjectsModel model = read_placed_objects(document, shutter, places);
         scene.phases = std::move(model.phases);
         scene.placed = std::move(model.placed);
-        for (const auto& source : model.materials)
-            scene.materials.push_back(read_phase_material(source.document, source.material));
+        for (const auto& source : model.materials) add_material(source.document, source.material, scene);
         refuse_moved_densities(document, scene);
         return;
     }
@@ -119,7 +132,7 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
     SceneTree tree = read_tree(document, file_readers(), places);
     scene.phases = std::move(tree.phases);
     scene.object = with_bounds(tree.object);
-    for (const Value phase : *parts.phases) scene.materials.push_back(read_phase_material(document, phase));
+    for (const Value phase : *parts.phases) add_material(document, phase, scene);
 }
 
 }  // namespace

@@ -67,9 +67,11 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back({"Maps of normals",
                         "An opaque material of a mesh may have one, `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
-    chapters.push_back({"Voxels",
-                        "The medium of a clear material may vary by them, `\"density_grid\": {parameters}`.",
-                        {page_of<Voxels>()}});
+    chapters.push_back(
+        {"Voxels",
+         "Densities and temperatures of the medium of a clear material: `\"density_grid\": {parameters}` and "
+         "`\"temperature_grid\": {parameters}`.",
+         {page_of<Voxels>()}});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
                         pages_of(LightKinds())});
     chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});

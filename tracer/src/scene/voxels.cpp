@@ -7,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-VoxelDensity Voxels::read() const {
+void Voxels::prepare() {
     const bool is_openvdb = has_ending_of_openvdb(file);
     if (is_openvdb && spacing)
         throw ParameterError("spacing", "grids of OpenVDB have a spacing of their own; leave this out",
@@ -18,13 +18,15 @@ VoxelDensity Voxels::read() const {
     try {
         VoxelGrid numbers = is_openvdb ? read_number_grid(file, grid) : read_number_stack(file, glm::dvec3(*spacing));
         const Placement placement(scale, rotate_z_degrees, translate, y_up);
-        VoxelDensity density(std::move(numbers), {glm::dmat3(placement.linear()), glm::dvec3(translate)});
+        const VoxelDensity& density =
+            shares.emplace(std::move(numbers), VoxelPlacement{glm::dmat3(placement.linear()), glm::dvec3(translate)});
         for (int i = 0; i < 3; ++i)
             if (!coordinate.contains(density.bounds().low[i]) || !coordinate.contains(density.bounds().high[i]))
                 throw ParameterError("file", "its voxels would lie beyond 10¹⁵");
-        return density;
     } catch (const ParameterError&) {
         throw;
+    } catch (const std::invalid_argument& e) {
+        throw ParameterError("file", e.what());
     } catch (const std::runtime_error& e) {
         throw ParameterError("file", e.what());
     }

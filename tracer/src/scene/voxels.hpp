@@ -26,6 +26,10 @@ struct Voxels {
     float rotate_z_degrees = 0.0f;
     glm::vec3 translate{0.0f};
     bool y_up = false;
+    std::optional<VoxelDensity> shares{};  // of the greatest number, once it is prepared
+
+    /// The greatest number, by the factor.
+    float greatest() const { return factor * shares->greatest(); }
 
     template <class V>
     static void parameters(V&& v) {
@@ -36,19 +40,18 @@ struct Voxels {
               "An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose "
               "background is 0; or grey images, one for each layer from the lowest z to the highest: a name in "
               "which #### stands for their numbers, such as \"layer_###.png\". Integers in images are from 0 to "
-              "1. Images are seen from above, and stand about the origin."});
+              "1. Images are seen from above, x to the right and y up, and stand about the origin."});
         v(&P::grid, Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of numbers.",
                               limits::any, true});
         v(&P::spacing,
           Parameter{"spacing", "m", "From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own.",
                     limits::positive, true});
-        v(&P::factor, Parameter{"factor", "", "A factor of the numbers.", limits::non_negative, true});
+        v(&P::factor, Parameter{"factor", "", "What the numbers are multiplied by.", limits::non_negative, true});
         placement_parameters<P>(v);
         v(&P::y_up, y_up_parameter);
     }
-    /// What they are as a density: a share of the greatest number, which is told with the factor. Throws
-    /// ParameterError for a file that cannot be used.
-    VoxelDensity read() const;
+    /// Reads the file. Throws ParameterError for one that cannot be used.
+    void prepare();
 };
 
 }  // namespace phasetree::tracer

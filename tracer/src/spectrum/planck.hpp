@@ -13,10 +13,10 @@ inline double planck_exponent(double nanometres, double kelvin) {
     return second_radiation_constant / (nanometres * kelvin);
 }
 
-/// B(λ, T) at a wavelength over B(λ, hottest); 0 for 0 K.
-inline double planck_ratio(double nanometres, double kelvin, double hottest) {
+/// B(λ, T) over B(λ, reference), temperatures in kelvin; 0 for 0 K.
+inline double planck_ratio(double nanometres, double kelvin, double reference) {
     if (!(kelvin > 0)) return 0;
-    return std::expm1(planck_exponent(nanometres, hottest)) / std::expm1(planck_exponent(nanometres, kelvin));
+    return std::expm1(planck_exponent(nanometres, reference)) / std::expm1(planck_exponent(nanometres, kelvin));
 }
 
 }  // namespace phasetree::tracer

@@ -140,7 +140,7 @@ VoxelGrid numbers_of_images(const fs::path& path, const glm::dvec3& spacing) {
         add_layer(layer, layer == layers.front(), lattice.size, values, check, [](float v) { return v; });
     for (glm::length_t i = 0; i < 3; ++i)
         lattice.first[i] = -0.5 * (lattice.size[static_cast<std::size_t>(i)] - 1) * spacing[i];
-    return number_grid(lattice, values);
+    return number_grid(lattice, std::move(values));
 }
 
 }  // namespace phasetree::tracer

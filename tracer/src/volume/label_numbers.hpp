@@ -34,7 +34,7 @@ class LabelNumbers {
     std::uint8_t last_index_ = 0;
 };
 
-// Throws std::runtime_error if there are more voxels than labels may have.
+// Throws std::runtime_error if there are more voxels than labels, and numbers of images, may have.
 inline std::size_t checked_count(const std::array<int, 3>& size) {
     std::size_t count = 1;
     for (const int n : size) {

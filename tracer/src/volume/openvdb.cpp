@@ -244,7 +244,7 @@ LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string
 
 VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
-        const GridBase::Ptr grid = read_grid(path, name, "one of densities", has_numbers, why_no_numbers);
+        const GridBase::Ptr grid = read_grid(path, name, "one of numbers", has_numbers, why_no_numbers);
         if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return numbers_of(*floats);
         return numbers_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
     });
