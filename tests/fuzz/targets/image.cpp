@@ -1,12 +1,14 @@
-// Image files, as an environment and as a height map, by the path tracer's own reading of them. They are small: what a
-// large one costs is no finding.
+// Image files, as an environment, as a height map and as a layer of voxels, by the path tracer's own reading of them.
+// They are small: what a large one costs is no finding.
 #include <OpenImageIO/imageio.h>
 
 #include <array>
 
 #include "fuzz/input_file.hpp"
+#include "fuzz/walked_density.hpp"
 #include "lights/load_environment.hpp"
 #include "scene/read_parts.hpp"
+#include "volume/read_volume.hpp"
 
 namespace phasetree::fuzz {
 
@@ -50,6 +52,10 @@ void run_image(Bytes input) {
         const HeightGrid grid = tracer::read_height_grid(path);
         promised(grid.values.size() == static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
                  "a height map has a value for each pixel");
+    } catch (const std::runtime_error&) {
+    }
+    try {
+        walk_density(tracer::read_number_stack(path, glm::dvec3(1)));
     } catch (const std::runtime_error&) {
     }
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fuzz/input_file.hpp"
+#include "fuzz/walked_density.hpp"
 #include "phasetree/nodes/fields/volume.hpp"
 #include "volume/read_volume.hpp"
 
@@ -28,6 +29,7 @@ void run_volume(Bytes input) {
         const glm::vec3 at = box.low + 0.3f * box.extent();
         promised(voxels::linear_at(numbers.table.data(), Vec3<float>{at.x, at.y, at.z}) >= 0.0f,
                  "numbers are not below 0");
+        walk_density(numbers);
     } catch (const std::runtime_error&) {
     }
     try {
