@@ -124,6 +124,9 @@ TEST_CASE("what is cold does not shine, and what is no temperature is refused") 
     CHECK_FALSE(shines(folder.medium(hot(0))));  // a frame in which nothing burns
     CHECK(folder.said_of(hot(1)).find("its greatest temperature would be 0.4 K; \"factor\" makes kelvin") !=
           std::string::npos);
+    std::string bright = hot(2e5) + R"(, "emission_temperature": 500)";
+    bright.replace(bright.find("[5, 5, 5]"), 9, "[5e5, 5e5, 5e5]");
+    CHECK(folder.said_of(bright).find("where it is hottest, 8e+04 K, the medium") != std::string::npos);
     CHECK(folder.said_of(hot(1e7)).find("its greatest temperature would be 4e+06 K") != std::string::npos);
 }
 

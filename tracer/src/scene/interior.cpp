@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/luminance.hpp"
 #include "media/measured.hpp"
 #include "scene/material_kinds.hpp"
 
@@ -58,9 +59,12 @@ void check(const P& p) {
     needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
 }
 
+// Absorption, scattering and emission beyond these would make infinities of products.
+constexpr float most_per_metre = 1e15f, brightest = 1e25f;
+
 // None where nothing is hot at all.
 std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
-    constexpr float hottest = 1e6f, coldest = 100;
+    constexpr float hottest = 1e5f, coldest = 100;
     const float kelvin = temperatures.greatest();
     const bool is_no_kelvin = kelvin > 0 && kelvin < coldest && temperatures.factor == 1;
     if (!(kelvin <= hottest) || is_no_kelvin)
@@ -74,10 +78,10 @@ std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
 
 // Of what is as dense as the voxels are at most.
 ScatteringCoefficients densest(const ScatteringCoefficients& coefficients, float density) {
-    constexpr float most = 1e15f;
     const ScatteringCoefficients c = coefficients.times(density);
     const glm::vec3 emission = c.emission;
-    if (!(c.greatest_extinction() <= most) || !(std::max({emission.x, emission.y, emission.z}) <= most))
+    if (!(c.greatest_extinction() <= most_per_metre) ||
+        !(std::max({emission.x, emission.y, emission.z}) <= most_per_metre))
         throw ParameterError(
             "density_grid", fmt::format("where its numbers, by their \"factor\", are {:.4g}, absorption, scattering or "
                                         "emission would be beyond 10¹⁵ per metre",
@@ -121,6 +125,12 @@ Medium ClearParameters::interior() const {
     if (temperature_grid) {
         heat = heat_of(*temperature_grid, emission_temperature);
         if (!heat) c.emission = glm::vec3(0.0f);
+        if (heat && !(luminance(c.emission) * heat->luminance(1) <= brightest))
+            throw ParameterError(
+                "temperature_grid",
+                fmt::format("where it is hottest, {:.4g} K, the medium would shine more than 10²⁵; the "
+                            "emission is that at {:.4g} K",
+                            temperature_grid->greatest(), emission_temperature));
         c.emission_spectrum =
             std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(emission_temperature));
     }
