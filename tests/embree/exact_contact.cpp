@@ -151,6 +151,7 @@ const std::vector<Meant> meant = {
      "The wafer is rolled into a tube, with stripes of chocolate."},
     {"ice_cup", {film("vacuum", "sauce", "vanilla")}, "The sauce is spread thin over the vanilla."},
     {"ice_cup", {film(any, "glass", "vacuum")}, "The glass is a thin shell."},
+    {"ink", {film("glass", "water", "vacuum")}, "The water creeps up its vase, and ends there as thin as can be."},
     {"interface", {film("vacuum", "brass", "vacuum")}, "The sheet on the right is the interface of lapis and brass."},
     {"interface",
      {film("lapis", "brass", "vacuum"), film("brass", "lapis", "vacuum")},

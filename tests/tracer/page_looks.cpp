@@ -32,6 +32,11 @@ TEST_CASE("a page shows each kind of material as what it is") {
         look_of_material(R"({"clear": {"ior": 1.3, "absorption": [1, 0, 0], "scattering": [0.1, 0.1, 0.1]}})");
     CHECK(ice.kind == Look::clear);
     CHECK(ice.absorption.x == doctest::Approx(1.1));
+    // Where the density varies its mean is shown: of 1 − |p| in the ball of radius 1, in the cube around it, π/24.
+    const Look ink = look_of_material(R"({"clear": {"ior": 1.3, "absorption": [2, 1, 0], "scattering": [1, 1, 1],
+                                          "density": {"sphere": {"radius": 1}}, "density_depth": 1}})");
+    CHECK(ink.kind == Look::clear);
+    CHECK(ink.absorption.x == doctest::Approx(3 * 3.14159265 / 24).epsilon(0.02));
     const Look flame = look_of_material(R"({"clear": {"ior": 1, "absorption": [2, 2, 2], "emission": [40, 20, 4]}})");
     CHECK(flame.kind == Look::glowing);
     CHECK(flame.color.x == doctest::Approx(3));

@@ -34,6 +34,10 @@ class VaryingMedium {
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
     const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
+    /// ρ at eight points.
+    BatchOfFloats densities_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
+        return density_at(density_, x, y, z);
+    }
     /// The luminance of what shines at eight points, over that of the coefficients' emission.
     BatchOfFloats brightness_at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
     /// What its voxels take.

@@ -40,16 +40,36 @@ void show_light(const glm::vec3& light, Look& look) {
     look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
 }
 
+// The mean density of a medium in a box, by 8³ places.
+float mean_density(const VaryingMedium& medium, const Bounds& box) {
+    float sum = 0;
+    for (int row = 0; row < 64; ++row) {
+        BatchOfFloats x, y, z;
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const glm::vec3 share(static_cast<float>(i), static_cast<float>(row % 8), static_cast<float>(row / 8));
+            const glm::vec3 p = box.low + (share + 0.5f) / 8.0f * box.extent();
+            x[i] = p.x, y[i] = p.y, z[i] = p.z;
+        }
+        const BatchOfFloats densities = medium.densities_at(x, y, z);
+        for (std::size_t i = 0; i < batch_size; ++i) sum += densities[i] / 512;
+    }
+    return sum;
+}
+
 // What is in a clear phase: a flame glows, and what scatters looks like a diffuse surface, but for what is so thin that
-// most light passes half of the object.
-void show(const Medium& interior, float half_size, Look& look) {
+// most light passes half of the object. Where the density varies the page shows its mean everywhere.
+void show(const Medium& interior, const Bounds& bounds, Look& look) {
     constexpr float thin = 0.5f;
-    look.absorption = extinction(interior);
+    const auto* varying = std::get_if<VaryingMedium>(&interior);
+    const float density = varying ? mean_density(*varying, bounds) : 1.0f;
+    look.absorption = density * extinction(interior);
     std::visit(
         [&](const auto& medium) {
             if constexpr (requires { medium.coefficients(); }) {
                 const ScatteringCoefficients& c = medium.coefficients();
-                const float scattered = std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
+                const float half_size = 0.5f * bounds.diagonal();
+                const float scattered =
+                    density * std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
                 if (shines(interior) && !c.scatters()) {
                     const glm::vec3 emission = light_of(c.emission, c.emission_spectrum, nullptr);
                     show_light(emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
@@ -70,7 +90,7 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
         [&]<class Kind>(const Kind& m) {
             if constexpr (requires { m.interior; }) {
                 look.ior = m.ior;
-                show(m.interior, 0.5f * bounds.diagonal(), look);
+                show(m.interior, bounds, look);
             } else if constexpr (requires { m.eta; }) {
                 look.kind = Look::metal;
                 look.color = m.reflectance ? mean(*m.reflectance, bounds) : reflectance(m);
