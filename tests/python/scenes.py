@@ -140,6 +140,20 @@ class Files(unittest.TestCase):
         scene.save(self.folder / "small.json")
         self.assertEqual(pt.load(self.folder / "small.json"), scene)
 
+    def test_a_medium_s_density_and_temperature_are_voxels(self):
+        for i in (1, 2):
+            (self.folder / f"layer_{i}.pgm").write_bytes(b"P5 2 1 255\n\x40\xff")
+        stack = self.folder / "layer_#.pgm"
+        grid = pt.voxels(file=stack, spacing=(1, 1, 1), factor=3)
+        heat = pt.voxels(file=stack, spacing=(1, 1, 1), factor=2000)
+        fire = pt.clear(ior=1, absorption=(1, 1, 1), emission=(5, 5, 5), density_grid=grid, temperature_grid=heat)
+        scene = small_scene().with_(object=pt.phase("fire", fire)(pt.sphere(1.5)))
+        scene.save(self.folder / "fire.json")
+        self.assertIn('"file": "layer_#.pgm"', (self.folder / "fire.json").read_text())
+        self.assertEqual(pt.load(self.folder / "fire.json"), scene)
+        with self.assertRaises(pt.Error):
+            pt.voxels(file=stack)
+
     def test_a_medium_s_density_is_a_field(self):
         ball = pt.sphere(0.5)
         density = ball.translate((0.4, 0, 0)) | ball.translate((-0.4, 0, 0))

@@ -118,15 +118,26 @@ py::tuple placed_in(const Document& document) {
     return py::make_tuple(objects, groups, places_of(all, all.places));
 }
 
-// The names of kinds that read a file, each with the name of that parameter: of all that a scene file can say. A set,
-// because chapters share names: `image` is a texture and a light.
-std::set<std::pair<std::string, std::string>> kinds_with_files() {
+// The keys of what reads a file, each with the name of that parameter: of all that a scene file can say. Keys are the
+// names of kinds, and those of parameters that are of such a kind, as "density_grid" is of voxels. A set, because
+// chapters share names: `image` is a texture and a light.
+std::set<std::pair<std::string, std::string>> keys_with_files() {
     std::set<std::pair<std::string, std::string>> all;
     const std::string type = ParameterType<std::filesystem::path>::describe({}).name;
-    for (const Chapter& chapter : tracer::scene_chapters())
-        for (const KindPage& page : chapter.pages)
-            for (const ParameterPage& p : page.parameters)
-                if (p.type == type) all.emplace(page.name, p.name);
+    const std::vector<Chapter> chapters = tracer::scene_chapters();
+    const auto for_each_parameter = [&](auto&& f) {
+        for (const Chapter& chapter : chapters)
+            for (const KindPage& page : chapter.pages)
+                for (const ParameterPage& p : page.parameters) f(page, p);
+    };
+    for_each_parameter([&](const KindPage& page, const ParameterPage& p) {
+        if (p.type == type) all.emplace(page.name, p.name);
+    });
+    const auto kinds = all;
+    for_each_parameter([&](const KindPage&, const ParameterPage& p) {
+        for (const auto& [kind, parameter] : kinds)
+            if (p.type == kind) all.emplace(p.name, parameter);
+    });
     return all;
 }
 
@@ -140,13 +151,13 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 // The same text with other names for the files that it names: name(file).
 std::string with_files(const std::string& text, const std::string& name, const py::function& renamed) {
     const Document document = Document::from_text(text, name);
-    const auto kinds = kinds_with_files();
+    const auto keys = keys_with_files();
     std::vector<Value> files, open{document.root()};
     while (!open.empty()) {
         const Value value = open.back();
         open.pop_back();
-        for (const auto& [kind, parameter] : kinds)
-            if (value.is_object() && value.key() == std::string_view(kind))
+        for (const auto& [key, parameter] : keys)
+            if (value.is_object() && value.key() == std::string_view(key))
                 if (const auto file = value.find(parameter); file && file->is_string()) files.push_back(*file);
         if (value.is_array() || value.is_object())
             for (const Value item : value) open.push_back(item);
