@@ -23,19 +23,13 @@ inline void walk_density(VoxelGrid grid) {
         for (int count = 0; const auto stretch = stretches.next(); ++count) {
             promised(count < 4 * VoxelGrid::most_along_axis, "a way through voxels ends");
             promised(stretch->from >= last && stretch->to > stretch->from, "stretches follow each other");
-            promised(stretch->greatest > 0.0f && stretch->greatest <= 1.0f, "bounds are shares");
+            promised(stretch->bound > 0.0f && stretch->bound <= 1.0f, "bounds are shares");
             last = stretch->to;
         }
-        BatchOfFloats x, y, z;
-        for (std::size_t i = 0; i < batch_size; ++i) {
-            const glm::vec3 p = from + (static_cast<float>(i) / (batch_size - 1)) * (to - from);
-            x[i] = p.x;
-            y[i] = p.y;
-            z[i] = p.z;
+        for (int i = 0; i < 8; ++i) {
+            const float value = density.at(from + (static_cast<float>(i) / 7) * (to - from));
+            promised(value >= 0.0f && value <= 1.0001f, "densities are shares of the greatest");
         }
-        const BatchOfFloats values = density.at(x, y, z);
-        for (std::size_t i = 0; i < batch_size; ++i)
-            promised(values[i] >= 0.0f && values[i] <= 1.0001f, "densities are shares of the greatest");
     } catch (const std::invalid_argument&) {
     }
 }

@@ -64,7 +64,7 @@ struct Column {
         values.front() = values.back() = 0;
     }
     static Way turned_way(const VoxelPlacement& placement) {
-        const glm::dvec3 from = placement.linear * glm::dvec3(0.02, -0.03, -0.5 * spacing) + placement.by;
+        const glm::dvec3 from = placement.linear * glm::dvec3(0.02, -0.03, -0.5 * spacing) + placement.translation;
         return {glm::vec3(from), glm::vec3(glm::normalize(placement.linear[2])), 2.0f};
     }
     VoxelDensity density(const VoxelPlacement& placement) const {
@@ -306,13 +306,13 @@ TEST_CASE("shadow rays are sent to flames by their density and their heat") {
     const Heat heat(temperatures, 2000, 2000);
     const VaryingMedium medium({.absorption = glm::vec3(1.0f), .emission = glm::vec3(1.0f)}, FieldDensity(box, 0.25f),
                                heat);
-    BatchOfFloats x{}, y{}, z{};
-    for (std::size_t i = 0; i < batch_size; ++i) z[i] = 0.05f * static_cast<float>(i);
-    const BatchOfFloats brightness = medium.brightness_at(x, y, z);
+    PointBatch points{};
+    for (std::size_t i = 0; i < batch_size; ++i) points.z[i] = 0.05f * static_cast<float>(i);
+    const BatchOfFloats brightness = medium.brightness_at(points);
     for (std::size_t i = 0; i < batch_size; ++i) {
-        const double share = 0.25 + 0.75 * static_cast<double>(z[i]) / 2;
-        const double expected =
-            density_at(1 + static_cast<double>(z[i])) * static_cast<double>(heat.luminance(static_cast<float>(share)));
+        const double share = 0.25 + 0.75 * static_cast<double>(points.z[i]) / 2;
+        const double expected = density_at(1 + static_cast<double>(points.z[i])) *
+                                static_cast<double>(heat.luminance(static_cast<float>(share)));
         CHECK(static_cast<double>(brightness[i]) == doctest::Approx(expected).epsilon(1e-4));
     }
     CHECK(brightness[0] < 0.01f * heat.luminance(0.6f));
@@ -334,6 +334,33 @@ TEST_CASE("absorption that is so many times as dense, by colour and by wavelengt
     }
 }
 
+TEST_CASE("of light that hardly gets through the mean is right, and none is less than nothing") {
+    // A number of 211/255 everywhere but far away: times 5 over the rate of collisions it is, by rounding, a little
+    // more than 1.
+    const VoxelLattice lattice{{32, 2, 2}, {-1, -1, -1}, {2, 2, 2}};
+    const VoxelDensity even(
+        VoxelGrid::of_voxels("test", lattice, [](int x, int, int) { return x < 30 ? 211.0f / 255 : 1.0f; }), {});
+    const Column column;
+    const auto test = [&](const VoxelDensity& density, float extinction, const Way& way, double depth) {
+        const VaryingMedium medium({.absorption = glm::vec3(extinction)}, density);
+        Moments left, passed;
+        for (std::uint32_t n = 0; n < 400000; ++n) {
+            Sampler sampler = sampler_of(n);
+            const float one = medium.transmittance(way, sampler).x;
+            REQUIRE(one >= 0.0f);
+            REQUIRE(one <= 1.0f);
+            left.add(static_cast<double>(one));
+            passed.add(static_cast<double>(medium.pass(way, sampler).left.x));
+        }
+        const double expected = std::exp(-static_cast<double>(extinction) * depth);
+        CHECK(mean_p_value(left, expected, 1e-7) > 1e-4);
+        CHECK(mean_p_value(passed, expected, 1e-7) > 1e-4);
+        CHECK(mean_p_value(left, 1.1 * expected) < 1e-4);
+    };
+    test(even, 5.0f, {glm::vec3(0, 0, -1), up, 1.2f}, 1.2 * 211 / 255);
+    test(column.density(turned), 6.0f, Column::turned_way(turned), column.depth_to(2));
+}
+
 TEST_CASE("behind a block of voxels of which one is far denser there is still something") {
     // The bound on the density in the first two blocks is 10⁶, of which a way that passes the voxel meets nothing.
     const VoxelLattice lattice{{8, 8, 64}, {-3.5, -3.5, 0.5}, {1, 1, 1}};
@@ -343,7 +370,7 @@ TEST_CASE("behind a block of voxels of which one is far denser there is still so
                                                         return z >= 32 ? 0.05 : 0.0;
                                                     }),
                                {});
-    const VaryingMedium medium(ScatteringCoefficients{.absorption = glm::vec3(1.0f)}.times(density.greatest()),
+    const VaryingMedium medium(ScatteringCoefficients{.absorption = glm::vec3(1.0f)}.times(density.greatest_number()),
                                density);
     Moments left;
     for (std::uint32_t n = 0; n < 300; ++n) {

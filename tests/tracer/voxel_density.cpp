@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "support/uniform.hpp"
@@ -32,7 +33,7 @@ struct Cloud {
     VoxelDensity density() const { return {VoxelGrid::of_values("test", lattice, values), placement}; }
 
     glm::dvec3 scene_point(const glm::dvec3& voxel) const {
-        return placement.linear * (lattice.first + voxel * lattice.spacing) + placement.by;
+        return placement.linear * (lattice.first + voxel * lattice.spacing) + placement.translation;
     }
     // At a place counted in voxels.
     double at(const glm::dvec3& voxel) const {
@@ -54,23 +55,13 @@ struct Cloud {
     }
 };
 
-float one_at(const VoxelDensity& density, const glm::vec3& p) {
-    BatchOfFloats x, y, z;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        x[i] = p.x;
-        y[i] = p.y;
-        z[i] = p.z;
-    }
-    return density.at(x, y, z)[3];
-}
-
 }  // namespace
 
 TEST_CASE("the density is the trilinear interpolation over the greatest number, where the grid was placed") {
     Uniform random(41);
     const Cloud cloud(random);
     const VoxelDensity density = cloud.density();
-    const auto greatest = static_cast<double>(density.greatest());
+    const auto greatest = static_cast<double>(density.greatest_number());
     double most = 0;
     for (const float v : cloud.values) most = std::max(most, static_cast<double>(v));
     CHECK(greatest == most);
@@ -87,7 +78,7 @@ TEST_CASE("the density is the trilinear interpolation over the greatest number, 
                 is_near_face = is_near_face || std::abs(voxel[i] - face) < 1e-4;
         if (is_near_face) continue;
         const glm::vec3 p(cloud.scene_point(voxel));
-        const double expected = cloud.at(voxel) / greatest, found = static_cast<double>(one_at(density, p));
+        const double expected = cloud.at(voxel) / greatest, found = static_cast<double>(density.at(p));
         worst = std::max(worst, std::abs(found - expected));
         inside += expected > 0;
         const Bounds& box = density.bounds();
@@ -123,7 +114,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
             REQUIRE(all[i].from < all[i].to);
             REQUIRE(all[i].from >= (i == 0 ? 0.0f : all[i - 1].to));
             REQUIRE(all[i].to <= way.length);
-            REQUIRE(all[i].greatest > 0.0f);
+            REQUIRE(all[i].bound > 0.0f);
             sum += all[i].to - all[i].from;
         }
         CHECK(sum <= parts.length() * 1.0001f);
@@ -131,7 +122,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
         std::size_t next = 0;
         for (int k = 0; k < 200; ++k) {
             const float t = end * (static_cast<float>(k) + random()) / 200;
-            const float found = one_at(density, way.origin + t * way.direction);
+            const float found = density.at(way.origin + t * way.direction);
             while (next < all.size() && all[next].to < t) ++next;
             // Within rounding of a stretch's ends it may be of either side.
             const auto covers = [&](std::size_t i, float by) {
@@ -139,7 +130,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
             };
             float bound = 0;
             for (std::size_t i = next > 0 ? next - 1 : 0; i <= next + 1; ++i)
-                if (covers(i, 1e-4f)) bound = std::max(bound, all[i].greatest);
+                if (covers(i, 1e-4f)) bound = std::max(bound, all[i].bound);
             CHECK(found <= bound + 1e-5f);
             empty += bound == 0.0f;
             tight += bound > 0.0f && bound < 0.9f;
@@ -150,21 +141,44 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
     CHECK(tight > 1000);
 }
 
+TEST_CASE("voxels that floats do not tell apart where they are placed are refused, along whichever axis") {
+    const auto made = [](const glm::dvec3& spacing, const VoxelPlacement& placement) {
+        return VoxelDensity(
+            VoxelGrid::of_voxels("test", {{4, 4, 4}, {0, 0, 0}, spacing}, [](int x, int, int) { return x; }),
+            placement);
+    };
+    // Thin along z of the grid, which is along y of the scene, where it is far away.
+    const glm::dmat3 turned{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+    const glm::dvec3 thin(0.01, 0.01, 1e-5);
+    CHECK_THROWS_AS((void)made(thin, {turned, {0, 1000, 0}}), std::invalid_argument);
+    CHECK_THROWS_AS((void)made(thin, {glm::dmat3(1), {0, 0, 1000}}), std::invalid_argument);
+    CHECK_NOTHROW((void)made(thin, {turned, {0, 1, 0}}));
+    CHECK_THROWS_AS((void)made({1, 1, 1}, {glm::dmat3(1e-38), {0, 0, 0}}), std::invalid_argument);
+    // However far a grid is from its own origin, it is as fine as where it is placed.
+    const VoxelLattice far_away{{4, 4, 4}, {1e6, 0, 0}, {0.01, 0.01, 0.01}};
+    const VoxelDensity back(VoxelGrid::of_voxels("test", far_away, [](int x, int, int) { return x; }),
+                            {glm::dmat3(1), {-1e6, 0, 0}});
+    for (int i = 0; i < 30; ++i) {
+        const float x = 0.001f * static_cast<float>(i);
+        CHECK(back.at(glm::vec3(x, 0.015f, 0.015f)) == doctest::Approx(x / 0.03f).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("a grid without anything, of one voxel, and a way that passes it") {
     const VoxelLattice one{{1, 1, 1}, {0, 0, 0}, {1, 1, 1}};
     const VoxelDensity nothing(VoxelGrid::of_values("test", one, {{0.0f}}), {});
-    CHECK(nothing.greatest() == 0.0f);
+    CHECK(nothing.greatest_number() == 0.0f);
     CHECK_FALSE(nothing.stretches({{0, 0, -3}, {0, 0, 1}, 10}).next());
     const VoxelDensity cube(VoxelGrid::of_values("test", one, {{4.0f}}), {});
-    CHECK(cube.greatest() == 4.0f);
-    CHECK(one_at(cube, {0.49f, -0.49f, 0.2f}) == 1.0f);
-    CHECK(one_at(cube, {0.51f, 0, 0}) == 0.0f);
+    CHECK(cube.greatest_number() == 4.0f);
+    CHECK(cube.at(glm::vec3{0.49f, -0.49f, 0.2f}) == 1.0f);
+    CHECK(cube.at(glm::vec3{0.51f, 0, 0}) == 0.0f);
     auto through = cube.stretches({{0.2f, 0, -3}, {0, 0, 1}, 10});
     const auto stretch = through.next();
     REQUIRE(stretch);
     CHECK(stretch->from == 2.5f);
     CHECK(stretch->to == 3.5f);
-    CHECK(stretch->greatest == 1.0f);
+    CHECK(stretch->bound == 1.0f);
     CHECK_FALSE(through.next());
     CHECK_FALSE(cube.stretches({{0.6f, 0, -3}, {0, 0, 1}, 10}).next());
     CHECK_FALSE(cube.stretches({{0, 0, -3}, {0, 0, -1}, 10}).next());

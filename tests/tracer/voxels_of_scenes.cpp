@@ -84,9 +84,9 @@ TEST_CASE("a grid is made larger first, then turned, then moved; with y up what 
     // The dense voxel is at (0.5, 0, 0) in the file.
     const auto density_at = [&](const std::string& placement, const glm::vec3& p) {
         const Medium medium = folder.medium(R"("absorption": [1, 1, 1], "density_grid": {IMAGE, )" + placement + "}");
-        BatchOfFloats x, y, z;
-        for (std::size_t i = 0; i < batch_size; ++i) x[i] = p.x, y[i] = p.y, z[i] = p.z;
-        return std::get<VaryingMedium>(medium).brightness_at(x, y, z)[0];
+        PointBatch points;
+        for (std::size_t i = 0; i < batch_size; ++i) points.x[i] = p.x, points.y[i] = p.y, points.z[i] = p.z;
+        return std::get<VaryingMedium>(medium).brightness_at(points)[0];
     };
     // Three times as large it is at (1.5, 0, 0), by a quarter turn from x to y at (0, 1.5, 0), and then moved.
     const std::string quarter = R"("scale": 3, "rotate_z": 90, "translate": [10, 20, 30])";
@@ -112,9 +112,9 @@ TEST_CASE("what is cold does not shine, and what is no temperature is refused") 
     // In a film the brightness is the same for the same temperature, whatever is hottest.
     const auto light = [&](double factor) {
         const Medium medium = folder.medium(hot(factor));
-        BatchOfFloats x{}, y{}, z{};
-        for (std::size_t i = 0; i < batch_size; ++i) x[i] = i % 2 == 0 ? 0.5f : -0.5f;
-        const BatchOfFloats brightness = std::get<VaryingMedium>(medium).brightness_at(x, y, z);
+        PointBatch points{};
+        for (std::size_t i = 0; i < batch_size; ++i) points.x[i] = i % 2 == 0 ? 0.5f : -0.5f;
+        const BatchOfFloats brightness = std::get<VaryingMedium>(medium).brightness_at(points);
         return std::pair(brightness[0], 2 * brightness[1]);  // of densities 1 and 1/2
     };
     CHECK(light(5000).first == doctest::Approx(1).epsilon(1e-3));    // 2000 K
@@ -126,7 +126,8 @@ TEST_CASE("what is cold does not shine, and what is no temperature is refused") 
           std::string::npos);
     std::string bright = hot(2e5) + R"(, "emission_temperature": 500)";
     bright.replace(bright.find("[5, 5, 5]"), 9, "[5e5, 5e5, 5e5]");
-    CHECK(folder.said_of(bright).find("where it is hottest, 8e+04 K, the medium") != std::string::npos);
+    CHECK(folder.said_of(bright).find("where the medium is densest and hottest, it would emit more than 10²⁵") !=
+          std::string::npos);
     CHECK(folder.said_of(hot(1e7)).find("its greatest temperature would be 4e+06 K") != std::string::npos);
 }
 
@@ -145,19 +146,21 @@ TEST_CASE("what does not go together is said at its place") {
     is_said(absorbs + R"("density_grid": {"file": "b.pgm", "spacing": [1, 1, 1]})", "72: cannot use the voxels");
     is_said(R"("density_grid": {IMAGE})", "\"density_grid\" is of no use without \"scattering\" or \"absorption\"");
     is_said(absorbs + R"("density": {"sphere": {"radius": 1}}, "density_depth": 1, "density_grid": {IMAGE})",
-            "\"density_grid\" and \"density\" say the same");
+            "\"density_grid\" and \"density\" exclude each other");
     is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "is of no use without \"emission\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "temperature_grid": {IMAGE})",
             "is of no use without \"density_grid\" or \"density\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "emission_spectrum": {"blackbody": 2000}, "density_grid": {IMAGE},
                          "temperature_grid": {IMAGE})",
-            "\"temperature_grid\" and \"emission_spectrum\" say the same");
-    is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e30, 0, 0]})", "its voxels are too small for where");
-    is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e7, 0, 0]})", "its voxels are too small for where");
+            "\"temperature_grid\" and \"emission_spectrum\" exclude each other");
+    is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e30, 0, 0]})",
+            "its voxels are too small for where they are");
+    is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e7, 0, 0]})",
+            "its voxels are too small for where they are");
     is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1.2e-38, "translate": [10, 10, 10]})", "too small for where");
     is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1e20})", "its voxels would lie beyond 10¹⁵");
     is_said(absorbs + R"("density_grid": {IMAGE, "factor": 1e38})",
-            "where its numbers, by their \"factor\", are 4e+37, absorption, scattering or emission would be beyond");
+            "where the medium is densest, it would absorb and scatter more than 10¹⁵ times a metre");
 }
 
 }  // namespace test_voxels_of_scenes

@@ -175,7 +175,7 @@ TEST_CASE("which grids of numbers are taken, and what the others are refused for
         return grid;
     };
     const fs::path two = folder.write("two.vdb", {named("density"), named("temperature")});
-    CHECK(said(two) == "2 of its grids are one of numbers: \"grid\" must name one");
+    CHECK(said(two) == "2 of its grids are of numbers: \"grid\" must name one");
     CHECK(said(two, "density") == "nothing");
     CHECK(said(two, "flame") == "none of its 2 grids is called \"flame\"");
     CHECK(said(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))
@@ -234,14 +234,17 @@ TEST_CASE("one of several grids is read by its name") {
     whole->tree().setValue(openvdb::Coord(1, 2, 3), 1);
     const fs::path two = folder.write("two.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a"), ball(0.7, {0, 0, 0}, 0.05f, "b")});
     CHECK(tracer::read_level_set(two, "a").bytes() < tracer::read_level_set(two, "b").bytes());
-    CHECK(said_of(two) == "2 of its grids are a level set: \"grid\" must name one");
+    CHECK(said_of(two) == "2 of its grids are level sets: \"grid\" must name one");
     CHECK(said_of(two, "c") == "none of its 2 grids is called \"c\"");
     const fs::path one = folder.write("one.vdb", {fog, ball(0.5, {0, 0, 0}, 0.05f, "a"), whole});
     CHECK(said_of(one) == "nothing");
     CHECK(said_of_labels(one) == "nothing");
     CHECK(said_of(one, "fog") ==
-          "of its grid \"fog\": it is a fog volume, not a level set; OpenVDB's tools make one of it with the isovalue "
-          "that is wanted");
+          "of its grid \"fog\": it is a fog volume, not a level set: the \"density_grid\" of a material takes it as it "
+          "is, "
+          "and OpenVDB's tools make a level set of it with the isovalue that is wanted");
+    const fs::path alone = folder.write("alone.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a")});
+    CHECK(said_of(alone, "b") == "its only grid is not called \"b\"");
     CHECK(said_of(one, "whole") ==
           "of its grid \"whole\": it is a grid of int32, but a level set has floats or doubles");
     CHECK(said_of_labels(one, "fog") == "of its grid \"fog\": it is a grid of float, but labels are int32 or int64");

@@ -201,6 +201,21 @@ void VoxelGrid::divide_by(double by) {
     divided_by *= by;
 }
 
+float VoxelGrid::greatest() const {
+    const Table at(table.data());
+    const std::size_t count = Blocks(lattice.size).count();
+    float greatest = at.directory[2];
+    for (std::size_t block = 1; block < count; ++block)
+        greatest = std::max(greatest, at.directory[voxels::entry * block + 2]);
+    return greatest;
+}
+
+void VoxelGrid::move_first_to(const glm::dvec3& there) {
+    lattice.first = there;
+    for (glm::length_t i = 0; i < 3; ++i)
+        table[voxels::first + static_cast<std::size_t>(i)] = static_cast<float>(there[i]);
+}
+
 Bounds VoxelGrid::blocks_below(float level) const {
     const Table at(table.data());
     const Blocks blocks(lattice.size);

@@ -21,10 +21,9 @@ using DensityOf = std::variant<typename CheckedDensity<Kinds>::Type...>;
 
 using Density = DensityOf<FieldDensity, VoxelDensity>;
 
-/// DensityKind's at() of a density of any kind.
-inline BatchOfFloats density_at(const Density& density, const BatchOfFloats& x, const BatchOfFloats& y,
-                                const BatchOfFloats& z) {
-    return std::visit([&](const auto& kind) { return kind.at(x, y, z); }, density);
+/// ρ at eight points, of a density of any kind.
+inline BatchOfFloats density_at(const Density& density, const PointBatch& points) {
+    return std::visit([&](const auto& kind) { return kind.at(points, batch_size); }, density);
 }
 /// DensityKind's bounds() of a density of any kind.
 inline const Bounds& bounds_of(const Density& density) {

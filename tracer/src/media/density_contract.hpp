@@ -1,7 +1,7 @@
-// What a kind of density must provide: how dense a medium is at each point, ρ in [0, 1].
+// This is what a kind of density must provide. A density ρ in [0, 1] tells how dense a medium is at each point.
 //
-// A ray's way is divided into stretches, each with a bound on ρ in it, so that thin parts of a medium take few lookups
-// and empty ones none (media/varying.hpp).
+// A ray's way is divided into stretches, each with an upper bound on ρ in it, so that thin parts of a medium take few
+// lookups and empty ones none (media/varying.hpp).
 #pragma once
 
 #include <array>
@@ -15,25 +15,37 @@
 
 namespace phasetree::tracer {
 
-/// A part of a way, by distances from its origin, and at least the greatest ρ in it.
+/// A part of a way, by its distances from the way's origin.
 struct DensityStretch {
     float from, to;
-    float greatest;
+    float bound;  ///< an upper bound on ρ in it, more than 0
 };
 
-/// * at(x, y, z): ρ at eight points.
+/// Up to eight points.
+struct PointBatch {
+    BatchOfFloats x, y, z;
+
+    glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// * together: how many points are best asked for at once, at most batch_size.
+/// * at(points, count): ρ at the first so many points. The other points are numbers, and what is returned for them
+/// means
+///   nothing.
 /// * bounds(): a box outside of which ρ is 0.
-/// * stretches(way): what gives with next() the stretches of a way, in their order, and none after the last. Outside of
-///   all stretches ρ is 0. Their length() is the distance from where the first may begin to where the last may end.
+/// * stretches(way): an object whose next() returns the way's stretches in their order, and then nothing. Outside of
+/// all
+///   stretches ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
 template <class D>
-concept DensityKind = std::copyable<D> && requires(const D& density, const BatchOfFloats& x, const Way& way) {
-    { density.at(x, x, x) } -> std::same_as<BatchOfFloats>;
+concept DensityKind = std::copyable<D> && requires(const D& density, const PointBatch& points, const Way& way) {
+    { density.at(points, D::together) } -> std::same_as<BatchOfFloats>;
     { density.bounds() } -> std::same_as<const Bounds&>;
     { density.stretches(way).next() } -> std::same_as<std::optional<DensityStretch>>;
     { density.stretches(way).length() } -> std::same_as<float>;
 };
 
-/// The part of a way within a box, from the first distance to the second. If no part is, the second is not greater.
+/// The part of a way within a box, from the first distance to the second. If no part is, the second is not greater. The
+/// way's direction may have any length, which distances are counted in.
 inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
     float from = 0.0f, to = way.length;
     for (int i = 0; i < 3; ++i) {
@@ -47,21 +59,6 @@ inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
         to = std::min(to, std::max(a, b));
     }
     return {from, to};
-}
-
-struct PointsOfWay {
-    BatchOfFloats x, y, z;
-};
-
-/// Eight points of a way, by their distances.
-inline PointsOfWay points_along(const Way& way, const BatchOfFloats& t) {
-    PointsOfWay points;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        points.x[i] = way.origin.x + t[i] * way.direction.x;
-        points.y[i] = way.origin.y + t[i] * way.direction.y;
-        points.z[i] = way.origin.z + t[i] * way.direction.z;
-    }
-    return points;
 }
 
 }  // namespace phasetree::tracer

@@ -24,10 +24,11 @@ FieldDensity::FieldDensity(const Field& field, float depth)
         std::ranges::find_if(outputs, [](const Output& o) { return o.phase != vacuum; }) - outputs.begin());
 }
 
-BatchOfFloats FieldDensity::at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
+BatchOfFloats FieldDensity::at(const PointBatch& points, std::size_t) const {
     // Those of a recorded field are two: its phase and the vacuum.
     std::array<BatchOfFloats, 2> values;
-    evaluator_->evaluate(x, y, z, std::span(values).first(outputs_), Evaluator::thread_workspace());
+    evaluator_->evaluate(points.x, points.y, points.z, std::span(values).first(outputs_),
+                         Evaluator::thread_workspace());
     BatchOfFloats density = values[field_output_];
     for (std::size_t i = 0; i < batch_size; ++i) density[i] = std::clamp(-density[i] * inverse_depth_, 0.0f, 1.0f);
     return density;

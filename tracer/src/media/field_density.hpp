@@ -1,4 +1,4 @@
-// How dense a medium is by a field φ of the tree: with a depth d > 0
+// A field φ of the tree gives the density of a medium: with a depth d > 0
 //     ρ(p) = min(max(−φ(p)/d, 0), 1).
 // It is 0 at the field's surface and outside, and rises evenly to 1 within the depth d. So 1 is a majorant by itself,
 // whatever the field is, and outside of the field's bounds there is nothing.
@@ -29,7 +29,9 @@ class FieldDensity {
     /// Throws ModelError for a field that cannot be recorded.
     FieldDensity(const Field& field, float depth);
 
-    BatchOfFloats at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const;
+    /// One run of the field's program takes as long for eight points as for one.
+    static constexpr std::size_t together = batch_size;
+    BatchOfFloats at(const PointBatch& points, std::size_t count) const;
     const Bounds& bounds() const { return bounds_; }
     Stretches stretches(const Way& way) const { return {bounds_, way}; }
 

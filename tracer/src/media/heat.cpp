@@ -4,27 +4,25 @@
 #include <glm/common.hpp>
 
 #include "image/luminance.hpp"
-#include "spectrum/daylight.hpp"
 #include "spectrum/planck.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-// Between two of so many steps light is interpolated. It is wrong by less than a thousandth where it is brighter than a
-// thousandth of what the hottest place shines.
+// Between two of so many steps light is interpolated. For greatest temperatures from 200 to 100,000 K it is wrong by at
+// most 0.15 %, where it is brighter than a thousandth of what the hottest place emits.
 constexpr std::size_t steps = 1024;
 
-std::vector<glm::vec3> colours_up_to(float hottest, float reference) {
-    const LightSpectrum at_reference = LightSpectrum::of_temperature(reference);
+std::vector<glm::vec3> colours_up_to(float greatest, float reference, const LightSpectrum& at_reference) {
     std::vector<glm::vec3> colours(steps + 1, glm::vec3(0.0f));
     for (std::size_t i = 1; i <= steps; ++i) {
-        const double temperature = static_cast<double>(hottest) * static_cast<double>(i) / steps;
+        const double temperature = static_cast<double>(greatest) * static_cast<double>(i) / steps;
         const glm::vec3 mixed(colour_of([&](double nm) {
             return static_cast<double>(at_reference.relative_at(static_cast<float>(nm))) *
                    planck_ratio(nm, temperature, static_cast<double>(reference));
         }));
-        // What red, green and blue cannot mix is cut off, and its luminance kept, as light of one temperature does.
+        // A colour that red, green and blue cannot mix has the nearest that they can, with the same luminance.
         const glm::vec3 positive = glm::max(mixed, glm::vec3(0.0f));
         const float brightness = tracer::luminance(positive);
         if (brightness > 0.0f) colours[i] = positive * (std::max(tracer::luminance(mixed), 0.0f) / brightness);
@@ -34,11 +32,12 @@ std::vector<glm::vec3> colours_up_to(float hottest, float reference) {
 
 }  // namespace
 
-Heat::Heat(const VoxelDensity& shares, float hottest, float reference)
+Heat::Heat(const VoxelDensity& shares, float greatest, float reference)
     : shares_(shares),
-      hottest_(hottest),
+      greatest_(greatest),
       reference_(reference),
-      colours_(std::make_shared<const std::vector<glm::vec3>>(colours_up_to(hottest, reference))) {}
+      spectrum_(std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(reference))),
+      colours_(std::make_shared<const std::vector<glm::vec3>>(colours_up_to(greatest, reference, *spectrum_))) {}
 
 glm::vec3 Heat::colour(float share) const {
     const float at = std::clamp(share, 0.0f, 1.0f) * static_cast<float>(steps);
@@ -50,16 +49,16 @@ float Heat::luminance(float share) const {
     return tracer::luminance(colour(share));
 }
 
-glm::vec3 Heat::light(float share, const glm::vec3& light_at_reference, float luminance_at_reference,
-                      const Wavelengths* wavelengths) const {
+glm::vec3 Heat::light(float share, float luminance_at_reference, const Wavelengths* wavelengths) const {
     if (!wavelengths || !wavelengths->is_spectral)
         return for_light(luminance_at_reference * colour(share), wavelengths);
-    const double kelvin = static_cast<double>(share) * static_cast<double>(hottest_);
+    const double kelvin = static_cast<double>(share) * static_cast<double>(greatest_);
     glm::vec3 light;
     for (int i = 0; i < 3; ++i) {
-        const auto nanometres = static_cast<double>(wavelengths->nanometres[i]);
-        light[i] = light_at_reference[i] *
-                   static_cast<float>(planck_ratio(nanometres, kelvin, static_cast<double>(reference_)));
+        const float nanometres = wavelengths->nanometres[i];
+        light[i] =
+            luminance_at_reference * spectrum_->relative_at(nanometres) *
+            static_cast<float>(planck_ratio(static_cast<double>(nanometres), kelvin, static_cast<double>(reference_)));
     }
     return light;
 }

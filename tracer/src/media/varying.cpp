@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "image/luminance.hpp"
+#include "media/channel_choice.hpp"
 
 namespace phasetree::tracer {
 
@@ -15,39 +16,46 @@ namespace {
 // the others.
 constexpr int most_collisions_of_stretch = 1 << 16, most_collisions = 1 << 20;
 
-// A passage has at least this many tentative collisions on average. Eight are evaluated in the time of one, and more of
-// them estimate what is left and what shines with less noise.
-constexpr float collisions_of_passage = 5;
+// On a way without empty stretches there are at least this many tentative collisions on average, where more of them
+// estimate with less noise what is left and what is emitted.
+constexpr float collisions_of_estimate = 5;
 
-// The places at which a way may meet something, sampled in the stretches of a density. The rate of these tentative
-// collisions, per unit of length, is at least `extinction` times the bound on the density, and high enough for `least`
-// collisions on average on a way that may meet something everywhere.
+// Light of which less than this is left is followed in one of four cases, and counts four times then.
+constexpr float little = 0.05f, survival = 0.25f;
+
+struct Place {
+    float distance, rate;
+    float density_bound;
+};
+
+// The places of tentative collisions, sampled in the stretches of a density. Their rate per unit of length is at least
+// `extinction` times the bound on the density.
 template <DensityKind D>
-class TentativeCollisions {
+class Places {
   public:
-    TentativeCollisions(const D& density, float extinction, const Way& way, float least)
+    Places(const D& density, float extinction, const Way& way, float least_collisions)
         : stretches_(density.stretches(way)), extinction_(extinction) {
         if (!(stretches_.length() > 0.0f)) return;
-        least_rate_ = std::min(least / stretches_.length(), 1e30f);
+        constexpr float most = 1e30f;  // Products with it are no infinities.
+        least_rate_ = std::min(least_collisions / stretches_.length(), most);
         stretch_ = stretches_.next();
     }
 
-    // The next one's distance and rate, and the bound on the density there; nothing at the way's end.
-    struct Next {
-        float distance, rate, greatest;
-    };
-    std::optional<Next> next(Sampler& sampler) {
+    // The next one; nothing at the way's end.
+    std::optional<Place> next(Sampler& sampler) {
         if (!stretch_) return std::nullopt;
-        // So much is gone through before it: the integral of the rate.
+        // This is the integral of the rate up to the next place. Stretches take from it what they have.
         float thickness = -std::log1p(-sampler.next());
-        for (; stretch_; begin_next()) {
+        for (; stretch_; begin_next_stretch()) {
+            // It has had all that it may have. What remains of the thickness is right for the next stretch, too,
+            // because an exponential distribution has no memory.
             if (collisions_ >= most_collisions_of_stretch) continue;
             const float length = stretch_->to - stretch_->from;
-            const float rate = std::max(extinction_ * stretch_->greatest, least_rate_);
+            const float rate = std::max(extinction_ * stretch_->bound, least_rate_);
             if (gone_ + thickness / rate < length) {
                 gone_ += thickness / rate;
                 ++collisions_;
-                return Next{stretch_->from + gone_, rate, stretch_->greatest};
+                return Place{stretch_->from + gone_, rate, stretch_->bound};
             }
             thickness = std::max(thickness - (length - gone_) * rate, 0.0f);
         }
@@ -55,7 +63,7 @@ class TentativeCollisions {
     }
 
   private:
-    void begin_next() {
+    void begin_next_stretch() {
         stretch_ = stretches_.next();
         gone_ = 0.0f;
         collisions_ = 0;
@@ -65,12 +73,22 @@ class TentativeCollisions {
     float extinction_;
     float least_rate_ = 0.0f;
     std::optional<DensityStretch> stretch_{};
-    // It is counted from where the stretch begins: far away, steps may be less than floats resolve.
+    // The distance is counted from where the stretch begins: far from a way's origin, steps may be less than floats
+    // resolve.
     float gone_ = 0.0f;
     int collisions_ = 0;  // in the stretch
 };
 
 }  // namespace
+
+struct VaryingMedium::Collision {
+    float distance, rate;
+    float density;
+    glm::vec3 at;
+
+    // How much of something that has a coefficient of 1 is met here.
+    float share() const { return density / rate; }
+};
 
 VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density,
                              const std::optional<Heat>& heat)
@@ -78,56 +96,74 @@ VaryingMedium::VaryingMedium(const ScatteringCoefficients& coefficients, const D
       density_(density),
       heat_(heat),
       greatest_extinction_(coefficients.greatest_extinction()),
-      luminance_(tracer::luminance(coefficients.emission)) {}
+      luminance_(tracer::luminance(coefficients.emission)),
+      emits_(coefficients.emission != glm::vec3(0.0f)) {
+    if (heat_) coefficients_.emission_spectrum = heat_->spectrum();
+}
 
-BatchOfFloats VaryingMedium::brightness_at(const BatchOfFloats& x, const BatchOfFloats& y,
-                                           const BatchOfFloats& z) const {
-    BatchOfFloats brightness = density_at(density_, x, y, z);
-    if (!heat_) return brightness;
-    const BatchOfFloats shares = heat_->shares_at(x, y, z);
-    for (std::size_t i = 0; i < batch_size; ++i) brightness[i] *= heat_->luminance(shares[i]);
+BatchOfFloats VaryingMedium::brightness_at(const PointBatch& points) const {
+    BatchOfFloats brightness = densities_at(points);
+    if (heat_)
+        for (std::size_t i = 0; i < batch_size; ++i) brightness[i] *= heat_->luminance(heat_->share_at(points[i]));
     return brightness;
 }
 
-// Calls visit(collision) for each until it returns false. Eight are evaluated together.
+// Calls visit(collision) for each until it returns false.
 template <class Visit>
-void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least, Visit&& visit) const {
+void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least_collisions,
+                                                 Visit&& visit) const {
     if (!(greatest_extinction_ > 0.0f)) return;
-    const auto visit_those_of = [&]<DensityKind D>(const D& kind) {
-        TentativeCollisions<D> tentative(kind, greatest_extinction_, way, least);
+    const auto visit_those_in = [&]<DensityKind D>(const D& kind) {
+        Places<D> places(kind, greatest_extinction_, way, least_collisions);
         for (int collisions = 0; collisions < most_collisions;) {
-            BatchOfFloats at, rate, greatest;
+            std::array<Place, D::together> found;
             std::size_t count = 0;
-            while (count < batch_size) {
-                const auto collision = tentative.next(sampler);
-                if (!collision) break;
-                at[count] = collision->distance;
-                rate[count] = collision->rate;
-                greatest[count++] = collision->greatest;
+            for (; count < D::together; ++count) {
+                const std::optional<Place> place = places.next(sampler);
+                if (!place) break;
+                found[count] = *place;
             }
             if (count == 0) return;
-            for (std::size_t i = count; i < batch_size; ++i) at[i] = at[0];
-            const PointsOfWay points = points_along(way, at);
-            const BatchOfFloats density = kind.at(points.x, points.y, points.z);
-            BatchOfFloats heat;
-            if (heat_) heat = heat_->shares_at(points.x, points.y, points.z);
-            for (std::size_t i = 0; i < count; ++i)
+            PointBatch points;
+            for (std::size_t i = 0; i < batch_size; ++i) {
+                // What is no collision is the first one again.
+                const float distance = found[i < count ? i : 0].distance;
+                points.x[i] = way.origin.x + distance * way.direction.x;
+                points.y[i] = way.origin.y + distance * way.direction.y;
+                points.z[i] = way.origin.z + distance * way.direction.z;
+            }
+            const BatchOfFloats density = kind.at(points, count);
+            for (std::size_t i = 0; i < count; ++i) {
                 // At the border of a stretch the density may be above the bound by a rounding error.
-                if (!visit(Collision{at[i], std::min(density[i], greatest[i]), rate[i], heat_ ? heat[i] : 1.0f}))
-                    return;
+                const float bounded = std::min(density[i], found[i].density_bound);
+                if (!visit(Collision{found[i].distance, found[i].rate, bounded, points[i]})) return;
+            }
             collisions += static_cast<int>(count);
         }
     };
-    std::visit(visit_those_of, density_);
+    std::visit(visit_those_in, density_);
 }
 
-Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
+glm::vec3 VaryingMedium::emitted_at(const Collision& c, const ScatteringCoefficients::ForLight& coefficients,
+                                    const Wavelengths* wavelengths) const {
+    if (!(c.density > 0.0f)) return glm::vec3(0.0f);
+    if (!heat_) return coefficients.emission * c.share();
+    return heat_->light(heat_->share_at(c.at), luminance_, wavelengths) * c.share();
+}
+
+Passage VaryingMedium::pass(const Way& way, bool with_emission, Sampler& sampler) const {
     const auto coefficients = coefficients_.for_light(way.wavelengths);
     const glm::vec3 extinction = coefficients.extinction();
     Passage passage;
-    for_each_tentative_collision(way, sampler, collisions_of_passage, [&](const Collision& c) {
-        passage.emitted += passage.left * emission(coefficients, c.heat, way) * (c.density / c.rate);
-        passage.left *= 1.0f - extinction * (c.density / c.rate);
+    for_each_tentative_collision(way, sampler, collisions_of_estimate, [&](const Collision& c) {
+        if (with_emission) passage.emitted += passage.left * emitted_at(c, coefficients, way.wavelengths);
+        passage.left *= glm::max(1.0f - extinction * c.share(), glm::vec3(0.0f));
+        if (std::max({passage.left.x, passage.left.y, passage.left.z}) < little) {
+            if (sampler.next() < survival)
+                passage.left /= survival;
+            else
+                passage.left = glm::vec3(0.0f);
+        }
         return passage.left != glm::vec3(0.0f);
     });
     return passage;
@@ -136,12 +172,13 @@ Passage VaryingMedium::pass(const Way& way, Sampler& sampler) const {
 Flight VaryingMedium::fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const {
     const auto coefficients = coefficients_.for_light(way.wavelengths);
     Flight flight;
-    for_each_tentative_collision(way, sampler, 0.0f, [&](const Collision& c) {
+    const float least_collisions = emits_ ? collisions_of_estimate : 0.0f;
+    for_each_tentative_collision(way, sampler, least_collisions, [&](const Collision& c) {
         const glm::vec3 scattering = coefficients.scattering * c.density;
         const glm::vec3 null = glm::max(c.rate - coefficients.extinction() * c.density, glm::vec3(0.0f));
-        flight.emitted += flight.weight * emission(coefficients, c.heat, way) * (c.density / c.rate);
-        const glm::vec3 history = throughput * flight.weight;
-        const float scattered = glm::dot(history, scattering), going_on = glm::dot(history, null);
+        if (emits_) flight.emitted += flight.weight * emitted_at(c, coefficients, way.wavelengths);
+        const glm::vec3 choice = channel_choice(throughput * flight.weight);
+        const float scattered = glm::dot(choice, scattering), going_on = glm::dot(choice, null);
         if (!(scattered + going_on > 0.0f)) {
             flight.weight = glm::vec3(0.0f);  // all is absorbed
             return false;

@@ -8,68 +8,57 @@
 
 namespace phasetree::tracer {
 
-namespace {
-
-float greatest_of(const VoxelGrid& grid) {
-    const voxels::Table table(grid.table.data());
-    float greatest = 0.0f;
-    for (const float* entry = table.directory; entry != table.values; entry += voxels::entry)
-        greatest = std::max(greatest, entry[2]);
-    return greatest;
-}
-
-}  // namespace
-
-VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement) : greatest_(greatest_of(grid)) {
-    if (greatest_ > 0.0f) grid.divide_by(static_cast<double>(greatest_));
-    // Near the grid's own origin floats resolve what they do not where a file may have it.
-    const glm::dvec3 by = placement.linear * grid.lattice.first + placement.by;
-    grid.lattice.first = glm::dvec3(0);
-    for (std::size_t i = 0; i < 3; ++i) grid.table[voxels::first + i] = 0.0f;
+VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement) : greatest_number_(grid.greatest()) {
+    if (greatest_number_ > 0.0f) grid.divide_by(static_cast<double>(greatest_number_));
+    // The grid is moved so that its first voxel is at its own origin: far from there floats would not tell its voxels
+    // apart.
+    const glm::dvec3 translation = placement.linear * grid.lattice.first + placement.translation;
+    grid.move_first_to(glm::dvec3(0));
     box_ = grid.extent();
-    const glm::dmat3 back = glm::inverse(placement.linear);
-    linear_ = glm::mat3(back);
-    by_ = glm::vec3(back * -by);
+    const glm::dmat3 to_grid = glm::inverse(placement.linear);
+    to_grid_ = glm::mat3(to_grid);
+    to_grid_offset_ = glm::vec3(to_grid * -translation);
     for (int corner = 0; corner < 8; ++corner) {
         glm::dvec3 at;
         for (int i = 0; i < 3; ++i) at[i] = static_cast<double>((corner >> i & 1) != 0 ? box_.high[i] : box_.low[i]);
-        const glm::vec3 p(placement.linear * at + by);
+        const glm::vec3 p(placement.linear * at + translation);
         bounds_ = unite(bounds_, {p, p});
     }
-    check_resolution(placement, by, grid.lattice.spacing);
+    check_resolution(grid.lattice.spacing);
     grid_ = std::make_shared<const VoxelGrid>(std::move(grid));
 }
 
-// That coordinates in the scene are a hundred times finer than voxels, and all numbers good floats.
-void VoxelDensity::check_resolution(const VoxelPlacement& placement, const glm::dvec3& by,
-                                    const glm::dvec3& spacing) const {
-    constexpr double finest = 1e2 * 0x1p-24, least = 1e-30, most = 1e30;
-    for (int i = 0; i < 3; ++i) {
-        const double voxel = glm::length(placement.linear[i]) * spacing[i];
-        const double farthest =
-            std::max(std::abs(static_cast<double>(bounds_.low[i])), std::abs(static_cast<double>(bounds_.high[i])));
-        const bool is_good = voxel > least && voxel < most && std::abs(by[i]) < most && voxel > finest * farthest &&
-                             std::isfinite(by_[i]) && std::abs(by_[i]) < static_cast<float>(most);
-        if (!is_good)
-            throw std::invalid_argument("its voxels are too small for where they are, or too large or far away");
+// Throws unless what floats of the scene cannot tell apart is less than a hundredth of a voxel along each of its axes.
+void VoxelDensity::check_resolution(const glm::dvec3& spacing) const {
+    constexpr double float_step = 0x1p-24, share_of_voxel = 0.01, least = 1e-30;
+    const glm::dvec3 farthest(glm::max(glm::abs(bounds_.low), glm::abs(bounds_.high)));
+    const glm::dmat3 to_grid(to_grid_);
+    bool is_fine = bounds_.finite();
+    for (int axis = 0; axis < 3; ++axis) {
+        double step = 0;
+        for (int i = 0; i < 3; ++i) step += std::abs(to_grid[i][axis]) * farthest[i] * float_step;
+        is_fine =
+            is_fine && step < share_of_voxel * spacing[axis] && static_cast<double>(bounds_.extent()[axis]) > least;
     }
+    if (!is_fine) throw std::invalid_argument("its voxels are too small for where they are in the scene");
 }
 
-BatchOfFloats VoxelDensity::at(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z) const {
-    const float* const data = grid_->table.data();
+float VoxelDensity::at(const glm::vec3& p) const {
+    const glm::vec3 q = in_grid(p);
+    const bool is_inside = glm::all(glm::greaterThanEqual(q, box_.low)) && glm::all(glm::lessThanEqual(q, box_.high));
+    return is_inside ? voxels::linear_at(grid_->table.data(), Vec3<float>{q.x, q.y, q.z}) : 0.0f;
+}
+
+BatchOfFloats VoxelDensity::at(const PointBatch& points, std::size_t count) const {
     BatchOfFloats density;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const glm::vec3 p = to_grid({x[i], y[i], z[i]});
-        const bool is_inside =
-            glm::all(glm::greaterThanEqual(p, box_.low)) && glm::all(glm::lessThanEqual(p, box_.high));
-        density[i] = is_inside ? voxels::linear_at(data, Vec3<float>{p.x, p.y, p.z}) : 0.0f;
-    }
+    for (std::size_t i = 0; i < count; ++i) density[i] = at(points[i]);
     return density;
 }
 
 VoxelDensity::Stretches::Stretches(const VoxelDensity& density, const Way& way) {
     const float* const data = density.grid_->table.data();
-    const Way in_grid{density.to_grid(way.origin), density.linear_ * way.direction, way.length};
+    // The direction is not of unit length there, so that distances remain those in the scene.
+    const Way in_grid{density.in_grid(way.origin), density.to_grid_ * way.direction, way.length};
     const auto [from, to] = part_within(density.box_, in_grid);
     if (!(from < to)) return;
     from_ = from;
@@ -79,9 +68,9 @@ VoxelDensity::Stretches::Stretches(const VoxelDensity& density, const Way& way) 
     directory_ = table.directory;
     for (int i = 0; i < 3; ++i) {
         const auto axis = static_cast<std::size_t>(i);
-        const float per_length = data[voxels::inverse_spacing + axis] / VoxelGrid::block_side;
-        start_[i] = (enters[i] - data[voxels::first + axis]) * per_length;
-        step_[i] = in_grid.direction[i] * per_length;
+        const float blocks_per_length = data[voxels::inverse_spacing + axis] / VoxelGrid::block_side;
+        start_[i] = enters[i] * blocks_per_length;
+        step_[i] = in_grid.direction[i] * blocks_per_length;
         blocks_[i] = table.blocks[axis];
         block_[i] = std::clamp(static_cast<int>(std::floor(start_[i])), 0, blocks_[i] - 1);
     }
@@ -105,12 +94,12 @@ std::optional<DensityStretch> VoxelDensity::Stretches::next() {
             }
         }
         const int number = block_.x + blocks_.x * (block_.y + blocks_.y * block_.z);
-        const float greatest = directory_[voxels::entry * static_cast<std::size_t>(number) + 2];
+        const float bound = directory_[voxels::entry * static_cast<std::size_t>(number) + 2];
         leaves = std::max(leaves, at_);
-        const DensityStretch stretch{from_ + at_, std::min(from_ + leaves, to_), greatest};
+        const DensityStretch stretch{from_ + at_, std::min(from_ + leaves, to_), bound};
         at_ = leaves;
         if (axis) block_[*axis] += step_[*axis] > 0.0f ? 1 : -1;
-        if (greatest > 0.0f && stretch.from < stretch.to) return stretch;
+        if (bound > 0.0f && stretch.from < stretch.to) return stretch;
     }
     return std::nullopt;
 }

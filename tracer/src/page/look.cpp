@@ -44,13 +44,13 @@ void show_light(const glm::vec3& light, Look& look) {
 float mean_density(const VaryingMedium& medium, const Bounds& box) {
     float sum = 0;
     for (int row = 0; row < 64; ++row) {
-        BatchOfFloats x, y, z;
+        PointBatch points;
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::vec3 share(static_cast<float>(i), static_cast<float>(row % 8), static_cast<float>(row / 8));
             const glm::vec3 p = box.low + (share + 0.5f) / 8.0f * box.extent();
-            x[i] = p.x, y[i] = p.y, z[i] = p.z;
+            points.x[i] = p.x, points.y[i] = p.y, points.z[i] = p.z;
         }
-        const BatchOfFloats densities = medium.densities_at(x, y, z);
+        const BatchOfFloats densities = medium.densities_at(points);
         for (std::size_t i = 0; i < batch_size; ++i) sum += densities[i] / 512;
     }
     return sum;

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
-#include "image/luminance.hpp"
 #include "media/measured.hpp"
 #include "scene/material_kinds.hpp"
 
@@ -13,80 +13,87 @@ namespace {
 
 using P = ClearParameters;
 
-// Refuses a second way to say the same.
-void either(bool first, bool second, const char* key, const char* other) {
-    if (first && second)
-        throw ParameterError(key, fmt::format("\"{}\" and \"{}\" say the same; give one of them", key, other),
-                             ParameterError::Place::key);
+// A parameter, and whether it is given.
+struct Given {
+    const char* key;
+    bool is;
+};
+
+// Throws if two are given of which one alone makes sense.
+void refuse_two_of(std::initializer_list<Given> parameters) {
+    const Given* first = nullptr;
+    for (const Given& one : parameters) {
+        if (!one.is) continue;
+        if (first)
+            throw ParameterError(
+                one.key, fmt::format("\"{}\" and \"{}\" exclude each other; give one of them", one.key, first->key),
+                ParameterError::Place::key);
+        first = &one;
+    }
 }
 
-// That this is of no use without that.
-void needs(bool has, bool other, const char* key, const char* wanted) {
-    if (has && !other)
-        throw ParameterError(key, fmt::format("\"{}\" is of no use without \"{}\"", key, wanted),
+// Throws if this is given without what it needs.
+void require(const Given& parameter, bool wanted_is_given, const char* wanted) {
+    if (parameter.is && !wanted_is_given)
+        throw ParameterError(parameter.key, fmt::format("\"{}\" is of no use without {}", parameter.key, wanted),
                              ParameterError::Place::key);
 }
 
 void check(const P& p) {
-    either(p.color.has_value(), p.absorption.has_value(), "color", "absorption");
-    either(p.absorption_spectrum != nullptr, p.absorption.has_value(), "absorption_spectrum", "absorption");
-    either(p.absorption_spectrum != nullptr, p.color.has_value(), "absorption_spectrum", "color");
-    either(p.absorption_spectrum != nullptr, p.medium.has_value(), "absorption_spectrum", "medium");
-    either(p.absorption_spectrum != nullptr, p.albedo.has_value(), "absorption_spectrum", "albedo");
-    either(p.medium.has_value(), p.absorption.has_value(), "medium", "absorption");
-    either(p.medium.has_value(), p.color.has_value(), "medium", "color");
-    either(p.medium.has_value(), p.scattering.has_value(), "medium", "scattering");
-    either(p.medium.has_value(), p.albedo.has_value(), "medium", "albedo");
-    either(p.albedo.has_value(), p.absorption.has_value(), "albedo", "absorption");
-    either(p.albedo.has_value(), p.color.has_value(), "albedo", "color");
-    either(p.albedo.has_value(), p.scattering.has_value(), "albedo", "scattering");
-    needs(p.albedo.has_value(), p.mean_free_path.has_value(), "albedo", "mean_free_path");
-    needs(p.mean_free_path.has_value(), p.albedo.has_value(), "mean_free_path", "albedo");
-    needs(p.medium.has_value(), p.scale.has_value(), "medium", "scale");
-    needs(p.scale.has_value(), p.medium.has_value(), "scale", "medium");
-    const bool is_scattering = p.scattering || p.albedo || p.medium;
-    needs(p.anisotropy.has_value(), is_scattering, "anisotropy", "scattering");
-    const bool attenuates = is_scattering || p.absorption || p.absorption_spectrum || p.color;
-    either(p.density_grid.has_value(), p.density.has_value(), "density_grid", "density");
-    needs(p.density.has_value(), attenuates, "density", "scattering\" or \"absorption");
-    needs(p.density_grid.has_value(), attenuates, "density_grid", "scattering\" or \"absorption");
-    needs(p.emission_spectrum != nullptr, p.emission.has_value(), "emission_spectrum", "emission");
-    either(p.temperature_grid.has_value(), p.emission_spectrum != nullptr, "temperature_grid", "emission_spectrum");
-    needs(p.temperature_grid.has_value(), p.emission.has_value(), "temperature_grid", "emission");
-    needs(p.temperature_grid.has_value(), p.density || p.density_grid, "temperature_grid",
-          "density_grid\" or \"density");
-    needs(p.density_depth.has_value(), p.density.has_value(), "density_depth", "density");
-    needs(p.density.has_value(), p.density_depth.has_value(), "density", "density_depth");
+    const Given absorption{"absorption", p.absorption.has_value()}, color{"color", p.color.has_value()},
+        spectrum{"absorption_spectrum", p.absorption_spectrum != nullptr},
+        scattering{"scattering", p.scattering.has_value()}, albedo{"albedo", p.albedo.has_value()},
+        path{"mean_free_path", p.mean_free_path.has_value()}, medium{"medium", p.medium.has_value()},
+        scale{"scale", p.scale.has_value()}, emission{"emission", p.emission.has_value()},
+        density{"density", p.density.has_value()}, depth{"density_depth", p.density_depth.has_value()},
+        grid{"density_grid", p.density_grid.has_value()},
+        temperatures{"temperature_grid", p.temperature_grid.has_value()},
+        emission_spectrum{"emission_spectrum", p.emission_spectrum != nullptr};
+    refuse_two_of({absorption, color, spectrum, medium, albedo});
+    refuse_two_of({scattering, medium, albedo});
+    refuse_two_of({density, grid});
+    refuse_two_of({emission_spectrum, temperatures});
+    require(albedo, path.is, "\"mean_free_path\"");
+    require(path, albedo.is, "\"albedo\"");
+    require(medium, scale.is, "\"scale\"");
+    require(scale, medium.is, "\"medium\"");
+    const bool scatters = scattering.is || albedo.is || medium.is;
+    const bool attenuates = scatters || absorption.is || color.is || spectrum.is;
+    require({"anisotropy", p.anisotropy.has_value()}, scatters, "\"scattering\"");
+    require(density, attenuates, "\"scattering\" or \"absorption\"");
+    require(density, depth.is, "\"density_depth\"");
+    require(depth, density.is, "\"density\"");
+    require(grid, attenuates, "\"scattering\" or \"absorption\"");
+    require(emission_spectrum, emission.is, "\"emission\"");
+    require(temperatures, emission.is, "\"emission\"");
+    require(temperatures, density.is || grid.is, "\"density_grid\" or \"density\"");
 }
 
-// Absorption, scattering and emission beyond these would make infinities of products.
-constexpr float most_per_metre = 1e15f, brightest = 1e25f;
-
-// None where nothing is hot at all.
+// Returns nothing if all temperatures are 0.
 std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
     constexpr float hottest = 1e5f, coldest = 100;
-    const float kelvin = temperatures.greatest();
-    const bool is_no_kelvin = kelvin > 0 && kelvin < coldest && temperatures.factor == 1;
-    if (!(kelvin <= hottest) || is_no_kelvin)
+    const float greatest = temperatures.greatest_number();
+    const bool looks_unscaled = greatest > 0 && greatest < coldest && temperatures.factor == 1;
+    if (!(greatest <= hottest) || looks_unscaled)
         throw ParameterError("temperature_grid",
                              fmt::format("its greatest temperature would be {:.4g} K; \"factor\" makes kelvin of the "
                                          "numbers",
-                                         kelvin));
-    if (!(kelvin > 0)) return std::nullopt;
-    return Heat(*temperatures.shares, kelvin, reference);
+                                         greatest));
+    if (!(greatest > 0)) return std::nullopt;
+    return Heat(*temperatures.shares, greatest, reference);
 }
 
-// Of what is as dense as the voxels are at most.
-ScatteringCoefficients densest(const ScatteringCoefficients& coefficients, float density) {
-    const ScatteringCoefficients c = coefficients.times(density);
-    const glm::vec3 emission = c.emission;
-    if (!(c.greatest_extinction() <= most_per_metre) ||
-        !(std::max({emission.x, emission.y, emission.z}) <= most_per_metre))
-        throw ParameterError(
-            "density_grid", fmt::format("where its numbers, by their \"factor\", are {:.4g}, absorption, scattering or "
-                                        "emission would be beyond 10¹⁵ per metre",
-                                        density));
-    return c;
+// Throws if products with the coefficients of a medium that varies would overflow, where it is densest and hottest.
+void check_size(const ScatteringCoefficients& c, const std::optional<Heat>& heat, const char* key) {
+    constexpr float most_extinction = 1e15f, most_emission = 1e25f;
+    const float emission =
+        std::max({c.emission.x, c.emission.y, c.emission.z}) * (heat ? std::max(heat->luminance(1), 1.0f) : 1.0f);
+    if (!(c.greatest_extinction() <= most_extinction))
+        throw ParameterError(key,
+                             "where the medium is densest, it would absorb and scatter more than 10¹⁵ times a metre");
+    if (!(emission <= most_emission))
+        throw ParameterError(key, fmt::format("where the medium is densest{}, it would emit more than 10²⁵ a metre",
+                                              heat ? " and hottest" : ""));
 }
 
 Absorption absorption_of(const P& p) {
@@ -113,7 +120,7 @@ Medium ClearParameters::interior() const {
         c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.g()));
         c.absorption = measured.absorption * *scale;
     }
-    // By wavelength a medium may lose nothing here and there.
+    // By wavelength there may be extinction where a colour has none.
     const bool has_spectrum = absorption_spectrum || emission_spectrum || temperature_grid;
     const glm::vec3 extinction = has_spectrum ? glm::vec3(c.greatest_extinction()) : c.extinction();
     for (int i = 0; i < 3; ++i)
@@ -121,21 +128,17 @@ Medium ClearParameters::interior() const {
             throw ParameterError("emission",
                                  "\"emission\" needs absorption or scattering in the same channel: without "
                                  "any, light would grow without end along a ray");
-    std::optional<Heat> heat;
-    if (temperature_grid) {
-        heat = heat_of(*temperature_grid, emission_temperature);
-        if (!heat) c.emission = glm::vec3(0.0f);
-        if (heat && !(luminance(c.emission) * heat->luminance(1) <= brightest))
-            throw ParameterError(
-                "temperature_grid",
-                fmt::format("where it is hottest, {:.4g} K, the medium would shine more than 10²⁵; the "
-                            "emission is that at {:.4g} K",
-                            temperature_grid->greatest(), emission_temperature));
-        c.emission_spectrum =
-            std::make_shared<const LightSpectrum>(LightSpectrum::of_temperature(emission_temperature));
+    if (density || density_grid) {
+        std::optional<Heat> heat;
+        if (temperature_grid) {
+            heat = heat_of(*temperature_grid, emission_temperature);
+            if (!heat) c.emission = glm::vec3(0.0f);
+        }
+        if (density_grid) c = c.times(density_grid->greatest_number());
+        check_size(c, heat, density_grid ? "density_grid" : "density");
+        if (density_grid) return VaryingMedium(c, *density_grid->shares, heat);
+        return VaryingMedium(c, FieldDensity(*density, *density_depth), heat);
     }
-    if (density) return VaryingMedium(c, FieldDensity(*density, *density_depth), heat);
-    if (density_grid) return VaryingMedium(densest(c, density_grid->greatest()), *density_grid->shares, heat);
     if (c.scatters() || c.emission != glm::vec3(0.0f)) return HomogeneousMedium(c);
     return AbsorbingMedium{c.absorption};
 }

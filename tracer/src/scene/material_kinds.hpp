@@ -145,7 +145,9 @@ struct ClearParameters : FilmParameters {
                                     "forwards. Measured media scatter as much more as makes their reduced scattering, "
                                     "(1 − g) s, what was measured. 0 without it.",
                                     Limits{.low = -0.99f, .high = 0.99f}, true});
-        v(&P::emission, RgbParameter{{"emission", "1/m", "Radiance that the medium itself adds along a ray.",
+        v(&P::emission, RgbParameter{{"emission", "1/m",
+                                      "Radiance that the medium itself adds along a ray. It needs absorption or "
+                                      "scattering in the same channels.",
                                       limits::non_negative, true}});
         v(&P::emission_spectrum,
           Parameter{"emission_spectrum", "",
@@ -154,25 +156,27 @@ struct ClearParameters : FilmParameters {
                     limits::any, true});
         v(&P::density,
           Parameter{"density", "",
-                    "Where the medium is how dense: not at all at the field's surface and outside, and rising evenly "
-                    "to all of absorption, scattering and emission inside.",
+                    "A field that tells where the medium is: the density is 0 at its surface and outside, and rises "
+                    "evenly to 1 inside. Absorption, scattering and emission are multiplied by it.",
                     limits::any, true});
         v(&P::density_depth,
-          Parameter{"density_depth", "m", "How deep inside of the density's field the medium is as dense as it gets.",
+          Parameter{"density_depth", "m", "With a density: how deep inside of the field it becomes 1.",
                     limits::positive, true});
         v(&P::density_grid, Parameter{"density_grid", "",
-                                      "In place of a field of densities: numbers at voxels, by which absorption, "
-                                      "scattering and emission are multiplied.",
+                                      "In place of a density: numbers at voxels, by which absorption, scattering and "
+                                      "emission are multiplied.",
                                       limits::any, true});
         v(&P::temperature_grid,
-          Parameter{"temperature_grid", "K",
-                    "With a density: temperatures at voxels, by which the medium shines as what is hot does, in "
-                    "proportion to its density. The grid's \"factor\" makes kelvin of its numbers. Only the brightness "
-                    "of the emission counts then.",
-                    limits::any, true});
+          Parameter{
+              "temperature_grid", "K",
+              "Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its "
+              "density. It needs an emission, of which only the brightness counts then, and a density. The grid's "
+              "\"factor\" makes kelvin of its numbers.",
+              limits::any, true});
         v(&P::emission_temperature,
           Parameter{"emission_temperature", "K",
-                    "With a grid of temperatures: at which the emission is as it is said. What is hotter shines more.",
+                    "With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits "
+                    "more.",
                     Limits{.low = 500, .high = 100000}, true});
         film_parameters<P>(v);
     }

@@ -28,21 +28,18 @@ std::array<Bounds, 8> eighths(const Bounds& box) {
 }
 
 // The centres of a box's eighths.
-struct EightPoints {
-    BatchOfFloats x, y, z;
-
-    explicit EightPoints(const Bounds& box) {
-        const std::array<Bounds, 8> parts = eighths(box);
-        static_assert(batch_size == parts.size());
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            const glm::vec3 centre = parts[i].centre();
-            x[i] = centre.x;
-            y[i] = centre.y;
-            z[i] = centre.z;
-        }
+PointBatch centres_of_eighths(const Bounds& box) {
+    const std::array<Bounds, 8> parts = eighths(box);
+    static_assert(batch_size == parts.size());
+    PointBatch points;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const glm::vec3 centre = parts[i].centre();
+        points.x[i] = centre.x;
+        points.y[i] = centre.y;
+        points.z[i] = centre.z;
     }
-    glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
+    return points;
+}
 
 // No point of the box is farther than this from its centre. The margin keeps rounding from losing a surface that passes
 // through a corner.
@@ -79,7 +76,7 @@ class PhaseFinder {
     }
 
     // φ at the centres of a box's eighths.
-    BatchOfFloats distances(const EightPoints& at, Phase phase) {
+    BatchOfFloats distances(const PointBatch& at, Phase phase) {
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
         evaluator_.evaluate(at.x, at.y, at.z, values_, Evaluator::thread_workspace());
@@ -89,7 +86,7 @@ class PhaseFinder {
   private:
     void add_eighths(const Bounds& box, Phase phase, Counts counts, std::vector<Bounds>& kept) {
         const std::array<Bounds, 8> parts = eighths(box);
-        const BatchOfFloats distance = distances(EightPoints(box), phase);
+        const BatchOfFloats distance = distances(centres_of_eighths(box), phase);
         const float radius = circumradius(parts.front());
         for (std::size_t i = 0; i < parts.size(); ++i)
             if (distance[i] <= radius && (counts == Counts::inside_too || distance[i] >= -radius))
@@ -118,7 +115,7 @@ class Brightness {
         constexpr float places_near_even_surface = 32;
         float near_surface = 0, sum = 0;
         for (const Bounds& eighth : eighths(box)) {
-            const EightPoints at(eighth);
+            const PointBatch at = centres_of_eighths(eighth);
             const BatchOfFloats distance = finder_.distances(at, phase_);
             const float radius = circumradius(eighths(eighth).front());
             for (std::size_t i = 0; i < batch_size; ++i) {
@@ -134,10 +131,10 @@ class Brightness {
     float of(const Clear& clear, const Bounds& box) const {
         float inside = 0;
         for (const Bounds& eighth : eighths(box)) {
-            const EightPoints at(eighth);
+            const PointBatch at = centres_of_eighths(eighth);
             const BatchOfFloats distance = finder_.distances(at, phase_);
             const auto* varying = std::get_if<VaryingMedium>(&clear.interior);
-            const BatchOfFloats brightness = varying ? varying->brightness_at(at.x, at.y, at.z) : BatchOfFloats{};
+            const BatchOfFloats brightness = varying ? varying->brightness_at(at) : BatchOfFloats{};
             for (std::size_t i = 0; i < batch_size; ++i)
                 if (distance[i] < 0.0f) inside += (varying ? brightness[i] : 1.0f) / 64;
         }

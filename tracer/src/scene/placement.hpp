@@ -18,7 +18,8 @@ void placement_parameters(V&& v) {
                 limits::any, true});
     v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
 }
-inline constexpr Parameter y_up_parameter{"y_up", "", "Whether y is up in the file, and not z.", limits::any, true};
+inline constexpr Parameter y_up_parameter{"y_up", "", "Whether y is up in the file, and not z. It is turned so first.",
+                                          limits::any, true};
 
 class Placement {
   public:

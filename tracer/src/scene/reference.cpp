@@ -69,8 +69,8 @@ std::vector<Chapter> scene_chapters() {
                         {page_of<NormalMap>()}});
     chapters.push_back(
         {"Voxels",
-         "Densities and temperatures of the medium of a clear material: `\"density_grid\": {parameters}` and "
-         "`\"temperature_grid\": {parameters}`.",
+         "They tell densities and temperatures of the medium of a clear material: `\"density_grid\": {parameters}` "
+         "and `\"temperature_grid\": {parameters}`.",
          {page_of<Voxels>()}});
     chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
                         pages_of(LightKinds())});

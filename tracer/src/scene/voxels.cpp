@@ -15,21 +15,19 @@ void Voxels::prepare() {
     if (!is_openvdb && !spacing) throw ParameterError("spacing", "images do not say how large their voxels are");
     if (!is_openvdb && !grid.empty())
         throw ParameterError("grid", "images have no grids that this could name", ParameterError::Place::key);
+    const Placement placement(scale, rotate_z_degrees, translate, y_up);
+    const VoxelPlacement of_voxels{glm::dmat3(placement.linear()), glm::dvec3(translate)};
     try {
-        VoxelGrid numbers = is_openvdb ? read_number_grid(file, grid) : read_number_stack(file, glm::dvec3(*spacing));
-        const Placement placement(scale, rotate_z_degrees, translate, y_up);
-        const VoxelDensity& density =
-            shares.emplace(std::move(numbers), VoxelPlacement{glm::dmat3(placement.linear()), glm::dvec3(translate)});
-        for (int i = 0; i < 3; ++i)
-            if (!coordinate.contains(density.bounds().low[i]) || !coordinate.contains(density.bounds().high[i]))
-                throw ParameterError("file", "its voxels would lie beyond 10¹⁵");
-    } catch (const ParameterError&) {
-        throw;
-    } catch (const std::invalid_argument& e) {
+        shares.emplace(is_openvdb ? read_number_grid(file, grid) : read_number_stack(file, glm::dvec3(*spacing)),
+                       of_voxels);
+    } catch (const std::runtime_error& e) {  // of the file
         throw ParameterError("file", e.what());
-    } catch (const std::runtime_error& e) {
+    } catch (const std::invalid_argument& e) {  // of its place
         throw ParameterError("file", e.what());
     }
+    for (int i = 0; i < 3; ++i)
+        if (!coordinate.contains(shares->bounds().low[i]) || !coordinate.contains(shares->bounds().high[i]))
+            throw ParameterError("file", "its voxels would lie beyond 10¹⁵");
 }
 
 }  // namespace phasetree::tracer

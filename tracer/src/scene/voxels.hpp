@@ -15,8 +15,9 @@ struct Voxels {
     static constexpr KindInfo info{
         "voxels",
         "Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres "
-        "they are interpolated, below 0 they count as 0, and outside of all voxels there is nothing. The grid is made "
-        "larger or smaller first, then turned, then moved."};
+        "they are interpolated, and negative ones count as 0. Outside of the grid's box, which ends half a voxel "
+        "beyond "
+        "the outermost centres, they are 0. The grid is scaled first, then turned, then moved."};
 
     std::filesystem::path file{};
     std::string grid{};
@@ -26,10 +27,10 @@ struct Voxels {
     float rotate_z_degrees = 0.0f;
     glm::vec3 translate{0.0f};
     bool y_up = false;
-    std::optional<VoxelDensity> shares{};  // of the greatest number, once it is prepared
+    std::optional<VoxelDensity> shares{};  // of the greatest number, once the file is read
 
-    /// The greatest number, by the factor.
-    float greatest() const { return factor * shares->greatest(); }
+    /// The greatest of the numbers, each multiplied by the factor.
+    float greatest_number() const { return factor * shares->greatest_number(); }
 
     template <class V>
     static void parameters(V&& v) {
@@ -39,12 +40,13 @@ struct Voxels {
               "file", "",
               "An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose "
               "background is 0; or grey images, one for each layer from the lowest z to the highest: a name in "
-              "which #### stands for their numbers, such as \"layer_###.png\". Integers in images are from 0 to "
-              "1. Images are seen from above, x to the right and y up, and stand about the origin."});
+              "which # stands for a digit of their numbers, such as \"layer_###.png\". Integer grey values are "
+              "scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the "
+              "stack is centred on the origin."});
         v(&P::grid, Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of numbers.",
                               limits::any, true});
         v(&P::spacing,
-          Parameter{"spacing", "m", "From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own.",
+          Parameter{"spacing", "m", "From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own.",
                     limits::positive, true});
         v(&P::factor, Parameter{"factor", "", "What the numbers are multiplied by.", limits::non_negative, true});
         placement_parameters<P>(v);

@@ -62,7 +62,9 @@ std::string why_no_level_set(const GridBase& grid) {
     if (!grid.isType<openvdb::FloatGrid>() && !grid.isType<openvdb::DoubleGrid>())
         return fmt::format("it is {}, but a level set has floats or doubles", kind_of(grid));
     if (grid.getGridClass() == openvdb::GRID_FOG_VOLUME)
-        return "it is a fog volume, not a level set; OpenVDB's tools make one of it with the isovalue that is wanted";
+        return "it is a fog volume, not a level set: the \"density_grid\" of a material takes it as it is, and "
+               "OpenVDB's "
+               "tools make a level set of it with the isovalue that is wanted";
     return "it is not marked as a level set (its \"class\")";
 }
 std::string why_no_labels(const GridBase& grid) {
@@ -74,9 +76,15 @@ std::string why_no_numbers(const GridBase& grid) {
     return fmt::format("it is {}, but numbers are floats or doubles", kind_of(grid));
 }
 
+// What wanted grids are called in sentences.
+struct GridsCalled {
+    const char* one;
+    const char* several;
+};
+
 // Reads the grid of a name, or the only one that will do.
 template <class IsWanted, class WhyNot>
-GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& name, const char* what,
+GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& name, const GridsCalled& called,
                         const IsWanted& is_wanted, const WhyNot& why_not) {
     check_vdb_structure(path);
     openvdb::io::File file(path.string());
@@ -95,14 +103,15 @@ GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& na
             refused = why_not(*grid);
     }
     if (!name.empty() && wanted.empty())
-        throw std::runtime_error(refused ? fmt::format("of its grid \"{}\": {}", name, *refused)
-                                         : fmt::format("none of its {} grids is called \"{}\"", all, name));
+        throw std::runtime_error(refused    ? fmt::format("of its grid \"{}\": {}", name, *refused)
+                                 : all == 1 ? fmt::format("its only grid is not called \"{}\"", name)
+                                            : fmt::format("none of its {} grids is called \"{}\"", all, name));
     if (all == 0) throw std::runtime_error("it has no grids");
     if (wanted.empty())
-        throw std::runtime_error(all == 1 ? *refused : fmt::format("none of its {} grids is {}", all, what));
+        throw std::runtime_error(all == 1 ? *refused : fmt::format("none of its {} grids is {}", all, called.one));
     if (wanted.size() > 1)
         throw std::runtime_error(
-            name.empty() ? fmt::format("{} of its grids are {}: \"grid\" must name one", wanted.size(), what)
+            name.empty() ? fmt::format("{} of its grids are {}: \"grid\" must name one", wanted.size(), called.several)
                          : fmt::format("{} of its grids are called \"{}\"", wanted.size(), name));
     GridBase::Ptr grid = file.readGrid(wanted.front());
     std::error_code ignored;
@@ -228,7 +237,7 @@ LabelGrid labels_of(const Grid& grid) {
 
 VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
-        const GridBase::Ptr grid = read_grid(path, name, "a level set", is_level_set, why_no_level_set);
+        const GridBase::Ptr grid = read_grid(path, name, {"a level set", "level sets"}, is_level_set, why_no_level_set);
         if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return level_set_of(*floats);
         return level_set_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
     });
@@ -236,7 +245,8 @@ VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::str
 
 LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
-        const GridBase::Ptr grid = read_grid(path, name, "one of whole numbers", has_whole_numbers, why_no_labels);
+        const GridBase::Ptr grid =
+            read_grid(path, name, {"one of whole numbers", "of whole numbers"}, has_whole_numbers, why_no_labels);
         if (const auto ints = openvdb::gridConstPtrCast<openvdb::Int32Grid>(grid)) return labels_of(*ints);
         return labels_of(*openvdb::gridConstPtrCast<openvdb::Int64Grid>(grid));
     });
@@ -244,7 +254,7 @@ LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string
 
 VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
-        const GridBase::Ptr grid = read_grid(path, name, "one of numbers", has_numbers, why_no_numbers);
+        const GridBase::Ptr grid = read_grid(path, name, {"one of numbers", "of numbers"}, has_numbers, why_no_numbers);
         if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return numbers_of(*floats);
         return numbers_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
     });

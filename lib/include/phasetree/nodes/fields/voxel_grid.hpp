@@ -77,6 +77,11 @@ struct VoxelGrid {
     /// Divides all values by a positive number. Works on all threads.
     void divide_by(double);
 
+    /// The greatest value of a voxel.
+    float greatest() const;
+    /// Moves all voxels so that the first one's centre is there.
+    void move_first_to(const glm::dvec3&);
+
     /// A box around all places whose value is made of a voxel in a block that has a value of at most `level`; nothing
     /// if there are none.
     Bounds blocks_below(float level) const;
