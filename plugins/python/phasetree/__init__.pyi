@@ -2537,13 +2537,13 @@ class materials:
         medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
         scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
         anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
-        emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+        emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
         emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
-        density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
-        density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
-        density_grid: In place of a field of densities: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
-        temperature_grid: With a density: temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. The grid's "factor" makes kelvin of its numbers. Only the brightness of the emission counts then. (voxels in K; default none)
-        emission_temperature: With a grid of temperatures: at which the emission is as it is said. What is hotter shines more. (number in K; at least 500 and at most 100000; default 2000)
+        density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
+        density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
+        density_grid: In place of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+        temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
+        emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
@@ -2627,13 +2627,13 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
     scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
     anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
-    emission: Radiance that the medium itself adds along a ray. ([r, g, b] in 1/m; zero or more; default none)
+    emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
     emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
-    density: Where the medium is how dense: not at all at the field's surface and outside, and rising evenly to all of absorption, scattering and emission inside. (field; default none)
-    density_depth: How deep inside of the density's field the medium is as dense as it gets. (number in m; positive; default none)
-    density_grid: In place of a field of densities: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
-    temperature_grid: With a density: temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. The grid's "factor" makes kelvin of its numbers. Only the brightness of the emission counts then. (voxels in K; default none)
-    emission_temperature: With a grid of temperatures: at which the emission is as it is said. What is hotter shines more. (number in K; at least 500 and at most 100000; default 2000)
+    density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
+    density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
+    density_grid: In place of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+    temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
+    emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
@@ -2816,16 +2816,16 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
     """
 
 def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
-    r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, below 0 they count as 0, and outside of all voxels there is nothing. The grid is made larger or smaller first, then turned, then moved.
+    r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, and negative ones count as 0. Outside of the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then turned, then moved.
 
-    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Integers in images are from 0 to 1. Images are seen from above, x to the right and y up, and stand about the origin. (name of a file)
+    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which # stands for a digit of their numbers, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the stack is centred on the origin. (name of a file)
     grid: Which of an OpenVDB file's grids; needed if it has several of numbers. (text; default "")
-    spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; positive; default none)
+    spacing: From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own. ([x, y, z] in m; positive; default none)
     factor: What the numbers are multiplied by. (number; zero or more; default 1)
     scale: What its size is multiplied by. (number; positive; default 1)
     rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
     translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-    y_up: Whether y is up in the file, and not z. (true or false; default false)
+    y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
     """
 
 class lights:
@@ -2984,7 +2984,7 @@ class meshes:
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
@@ -2998,7 +2998,7 @@ class meshes:
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
@@ -3012,7 +3012,7 @@ class meshes:
         translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
         opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. (true or false; default false)
+        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
         smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
