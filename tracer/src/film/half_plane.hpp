@@ -67,10 +67,11 @@ struct HalfPlane {
         };
         put(sample.radiance);
         if (!sample.record) return all;
-        for (const std::optional<RecordedSurface>& met : {sample.record->first, sample.record->behind}) {
-            put(met ? met->albedo : glm::vec3(0));
-            put(met ? met->normal : glm::vec3(0));
-        }
+        const PathRecord& record = *sample.record;
+        put(record.first ? record.first->albedo : glm::vec3(0));
+        put(record.first ? record.first->normal : glm::vec3(0));
+        put(record.behind ? record.behind->albedo : glm::vec3(0));
+        put(record.behind ? record.weight * record.behind->normal : glm::vec3(0));
         return all;
     }
 };

@@ -1,5 +1,5 @@
 // How far the camera ray travels in each phase, up to the first surface that is not perfectly smooth: the mean over the
-// samples, of which each is reflected or refracted by Fresnel's odds (path_record.hpp).
+// samples, as if each were reflected or refracted by Fresnel's odds (path_record.hpp).
 #pragma once
 
 #include "film/channel_name.hpp"
@@ -20,7 +20,7 @@ class LengthPlane {
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
         if (!sample.record) return;
         for (std::size_t i = 0; i < sums.size(); ++i)
-            sums[i].add(static_cast<double>(sample.record->lengths[i]), faults);
+            sums[i].add(static_cast<double>(sample.record->weight * sample.record->lengths[i]), faults);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
         for (std::size_t i = 0; i < sums.size(); ++i) values[i] = static_cast<float>(sums[i].value() / samples);

@@ -1,11 +1,11 @@
 // What one path tells of itself beside its radiance, for the planes that ask for it.
 //
 // A camera ray is followed from the camera, by the path's own choices at each interface, through what is smooth, to the
-// first surface that is not: that is what one sees of the scene, in a mirror or behind glass. As interfaces reflect by
-// Fresnel's odds, means over the samples of a pixel are blends of what is reflected and what is refracted, each with
-// its own weight. So the documentation of Open Image Denoise recommends it for its albedo and normal, and so Rousselle,
-// Manzi & Zwicker (Robust Denoising using Feature and Color Information, Computer Graphics Forum 32(7), 2013) have it
-// for the features of a filter.
+// first surface that is not: that is what one sees of the scene, in a mirror or behind glass. Paths have weights, with
+// which they count as if interfaces reflected by Fresnel's odds. So means over the samples of a pixel are blends of
+// what is reflected and what is refracted, as much of each as one sees. So the documentation of Open Image Denoise
+// recommends it for its albedo and normal, and so Rousselle, Manzi & Zwicker (Robust Denoising using Feature and Color
+// Information, Computer Graphics Forum 32(7), 2013) have it for the features of a filter.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,10 @@ struct PathRecord {
     std::vector<glm::vec3> groups;
     /// Whether the camera ray left the scene and saw the lights at infinity, or the background in their place.
     bool shows_background = false;
+    /// How often the path would go where it does if each interface reflected by Fresnel's odds, over how often it does
+    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth; less than weight_limit.
+    float weight = 1;
+    static constexpr float weight_limit = 16;
     /// The first surface.
     std::optional<RecordedSurface> first;
     /// The first surface that is not perfectly smooth. Its albedo is what is left of white light on the way there and

@@ -43,7 +43,8 @@ struct MeanPlane : RecordedPlane<What> {
     }
 };
 
-/// The mean of the samples that have something to tell, and What::otherwise where none has.
+/// The mean of the samples that have something to tell, each with What::weight(sample), and What::otherwise where none
+/// has.
 template <class What>
 struct MeanOfMetPlane : RecordedPlane<What> {
     using Sum = WeightedMean<What::channels.size()>;
@@ -51,7 +52,7 @@ struct MeanOfMetPlane : RecordedPlane<What> {
 
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
-        if (const auto values = What::of(sample)) sums[0].add(*values, 1.0f, faults);
+        if (const auto values = What::of(sample)) sums[0].add(*values, What::weight(sample), faults);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> values) const {
         const auto means = sums[0].mean(What::otherwise);

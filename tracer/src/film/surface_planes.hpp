@@ -23,6 +23,8 @@ struct OfFirst : What {
 /// The same of the first surface that is not perfectly smooth.
 template <class What>
 struct OfBehind : What {
+    /// Sums of weights take numbers up to 1.
+    static float weight(const FilmSample& s) { return s.record->weight / PathRecord::weight_limit; }
     static auto of(const FilmSample& s) -> decltype(std::optional(What::of_surface(s, *s.record->behind))) {
         if (!s.record || !s.record->behind) return std::nullopt;
         return What::of_surface(s, *s.record->behind);
@@ -66,8 +68,11 @@ struct PositionBehind : Position {
 struct NormalBehind : Normal {
     static constexpr std::string_view name = "normal_behind";
     static constexpr std::array<std::string_view, 3> channels{"normal_behind.X", "normal_behind.Y", "normal_behind.Z"};
+    static auto of_surface(const FilmSample& s, const RecordedSurface& r) {
+        return components(s.record->weight * r.normal);
+    }
 };
-struct AlbedoBehind : Albedo {
+struct AlbedoBehind : Albedo {  // the weight is in what is left of the light
     static constexpr std::string_view name = "albedo_behind";
     static constexpr std::array<std::string_view, 3> channels{"albedo_behind.R", "albedo_behind.G", "albedo_behind.B"};
 };

@@ -34,6 +34,13 @@ class GuidedBsdf {
         /// The density of `wi` over that with which the BSDF alone would choose it: 1 without a guide, and never less
         /// than a half.
         float pdf_over_unguided = 1;
+
+        /// It was chosen so many times as often as the BSDF alone would have chosen it.
+        void count_as_chosen(float odds) {
+            weight /= odds;
+            pdf *= odds;
+            pdf_over_unguided *= odds;
+        }
     };
     /// Nothing if the path ends here.
     std::optional<Sample> sample(float u_lobe, const glm::vec2& u) const {
@@ -60,11 +67,11 @@ class GuidedBsdf {
     float mixed(float by_bsdf, const glm::vec3& world) const {
         return guide_ ? mean(by_bsdf, guide_->pdf(world)) : by_bsdf;
     }
-    static Sample as_chosen_with(float pdf, BsdfSample next) {
-        const float pdf_over_unguided = pdf / next.pdf;
-        next.weight /= pdf_over_unguided;
-        next.pdf = pdf;
-        return {next, pdf_over_unguided};
+    static Sample as_chosen_with(float pdf, const BsdfSample& by_bsdf) {
+        Sample next{by_bsdf};
+        next.count_as_chosen(pdf / by_bsdf.pdf);
+        next.pdf = pdf;  // without the rounding of the quotient
+        return next;
     }
     std::optional<BsdfSample> sampled_by_bsdf(float u_lobe, const glm::vec2& u) const {
         return bsdf_.sample(wo_, guide_ ? (u_lobe - guided_share) / (1.0f - guided_share) : u_lobe, u);

@@ -6,6 +6,7 @@
 #include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
 #include "caustics/trace_photon.hpp"
+#include "integrator/interface_choice.hpp"
 #include "integrator/light_proposal.hpp"
 #include "integrator/path_chain.hpp"
 #include "integrator/path_guiding.hpp"
@@ -162,7 +163,10 @@ class Path {
         const Phase after = next && next->transmitted ? surface.far_side->phase : ray_.phase;
         const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
         const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
-        recorder_.scattered(surface, bsdf.is_delta(), is_link(bsdf, surface), weight * (bent * bent),
+        const bool is_of_chain = is_link(bsdf, surface);
+        // What a smooth interface reflects and what it refracts is all of the light.
+        recorder_.scattered(surface, bsdf.is_delta(), is_of_chain,
+                            is_of_chain ? glm::vec3(1.0f) : weight * (bent * bent),
                             throughput * weight * (from_camera * from_camera));
     }
 
@@ -185,14 +189,17 @@ class Path {
             add_direct_light(surface, bsdf, proposal, per_line_density_of);
             add_caustics(surface, bsdf, proposal);
         }
-        const float lobe = sampler_.next();
+        const auto [lobe, odds] = choice_at(surface, frame, unguided, bsdf.wo(), sampler_.next());
         const glm::vec2 u = sampler_.next2();
-        const auto next = bsdf.sample(lobe, u);
+        auto next = bsdf.sample(lobe, u);
+        if (next) next->count_as_chosen(odds);
         // The recorded albedo is by the BSDF's own choice, because the weights of guided directions are noisier.
         if (recorder_.is_asked()) record(surface, bsdf, lobe, u, next);
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
+        recorder_.chose(odds);
+        if (current_) recorded_throughput_ /= odds;
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         guiding_.leave(surface, unguided, *next, ray_.direction, throughput_);
         if (!next->delta)
@@ -211,6 +218,13 @@ class Path {
             // bump sends the path into the mirror once more.
             chain_ = {};
         return true;
+    }
+
+    // Which lobe of a smooth interface is chosen; other BSDFs choose by themselves.
+    InterfaceChoice choice_at(const Surface& surface, const Frame& frame, const Bsdf& bsdf, const glm::vec3& wo,
+                              float u) const {
+        if (!is_link(bsdf, surface) || !guiding_.may_differ()) return {u, 1.0f};
+        return chosen_by_lights(scene_, surface, bsdf, frame, wo, u);
     }
 
     void scatter_and_continue(const MediumPoint& point) {

@@ -18,9 +18,11 @@ class PathGuiding {
 
     /// The density of directions that takes part in the choice at a surface; null if only the BSDF chooses.
     const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const {
-        if (!guide_ || pdf_over_unguided_ < least_pdf_over_unguided || !can_be_guided(surface, bsdf)) return nullptr;
+        if (!guide_ || !may_differ() || !can_be_guided(surface, bsdf)) return nullptr;
         return guide_->at(surface.near_side.origin, facing_of(surface.geometric_normal));
     }
+    /// Whether the path may still choose otherwise than BSDFs would.
+    bool may_differ() const { return pdf_over_unguided_ >= least_pdf_over_unguided; }
     /// The path leaves a surface in this direction of world space, with this throughput, before roulette.
     void leave(const Surface& surface, const Bsdf& bsdf, const GuidedBsdf::Sample& next, const glm::vec3& direction,
                const glm::vec3& throughput) {
@@ -39,8 +41,9 @@ class PathGuiding {
     float pdf_over_unguided() const { return pdf_over_unguided_; }
 
   private:
-    // A path stops asking the guide once the product falls below this. A guide that is wrong may double a path's weight
-    // at each surface, so the weight grows to less than sixteen times what it would be.
+    // Once the product falls below this a path chooses as BSDFs do. A guide that is wrong, or a lamp that is hidden
+    // (interface_choice.hpp), may double a path's weight at each surface, so the weight grows to less than sixteen
+    // times what it would be.
     static constexpr float least_pdf_over_unguided = 1.0f / 8;
 
     // An opaque surface that gets light from nearly all directions. Elsewhere the BSDF knows better. No medium is one:

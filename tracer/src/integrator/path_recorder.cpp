@@ -6,6 +6,7 @@ void PathRecorder::begin(const Scene& scene) {
     record_->direct = record_->indirect = glm::vec3(0.0f);
     record_->groups.assign(scene.lights.groups().size(), glm::vec3(0.0f));
     record_->shows_background = false;
+    record_->weight = 1.0f;
     record_->first.reset();
     record_->behind.reset();
     record_->lengths.assign(scene.materials.size(), 0.0f);

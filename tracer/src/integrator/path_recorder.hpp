@@ -28,6 +28,11 @@ class PathRecorder {
     void scattered(const Surface& surface, bool is_delta, bool is_link, const glm::vec3& weight,
                    const glm::vec3& throughput);
 
+    /// The path was so many times as likely to go on as it does as Fresnel's odds are.
+    void chose(float odds_over_fresnel) {
+        if (record_ && !record_->behind) record_->weight /= odds_over_fresnel;
+    }
+
     /// The camera ray met nothing and saw what is behind the scene.
     void shows_background() {
         if (record_) record_->shows_background = true;

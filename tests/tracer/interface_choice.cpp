@@ -1,0 +1,146 @@
+// The choice between reflection and refraction by what lights are seen in both directions: it is unbiased, a lamp's
+// reflection in glass has little noise, and planes tell what Fresnel's odds would have shown.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "closed_form.hpp"
+#include "integrator/interface_choice.hpp"
+#include "paths.hpp"
+
+namespace test_interface_choice {
+
+using namespace phasetree::tracer;
+using namespace phasetree::tracer::tests;
+using phasetree::tests::Layer;
+using phasetree::tests::Response;
+using phasetree::tests::stack;
+
+namespace {
+
+// An upright pane of glass, seen at 30 degrees. `lamp` is on the camera's side, where the pane mirrors it, and what is
+// behind is darker by a factor of a hundred.
+constexpr double lamp_radiance = 10, behind_radiance = 0.1;
+const double cosine = std::cos(std::numbers::pi / 6);
+const glm::vec3 from(1.0f, -std::sqrt(3.0f), 0.0f);
+
+Scene pane(const std::string& glass, const std::string& lights, const std::string& more = "",
+           const std::string& more_phases = "") {
+    return scene_of(R"("glass": {"clear": {"ior": 1.5)" + glass + "}}" + more_phases,
+                    R"({"over": [{"set": {"phase": "glass", "of": {"box": {"size": [20, 0.02, 20]}}}})" + more + "]}",
+                    R"("lights": [)" + lights + R"(], "render": {"width": 8, "height": 8})");
+}
+// Around the direction in which a pane mirrors what comes from the camera.
+const std::string lamp =
+    R"({"rectangle": {"centre": [-2, -3.4641016, 0], "target": [0, 0, 0], "width": 0.8, "height": 0.8, "radiance": [10, 10, 10]}})";
+const std::string behind =
+    R"({"rectangle": {"centre": [-2, 3.4641016, 0], "target": [0, 0, 0], "width": 3, "height": 3, "radiance": [0.1, 0.1, 0.1]}})";
+
+}  // namespace
+
+TEST_CASE("each outcome is as likely as the choice says, and so counts as often as by Fresnel's odds") {
+    for (const char* const film : {"", R"(, "film_ior": 1.33, "film_thickness": 300)"}) {
+        CAPTURE(film);
+        const Scene scene = pane(film, lamp);
+        const World world(scene);
+        const auto surface = surface_met(world, from, -from);
+        REQUIRE(surface);
+        const Bsdf bsdf = surface->bsdf();
+        const Frame frame = surface->frame();
+        const glm::vec3 wo = frame.to_local(glm::normalize(from));
+        const float f = bsdf.sample(wo, 0.0f, {})->pdf;
+        constexpr int steps = 20000;
+        int reflected = 0;
+        double counted = 0;
+        float odds = 0;
+        for (int i = 0; i < steps; ++i) {
+            const float u = (static_cast<float>(i) + 0.5f) / steps;
+            const InterfaceChoice choice = chosen_by_lights(scene, *surface, bsdf, frame, wo, u);
+            REQUIRE(choice.u_lobe >= 0.0f);
+            REQUIRE(choice.u_lobe < 1.0f);
+            if (bsdf.sample(wo, choice.u_lobe, {})->transmitted) continue;
+            ++reflected;
+            odds = choice.odds_over_fresnel;
+            counted += 1 / static_cast<double>(odds);
+        }
+        // Only the lamp is bright, so half of the choice is for it.
+        CHECK(static_cast<double>(reflected) / steps ==
+              doctest::Approx(0.5 + 0.5 * static_cast<double>(f)).epsilon(1e-3));
+        CHECK(odds == doctest::Approx(0.5f * (1.0f + 1.0f / f)).epsilon(1e-4));
+        CHECK(counted / steps == doctest::Approx(f).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("where no light is seen, or all of it is reflected, the choice is Fresnel's") {
+    const Scene scene = pane("", R"({"sphere": {"centre": [50, 50, 50], "radius": 0.1, "radiance": [1, 1, 1]}})");
+    const World world(scene);
+    const auto surface = surface_met(world, from, -from);
+    REQUIRE(surface);
+    const glm::vec3 wo = surface->frame().to_local(glm::normalize(from));
+    const InterfaceChoice choice = chosen_by_lights(scene, *surface, surface->bsdf(), surface->frame(), wo, 0.3f);
+    CHECK(choice.u_lobe == 0.3f);
+    CHECK(choice.odds_over_fresnel == 1.0f);
+
+    const Scene lit = pane("", R"({"constant": {}})");
+    const World lit_world(lit);
+    const auto within = surface_met(lit_world, {0, 0, 0}, {1, 0.1f, 0});
+    REQUIRE(within);
+    const glm::vec3 grazing = within->frame().to_local(-glm::normalize(glm::vec3(1, 0.1f, 0)));
+    CHECK(chosen_by_lights(lit, *within, within->bsdf(), within->frame(), grazing, 0.7f).odds_over_fresnel == 1.0f);
+}
+
+TEST_CASE("a lamp in a pane is as bright as theory says, with the noise of few samples") {
+    const Scene scene = pane("", lamp + "," + behind);
+    const World world(scene);
+    constexpr std::uint32_t samples = 400000;
+    const auto found = radiance_along(world, scene, from, -from, samples)[1];
+    const Response response = stack(cosine, std::array{Layer{1.5, 0, 0.02}});
+    const double expected = response.reflected * lamp_radiance + response.transmitted * behind_radiance;
+    CAPTURE(found.mean());
+    CAPTURE(found.standard_error());
+    CHECK(mean_p_value(found, expected, 1e-4 * expected) > sidak(1e-4, 2));
+    CHECK(mean_p_value(found, 1.01 * expected, 1e-4 * expected) < sidak(1e-4, 2));
+    // By Fresnel's odds it is R (L − L')² (1 − R) / L̄², nearly 9.
+    const double variance = found.standard_error() * found.standard_error() * samples;
+    CHECK(variance / (expected * expected) < 1.5);
+}
+
+TEST_CASE("planes show what is behind a pane as much as by Fresnel's odds, whatever lamps it mirrors") {
+    // A wall behind the pane, and none on the camera's side but the lamp: what is reflected meets nothing.
+    const Scene scene = pane(
+        "", lamp,
+        R"(, {"set": {"phase": "wall", "of": {"translate": {"by": [0, 3, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})",
+        R"(, "wall": {"diffuse": {"color": [0.5, 0.5, 0.5]}})");
+    const World world(scene);
+    const Ray ray{from, -glm::normalize(from), world.geometry().label(from), {}};
+    PathCounters counters;
+    PathRecord record;
+    Moments weight, normal, in_glass, albedo;
+    bool is_varied = false;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        Sampler sampler(i, 0, 0, 1);
+        trace_path(world, scene, ray, sampler, counters, &record, {});
+        weight.add(static_cast<double>(record.weight));
+        is_varied = is_varied || record.weight != 1.0f;
+        const auto w = static_cast<double>(record.behind ? record.weight : 0.0f);
+        normal.add(record.behind ? w * static_cast<double>(record.behind->normal.y) : 0);
+        albedo.add(record.behind ? static_cast<double>(record.behind->albedo.y) : 0);
+        in_glass.add(static_cast<double>(record.weight * record.lengths[1]));
+        CHECK(record.weight < PathRecord::weight_limit);
+        REQUIRE(record.first);
+        CHECK(record.first->albedo == glm::vec3(1.0f));
+    }
+    CHECK(is_varied);
+    const Response response = stack(cosine, std::array{Layer{1.5, 0, 0.02}});
+    const double way_through = 0.02 / phasetree::tests::cosine_within(cosine, 1.5);
+    const double significance = sidak(1e-4, 4);
+    CHECK(mean_p_value(weight, 1, 1e-5) > significance);
+    CHECK(mean_p_value(normal, -response.transmitted, 1e-5) > significance);
+    CHECK(mean_p_value(albedo, 0.5 * response.transmitted, 1e-5) > significance);
+    // A share 1 − F gets in, and goes through the glass once more with the probability F each time: once on average.
+    CHECK(mean_p_value(in_glass, way_through, 1e-5) > significance);
+}
+
+}  // namespace test_interface_choice

@@ -1,0 +1,47 @@
+#include "integrator/interface_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/luminance.hpp"
+#include "phasetree/math/bounds.hpp"
+#include "world/chain.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+constexpr float greatest_below_one = 0x1.fffffep-1f;
+
+// How bright the lights are that a path would see after it has gone on so, and has left by a plane parallel to the
+// interface into vacuum, where lights are.
+float brightness(const Scene& scene, const Surface& surface, const Frame& frame, const BsdfSample& next) {
+    const Phase phase = next.transmitted ? surface.far_side->phase : surface.near_side.phase;
+    const float ior = clear_at(scene, phase).ior;
+    const float x = ior * next.wi.x, y = ior * next.wi.y;
+    const float cosine_squared = 1.0f - x * x - y * y;
+    if (!(cosine_squared > 0.0f)) return 0.0f;  // such a plane keeps the light inside
+    const glm::vec3 outside(x, y, std::copysign(std::sqrt(cosine_squared), next.wi.z));
+    const auto light = scene.lights.seen(surface.near_side.origin, frame.to_world(outside), Bounds::infinity, false);
+    return light ? luminance(light->radiance) : 0.0f;
+}
+
+}  // namespace
+
+InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, const Bsdf& bsdf, const Frame& frame,
+                                 const glm::vec3& wo, float u) {
+    const InterfaceChoice by_fresnel{u, 1.0f};
+    const auto reflected = bsdf.sample(wo, 0.0f, {}), refracted = bsdf.sample(wo, greatest_below_one, {});
+    if (!reflected || !refracted || reflected->transmitted || !refracted->transmitted) return by_fresnel;
+    const float f = reflected->pdf;
+    const float from_reflection = f * brightness(scene, surface, frame, *reflected);
+    const float from_refraction = (1.0f - f) * brightness(scene, surface, frame, *refracted);
+    const float from_both = from_reflection + from_refraction;
+    if (!(from_both > 0.0f && from_both < Bounds::infinity)) return by_fresnel;
+    const float q = 0.5f * (f + from_reflection / from_both);
+    if (u < q) return {std::min(u / q * f, std::nextafter(f, 0.0f)), q / f};
+    const float rest = (u - q) / (1.0f - q);
+    return {std::min(f + rest * (1.0f - f), greatest_below_one), (1.0f - q) / (1.0f - f)};
+}
+
+}  // namespace phasetree::tracer
