@@ -284,9 +284,6 @@ TEST_CASE("what cannot move is refused, with the place") {
     refused(message(R"({"affine": {"x": {"keys": [[0, [1, 0, 0]], [0.99, [-1, 0, 0]]]}}})"), 4, "turned inside out");
     refused(message(R"({"keys": [[0, {"scale": {"factor": 1}}], [1, {"scael": {"factor": 1}}]]})"), 4, "scale");
     refused(message(R"({"translate": {"by": {"keys": [[0, [0, 0, 0]], [0.001, [1e30, 0, 0]]]}}})"), 4, "");
-    // Where it stands still as the shutter opens, too: the fog is of the scene's space.
-    CHECK(message(R"({"scale": {"factor": 1}})", "[0, 1]", "fog") == "");
-    refused(message(good, "[0, 1]", "fog"), 3, "\"density\"");
 }
 
 }  // namespace test_moving_objects

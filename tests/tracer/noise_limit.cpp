@@ -99,7 +99,7 @@ TEST_CASE("the error is the root mean square of what pixels are off, relative to
 }
 
 TEST_CASE("blocks stop at different times, whole, and the noisy ones have all samples") {
-    const Scene scene = lamp_and_glass(0.1f, 192);
+    const Scene scene = lamp_and_glass(0.07f, 192);
     const World world(scene);
     const Rendering r = render(world, scene, whole(scene));
     const std::vector<float>& samples = samples_of(r.image);
@@ -124,7 +124,7 @@ TEST_CASE("blocks stop at different times, whole, and the noisy ones have all sa
 }
 
 TEST_CASE("the same bits with any threads, in any crop, and after any interruptions") {
-    const Scene scene = lamp_and_glass(0.12f, 100);
+    const Scene scene = lamp_and_glass(0.08f, 100);
     const World world(scene);
     const Image one = render(world, scene, whole(scene, 1)).image;
     CHECK(equal_bits(one, render(world, scene, whole(scene, 3)).image));

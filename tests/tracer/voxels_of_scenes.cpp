@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "image/luminance.hpp"
 #include "media/medium.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree_support/temporary_directory.hpp"
@@ -129,6 +130,22 @@ TEST_CASE("what is cold does not shine, and what is no temperature is refused") 
     CHECK(folder.said_of(bright).find("where the medium is densest and hottest, it would emit more than 10²⁵") !=
           std::string::npos);
     CHECK(folder.said_of(hot(1e7)).find("its greatest temperature would be 4e+06 K") != std::string::npos);
+}
+
+TEST_CASE("what is hot shines in proportion to its density") {
+    const Folder folder;
+    // The left voxel has 2000 K, at which the medium of density 1 emits 5 a metre, and a density of 0.2. So little is
+    // absorbed that it does not count.
+    const Medium medium = folder.medium(
+        R"("absorption": [1e-3, 1e-3, 1e-3], "emission": [5, 5, 5], "density_grid": {IMAGE}, "temperature_grid": {IMAGE, "factor": 10000})");
+    double sum = 0;
+    constexpr std::uint32_t count = 4096;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        Sampler sampler(n, 0, 0, 3);
+        const Way straight_down{{-0.5f, 0, 2}, {0, 0, -1}, 4};
+        sum += static_cast<double>(luminance(pass(medium, straight_down, sampler).emitted));
+    }
+    CHECK(sum / count == doctest::Approx(5 * 0.2).epsilon(0.05));
 }
 
 TEST_CASE("what does not go together is said at its place") {

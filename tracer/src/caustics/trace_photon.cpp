@@ -54,7 +54,8 @@ class PhotonFlight {
             // much of that is left there.
             if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
-            glm::vec3 left = transmittance(medium(), {ray_.origin, ray_.direction, distance, carried_}, sampler_);
+            glm::vec3 left =
+                transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, carried_), sampler_);
             if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
             power_ *= left;
             if (power_ == glm::vec3(0.0f)) return;

@@ -109,7 +109,7 @@ class Path {
     }
 
     Flight through_medium(float distance) {
-        return fly(medium(), {ray_.origin, ray_.direction, distance, current_}, throughput_, sampler_);
+        return fly(medium(), world_.geometry().way_through_medium(ray_, distance, current_), throughput_, sampler_);
     }
 
     // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
@@ -383,8 +383,10 @@ class Path {
             // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
             // one at which nothing is lost yet.
             const Wavelengths* of_photon = photon.of_one_wavelength ? &*wavelengths_ : current_;
-            const glm::vec3 left =
-                transmittance(medium(), {point.position, photon.direction, std::max(depth, 0.0f), of_photon}, sampler_);
+            const glm::vec3 left = transmittance(
+                medium(),
+                world_.geometry().way_through_medium(point.leaving(photon.direction), std::max(depth, 0.0f), of_photon),
+                sampler_);
             const float f = point.phase_function.get().evaluate(glm::dot(ray_.direction, photon.direction));
             add_photon(photon, photon.power * left / coverage, glm::vec3(f), by_photons, f, proposal, point.position);
         });

@@ -70,9 +70,10 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
-        const Passage passage =
-            pass(medium, {ray.origin, ray.direction, light ? light->distance : distance, ray_wavelengths.now()},
-                 context.sampler);
+        const Passage passage = pass(
+            medium,
+            context.world.geometry().way_through_medium(ray, light ? light->distance : distance, ray_wavelengths.now()),
+            context.sampler);
         const bool is_dispersed_here = ray_wavelengths.is_dispersed && !path_wavelengths.is_dispersed;
         const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.wavelengths->hero_to_all : glm::vec3(1.0f);
         if (brings_emission) arrival.from_media += throughput * passage.emitted * to_path;

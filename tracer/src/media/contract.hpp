@@ -17,10 +17,10 @@
 
 namespace phasetree::tracer {
 
-/// A straight way through a medium, in the scene's unit. Its length may be infinite.
+/// A straight way through a medium. Its length, in the scene's unit, may be infinite.
 struct Way {
     glm::vec3 origin;
-    glm::vec3 direction;  ///< of unit length
+    glm::vec3 direction;  ///< of unit length in the scene (TracedGeometry::way_through_medium())
     float length;
     const Wavelengths* wavelengths = nullptr;  ///< of the light; none if its numbers are red, green and blue
 };

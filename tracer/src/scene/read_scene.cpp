@@ -76,29 +76,6 @@ Material read_phase_material(const Document& document, Value phase) {
 
 namespace {
 
-// What varies a density stands still in the scene, so an object that has one must, too.
-void refuse_moved_densities(const Document& document, const Scene& scene) {
-    PhaseSet dense;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Clear* clear = std::get_if<Clear>(&scene.materials[i]);
-        if (clear && std::holds_alternative<VaryingMedium>(clear->interior))
-            dense = dense | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
-    }
-    if (dense.empty()) return;
-    const std::vector<bool> moving = scene.placed.moving_objects();
-    scene.placed.each_copy([&](std::uint32_t, const PlacedObject& object, const Transform& to_scene) {
-        const bool moves = moving[static_cast<std::size_t>(&object - scene.placed.objects.data())];
-        if (!(phases(object.tree) & dense).empty() && (moves || to_scene != Transform()))
-            throw document.error(
-                *document.root().find("objects"),
-                fmt::format("\"{}\" has a phase with a \"density\" or \"density_grid\", which is of the scene's "
-                            "space, so "
-                            "it can have no transform and no instances",
-                            object.name));
-        return true;
-    });
-}
-
 // Adds a phase's material, unless the voxels of all would be more than a machine may hold.
 void add_material(const Document& document, Value phase, Scene& scene) {
     constexpr std::size_t most_bytes_of_voxels = std::size_t{4} << 30;
@@ -125,7 +102,6 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         scene.phases = std::move(model.phases);
         scene.placed = std::move(model.placed);
         for (const auto& source : model.materials) add_material(source.document, source.material, scene);
-        refuse_moved_densities(document, scene);
         return;
     }
     refuse_places_of_nothing(document);

@@ -255,6 +255,20 @@ RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p, float 
     return on_its_way.found;
 }
 
+Transform PlacedGeometry::to_object(std::uint32_t copy, float time) const {
+    Transform here;
+    for (const Places* places = root_.get(); places != nullptr;) {
+        // The last place whose first copy is not beyond this one: each place has one copy at least.
+        const auto next = std::ranges::upper_bound(places->list, copy, {}, &PlaceInEmbree::first_copy);
+        const auto number = static_cast<unsigned>(next - places->list.begin() - 1);
+        Transform then;
+        here = inward_at(*places, number, static_cast<double>(time), then) * here;
+        copy -= places->list[number].first_copy;
+        places = targets_[places->list[number].target].places;
+    }
+    return here;
+}
+
 double PlacedGeometry::tolerance(std::uint32_t object, const Transform& to_scene, const glm::vec3& p) const {
     return resolutions_apart * static_cast<double>(cells_[object]->resolution()) * to_scene.stretch() + rounded_at(p);
 }

@@ -71,6 +71,10 @@ class PlacedGeometry {
     /// to which the geometry is attached as the first.
     RayObjects objects_at(RTCScene scene, const glm::vec3& p, float time) const;
 
+    /// From the scene to the space of a copy's object, at a share of the time in which the shutter is open. It takes
+    /// some steps for each group that the copy is in.
+    Transform to_object(std::uint32_t copy, float time) const;
+
     /// How far apart two interfaces may be, in the scene's unit of length, to be one and the same as far as the cells
     /// of this copy can tell near a point: two resolutions, and what coordinates round away.
     double tolerance(std::uint32_t object, const Transform& to_scene, const glm::vec3& p) const;

@@ -43,6 +43,16 @@ std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in)
 
 }  // namespace
 
+Way TracedGeometry::way_through_medium(const Ray& ray, float length, const Wavelengths* wavelengths) const {
+    const Way in_scene{ray.origin, ray.direction, length, wavelengths};
+    if (!placed_ || ray.in.size() == 0) return in_scene;
+    const Clear* clear = std::get_if<Clear>(&scene_.materials[ray.phase.index]);
+    if (!clear || !std::holds_alternative<VaryingMedium>(clear->interior)) return in_scene;
+    const Transform to_object = placed_->to_object(ray.in.copy(0), ray.in.time());
+    return {glm::vec3(to_object(glm::dvec3(ray.origin))), glm::vec3(to_object.matrix * glm::dvec3(ray.direction)),
+            length, wavelengths};
+}
+
 TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, float far, PathCounters& counters) const {
     const auto phases = carried(ray.in);
     PlacedQuery q;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "embree_core/cell_geometry.hpp"
+#include "media/contract.hpp"
 #include "scene/scene.hpp"
 #include "shading/interface.hpp"
 #include "world/counters.hpp"
@@ -31,6 +32,11 @@ class TracedGeometry {
     Hit intersect(const Ray& ray, PathCounters& counters) const;
     /// What stands first in the way of light along a ray, before the distance `far`.
     Visibility visibility(const Ray& ray, float far, PathCounters& counters) const;
+
+    /// The way that a ray goes through the medium of its phase. Where the density of that varies, the way is in the
+    /// space of the object that it belongs to; its direction is not of unit length there, so that lengths are the
+    /// scene's.
+    Way way_through_medium(const Ray& ray, float length, const Wavelengths* wavelengths = nullptr) const;
 
     /// The phase at a point, at a share of the time in which the shutter is open.
     Phase label(const glm::vec3& p, float time = 0) const { return inside(p, time).phase; }
