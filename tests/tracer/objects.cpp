@@ -247,17 +247,6 @@ TEST_CASE("files of places are checked to the last byte") {
     CHECK(error("nan").starts_with("\"nan\" has a place, number 1 from 0, that cannot be used"));
 }
 
-TEST_CASE("a density stands still, so its object must") {
-    const auto error = [&](const std::string& transform) {
-        return error_of(
-            R"("objects": [{"name": "a", "tree": {"set": {"phase": "glass", "of": "round"}}, "phases": {"glass":
-            {"clear": {"ior": 1, "absorption": [1, 1, 1], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5}}}, )" +
-            transform + "}]");
-    };
-    CHECK(error(R"("transform": [{"translate": {"by": [0, 0, 0]}}])").empty());
-    CHECK(error(R"("transform": {"translate": {"by": [1, 0, 0]}})").find("\"density\" or") != std::string::npos);
-}
-
 TEST_CASE("overlaps are found, and touching is none") {
     const auto overlaps_at = [&](const std::string& places) {
         return find_overlaps(scene_of(std::string(R"("objects": [{"name": "cube", "tree": {"set": {"phase": "glass",
