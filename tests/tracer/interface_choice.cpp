@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "closed_form.hpp"
 #include "integrator/interface_choice.hpp"
@@ -24,13 +25,15 @@ namespace {
 // behind is darker by a factor of a hundred.
 constexpr double lamp_radiance = 10, behind_radiance = 0.1;
 const double cosine = std::cos(std::numbers::pi / 6);
-const glm::vec3 from(1.0f, -std::sqrt(3.0f), 0.0f);
+const glm::vec3 from(1.0f, -std::sqrt(3.0f), 0.0f);  // where the camera is, too
 
 Scene pane(const std::string& glass, const std::string& lights, const std::string& more = "",
            const std::string& more_phases = "") {
-    return scene_of(R"("glass": {"clear": {"ior": 1.5)" + glass + "}}" + more_phases,
-                    R"({"over": [{"set": {"phase": "glass", "of": {"box": {"size": [20, 0.02, 20]}}}})" + more + "]}",
-                    R"("lights": [)" + lights + R"(], "render": {"width": 8, "height": 8})");
+    return scene_of(
+        R"("glass": {"clear": {"ior": 1.5)" + glass + "}}" + more_phases,
+        R"({"over": [{"set": {"phase": "glass", "of": {"box": {"size": [20, 0.02, 20]}}}})" + more + "]}",
+        R"("lights": [)" + lights +
+            R"(], "camera": {"position": [1, -1.7320508, 0], "look_at": [0, 0, 0], "fov": 0.5}, "render": {"width": 8, "height": 8})");
 }
 // Around the direction in which a pane mirrors what comes from the camera.
 const std::string lamp =
@@ -141,6 +144,44 @@ TEST_CASE("planes show what is behind a pane as much as by Fresnel's odds, whate
     CHECK(mean_p_value(albedo, 0.5 * response.transmitted, 1e-5) > significance);
     // A share 1 − F gets in, and goes through the glass once more with the probability F each time: once on average.
     CHECK(mean_p_value(in_glass, way_through, 1e-5) > significance);
+}
+
+TEST_CASE("planes of a picture are means of what a pane mirrors and what is behind it, by Fresnel's odds") {
+    // The lamp would be mirrored if a wall did not hide it. So paths are reflected often, and meet that wall.
+    const std::string walls =
+        R"(, {"set": {"phase": "near", "of": {"translate": {"by": [0, 3.5, 0], "of": {"box": {"size": [40, 1, 40]}}}}}},
+             {"set": {"phase": "far", "of": {"translate": {"by": [0, -8.5, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})";
+    const std::string hidden =
+        R"({"rectangle": {"centre": [-6, -10.392305, 0], "target": [0, 0, 0], "width": 8, "height": 8, "radiance": [10, 10, 10]}})";
+    for (const bool is_spectral : {false, true}) {
+        CAPTURE(is_spectral);
+        Scene scene = pane(
+            "", hidden, walls,
+            R"(, "near": {"diffuse": {"color": [0.8, 0.8, 0.8]}}, "far": {"diffuse": {"color": [0.2, 0.2, 0.2]}})");
+        scene.settings.spectral = is_spectral;
+        scene.settings.samples = 512;
+        scene.film.planes = Planes::all();
+        const World world(scene);
+        const Image image = image_of(world, scene);
+        const auto mean_of = [&](const std::string& name) {
+            for (const Channel& channel : image.further)
+                if (channel.name == name)
+                    return std::accumulate(channel.values.begin(), channel.values.end(), 0.0) /
+                           static_cast<double>(channel.values.size());
+            FAIL("there is no channel " << name);
+            return 0.0;
+        };
+        const Response response = stack(cosine, std::array{Layer{1.5, 0, 0.02}});
+        const double mirrored = response.reflected, seen = response.transmitted;
+        const double to_near = 2 + 3 / cosine, to_far = 2 + 8 / cosine;
+        CHECK(mean_of("normal_behind.Y") == doctest::Approx(mirrored - seen).epsilon(0.005));
+        // One half of the samples may have more of one outcome than the other half. Without weights it would be 0.08.
+        CHECK(mean_of("half_normal_behind.Y") == doctest::Approx(mirrored - seen).epsilon(0.05));
+        CHECK(mean_of("depth_behind.Z") == doctest::Approx(mirrored * to_far + seen * to_near).epsilon(0.005));
+        CHECK(mean_of("length_vacuum.X") == doctest::Approx(mirrored * to_far + seen * to_near).epsilon(0.005));
+        CHECK(mean_of("albedo_behind.R") == doctest::Approx(mirrored * 0.2 + seen * 0.8).epsilon(0.005));
+        CHECK(mean_of("albedo.R") == 1.0);
+    }
 }
 
 }  // namespace test_interface_choice
