@@ -42,7 +42,7 @@ class PathGuiding {
 
   private:
     // Once the product falls below this a path chooses as BSDFs do. A guide that is wrong, or a lamp that is hidden
-    // (interface_choice.hpp), may double a path's weight at each surface, so the weight grows to less than sixteen
+    // (interface_choice.hpp), may double a path's weight at each surface, so the weight grows to at most sixteen
     // times what it would be.
     static constexpr float least_pdf_over_unguided = 1.0f / 8;
 
