@@ -1,4 +1,4 @@
-"""Computes how a fluid that hardly changes its volume, such as water or air, flows in a closed box: for ink.py and fire.py.
+"""Computes how a fluid that hardly changes its volume, such as water or air, flows in a closed box: for ink.py.
 
 Pressures make velocities free of divergence at the faces of the cells (Harlow & Welch 1965), by cosine transforms, since
 walls are all around. Everything else is computed at the centres, so each step averages velocities there and back, which
@@ -31,7 +31,8 @@ def at_centres(faces):
 
 
 def at_faces(centres):
-    """Velocities at the faces between cells, each that to the higher side of its cell. Those in walls are left wrong."""
+    """Velocities at the faces between cells: number i of an axis is between the cells i and i + 1. The last one, in the
+    wall, is left wrong; Box.without_divergence() sets it to 0."""
     faces = [f.astype(np.float32) for f in centres]
     for axis in AXES:
         faces[axis][part(axis, "low")] = 0.5 * (centres[axis][part(axis, "low")] + centres[axis][part(axis, "high")])
@@ -39,7 +40,7 @@ def at_faces(centres):
 
 
 class Box:
-    """So many cells along x, y and z, and the time of a step."""
+    """A box of cells, `shape` of them along x, y and z, and the time of a step."""
 
     def __init__(self, shape, time_step):
         self.shape, self.time_step = shape, time_step
@@ -55,7 +56,7 @@ class Box:
         return np.zeros(self.shape, np.float32)
 
     def smooth_noise(self, seed, scale):
-        """Smooth random numbers that change over so many cells."""
+        """Random numbers at each `scale` cells, with linear interpolation between them."""
         sizes = [max(2, int(n / scale)) for n in self.shape]
         coarse = np.random.default_rng(seed).standard_normal(sizes).astype(np.float32)
         places = [p * ((m - 1) / (n - 1)) for p, m, n in zip(self.cells, coarse.shape, self.shape)]
@@ -112,7 +113,7 @@ def confinement(velocity, strength):
 
 
 def box_around(levels, least):
-    """The part of an array that has all of its numbers above the least, and two cells around it."""
+    """The part of an array with all of its numbers that are greater than `least`, and a margin of two cells."""
     return tuple(slice(max(i.min() - 2, 0), i.max() + 3) for i in np.nonzero(levels > least))
 
 

@@ -16,7 +16,8 @@ SCALE = 1.6  # The numbers below were found with a grid of fewer cells. One of i
 TIME_STEP = 0.6
 STEPS = 190
 STREAM_ENDS = 62.0  # when no more ink is poured
-# The acceleration by which ink of density 1 sinks, and how strongly eddies are spun up.
+# The acceleration by which ink of density 1 sinks, and how strongly eddies are spun up. The latter is meant for cells of
+# any size: what it makes up for is smaller where cells are.
 HEAVINESS, CONFINEMENT = 0.05, 0.10
 # Levels of grey below the first are empty. The box that is written holds all that are above the second.
 LEAST_LEVEL, LEAST_LEVEL_IN_BOX = 3, 5

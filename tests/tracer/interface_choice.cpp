@@ -22,8 +22,8 @@ using phasetree::tests::stack;
 
 namespace {
 
-// An upright pane of glass, seen at 30 degrees. `lamp` is on the camera's side, where the pane mirrors it, and what is
-// behind is darker by a factor of a hundred.
+// An upright pane of glass, seen 30 degrees from its normal. `lamp` is on the camera's side, where the pane mirrors it,
+// and what is behind is darker by a factor of a hundred.
 constexpr double lamp_radiance = 10, behind_radiance = 0.1;
 const double cosine = std::cos(std::numbers::pi / 6);
 const glm::vec3 from(1.0f, -std::sqrt(3.0f), 0.0f);  // where the camera is, too
@@ -95,7 +95,7 @@ TEST_CASE("where no light is seen, or all of it is reflected, the choice is Fres
     CHECK(chosen_by_lights(lit, *within, within->bsdf(), within->frame(), grazing, 0.7f).odds_over_fresnel == 1.0f);
 }
 
-TEST_CASE("a lamp in a pane is as bright as theory says, with the noise of few samples") {
+TEST_CASE("a lamp in a pane is as bright as theory says, with little noise") {
     const Scene scene = pane("", lamp + "," + behind);
     const World world(scene);
     constexpr std::uint32_t samples = 400000;
@@ -106,13 +106,14 @@ TEST_CASE("a lamp in a pane is as bright as theory says, with the noise of few s
     CAPTURE(found.standard_error());
     CHECK(mean_p_value(found, expected, 1e-4 * expected) > sidak(1e-4, 2));
     CHECK(mean_p_value(found, 1.01 * expected, 1e-4 * expected) < sidak(1e-4, 2));
-    // By Fresnel's odds it is R (L − L')² (1 − R) / L̄², nearly 9.
+    // Had the path been reflected by Fresnel's odds alone, the relative variance would be R (1 − R) (L − L')² / L̄²,
+    // nearly 9, with R the pane's reflectance, L the lamp's radiance, L' that behind, and L̄ the mean of them.
     const double variance = found.standard_error() * found.standard_error() * samples;
     CHECK(variance / (expected * expected) < 1.5);
 }
 
-TEST_CASE("planes show what is behind a pane as much as by Fresnel's odds, whatever lamps it mirrors") {
-    // A wall behind the pane, and none on the camera's side but the lamp: what is reflected meets nothing.
+TEST_CASE("planes count what is behind a pane by Fresnel's odds, however often the lamp that it mirrors is chosen") {
+    // There is a wall behind the pane. On the camera's side is only the lamp, so what is reflected meets nothing.
     const Scene scene = pane(
         "", lamp,
         R"(, {"set": {"phase": "wall", "of": {"translate": {"by": [0, 3, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})",

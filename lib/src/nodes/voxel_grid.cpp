@@ -206,7 +206,7 @@ float VoxelGrid::greatest() const {
     const std::size_t count = Blocks(lattice.size).count();
     float greatest = at.directory[2];
     for (std::size_t block = 1; block < count; ++block)
-        greatest = std::max(greatest, at.directory[voxels::entry * block + 2]);
+        greatest = std::max(greatest, at.directory[voxels::entry * block + voxels::greatest_of_block]);
     return greatest;
 }
 
@@ -221,7 +221,7 @@ Bounds VoxelGrid::blocks_below(float level) const {
     const Blocks blocks(lattice.size);
     std::array<int, 3> low = lattice.size, high{-1, -1, -1};
     for (std::size_t block = 0; block < blocks.count(); ++block) {
-        if (at.directory[voxels::entry * block + 1] > level) continue;
+        if (at.directory[voxels::entry * block + voxels::least_of_block] > level) continue;
         const std::array<int, 3> first = blocks.first_voxel(block);
         for (std::size_t i = 0; i < 3; ++i) {
             low[i] = std::min(low[i], first[i]);

@@ -44,7 +44,8 @@ struct PathRecord {
     /// Whether the camera ray left the scene and saw the lights at infinity, or the background in their place.
     bool shows_background = false;
     /// How often the path would go where it does if each interface reflected by Fresnel's odds, over how often it does
-    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth; at most weight_limit.
+    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth; at most weight_limit,
+    /// but for rounding. `behind->albedo` has it in it already, nothing else here has. Roulette is no part of it.
     float weight = 1;
     static constexpr float weight_limit = 16;
     /// The first surface.

@@ -2,6 +2,7 @@
 // (path_record.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "film/recorded_plane.hpp"
@@ -23,8 +24,8 @@ struct OfFirst : What {
 /// The same of the first surface that is not perfectly smooth.
 template <class What>
 struct OfBehind : What {
-    /// Sums of weights take numbers up to 1.
-    static float weight(const FilmSample& s) { return s.record->weight / PathRecord::weight_limit; }
+    /// Divided by the limit, because sums of weights take numbers from 0 to 1.
+    static float weight(const FilmSample& s) { return std::min(s.record->weight / PathRecord::weight_limit, 1.0f); }
     static auto of(const FilmSample& s) -> decltype(std::optional(What::of_surface(s, *s.record->behind))) {
         if (!s.record || !s.record->behind) return std::nullopt;
         return What::of_surface(s, *s.record->behind);

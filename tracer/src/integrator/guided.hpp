@@ -31,8 +31,8 @@ class GuidedBsdf {
     float pdf(const glm::vec3& wi, const glm::vec3& world) const { return mixed(bsdf_.pdf(wo_, wi), world); }
 
     struct Sample : BsdfSample {
-        /// The density of `wi` over that with which the BSDF alone would choose it: 1 without a guide, and never less
-        /// than a half.
+        /// The density of `wi` over that with which the BSDF alone would choose it. A guide changes it, and so do the
+        /// lights at smooth interfaces (interface_choice.hpp); it is never less than a half.
         float pdf_over_unguided = 1;
 
         /// It was chosen so many times as often as the BSDF alone would have chosen it.

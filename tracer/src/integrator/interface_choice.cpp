@@ -11,10 +11,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr float greatest_below_one = 0x1.fffffep-1f;
-
 // How bright the lights are that a path would see after it has gone on so, and has left by a plane parallel to the
-// interface into vacuum, where lights are.
+// interface into vacuum, where lights are. Of a path of wavelengths the index is that of yellow light, so a small lamp
+// may be looked for a little beside where it is seen: that costs noise and shifts no mean.
 float brightness(const Scene& scene, const Surface& surface, const Frame& frame, const BsdfSample& next) {
     const Phase phase = next.transmitted ? surface.far_side->phase : surface.near_side.phase;
     const float ior = clear_at(scene, phase).ior;
@@ -41,7 +40,9 @@ InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, con
     const float q = 0.5f * (f + from_reflection / from_both);
     if (u < q) return {std::min(u / q * f, std::nextafter(f, 0.0f)), q / f};
     const float rest = (u - q) / (1.0f - q);
-    return {std::min(f + rest * (1.0f - f), greatest_below_one), (1.0f - q) / (1.0f - f)};
+    // 1 − q without the rounding of q, so that the quotient is a half at least also where F is nearly 1.
+    const float refracted_odds = 0.5f * ((1.0f - f) + from_refraction / from_both);
+    return {std::min(f + rest * (1.0f - f), greatest_below_one), refracted_odds / (1.0f - f)};
 }
 
 }  // namespace phasetree::tracer

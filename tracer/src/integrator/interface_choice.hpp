@@ -2,10 +2,11 @@
 //
 // Glass reflects a twenty-fifth of what falls on it. If that is a lamp, which is a hundred times as bright as what is
 // seen through the glass, most of a pixel's light is brought by one sample of twenty-five, and the others are its
-// noise. So half of the choice is by Fresnel's odds F, and half by those times the brightness B of the lights in the
-// two directions, as if nothing were in the way:
-//     q = (F + F B / (F B + (1 − F) B')) / 2.
-// A path that is reflected then weighs F/q, one that is refracted (1 − F)/(1 − q), each at most 2.
+// noise. So a path is reflected with the probability
+//     q = (F + F B / (F B + (1 − F) B')) / 2,
+// where F is Fresnel's reflectance, and B and B' are how bright the lights are in the directions in which the path
+// would be reflected and refracted, as if nothing were in the way. A path that is reflected then weighs F/q, and one
+// that is refracted (1 − F)/(1 − q), each at most 2.
 //
 // A direction in glass is not that in which the path will see a lamp. It is taken to leave by a plane parallel to the
 // interface, as it does from a pane, and from the wall of a bottle nearly. So what the far side of a pane reflects
@@ -20,13 +21,17 @@
 
 namespace phasetree::tracer {
 
+/// As a lobe's number it makes a smooth interface refract, if it refracts at all; 0 makes it reflect.
+inline constexpr float greatest_below_one = 0x1.fffffep-1f;
+
 struct InterfaceChoice {
-    float u_lobe;             ///< makes Bsdf::sample() choose what was chosen
-    float odds_over_fresnel;  ///< the probability of that over the one by which Bsdf::sample() alone would choose it
+    float u_lobe;             ///< for Bsdf::sample(), which then goes the way that was chosen
+    float odds_over_fresnel;  ///< q/F or (1 − q)/(1 − F), by which the weight of that sample is to be divided
 };
 
-/// `bsdf` is that of the surface, which is smooth and clear on both sides, and light leaves it in the direction `wo` of
-/// the frame. `u` is in [0, 1). Where all light is reflected, or no light is seen in either direction, it is `u` and 1.
+/// `bsdf` is the surface's, which is smooth and clear on both sides, and `wo`, in the frame, is where the light goes
+/// that leaves it. `u` is in [0, 1). Where all light is reflected, or no light is seen in either direction, the choice
+/// is `u` and 1, which leaves it to Fresnel's odds.
 InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, const Bsdf& bsdf, const Frame& frame,
                                  const glm::vec3& wo, float u);
 

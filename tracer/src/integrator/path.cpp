@@ -95,7 +95,7 @@ class Path {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
-    // PathWavelengths::wavelengths.
+    // Those of PathWavelengths; null if the path is of colours.
     const Wavelengths* all_wavelengths() const { return wavelengths_ ? &*wavelengths_ : nullptr; }
     // From here on the path is of its hero alone.
     void disperse() {
@@ -135,27 +135,31 @@ class Path {
         recorder_.add_light(found, current_, source, direction, is_to_be_scattered);
     }
 
-    // Returns what a flight past `distance` leaves of red, green and blue. In a medium that scatters that is one number
-    // for all three: the mean of the flight's weights by channel_choice(), because only that mean has a bound.
+    // Returns what a flight past `distance` leaves of red, green and blue. In a medium that scatters or varies that is
+    // one number for all three: the mean of the flight's weights by channel_choice(), because only that mean has a
+    // bound.
     glm::vec3 weight_of_colours(const Flight& flight, float distance) {
         if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium()))
             return absorbing->transmittance({ray_.origin, ray_.direction, distance}, sampler_);
         return glm::vec3(glm::dot(channel_choice(throughput_), flight.weight));
     }
 
-    // Tells the recorder of a surface before the path's ray leaves it in the direction `next`.
-    void record(const Surface& surface, const GuidedBsdf& bsdf, float lobe, const glm::vec2& u,
+    // Tells the recorder of a surface before the path's ray leaves it in the direction `next`, which was chosen with
+    // `odds` (InterfaceChoice).
+    void record(const Surface& surface, const GuidedBsdf& bsdf, float lobe, float odds, const glm::vec2& u,
                 const std::optional<GuidedBsdf::Sample>& next) {
         if (!current_)
             return record(surface, bsdf.bsdf(),
                           bsdf.guide() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next), throughput_);
         // The albedo is in colours though the path has wavelengths, because it tells what a surface looks like. So the
-        // surface is asked once more, with the same numbers. Where these are at the edge between reflection and
-        // refraction, the record follows the one and the path the other, which is rare and changes no light.
+        // surface is asked once more, with the same numbers, and of a smooth interface for what the path does there:
+        // films and dispersion give it other odds in colours, and what is reflected must not weigh as if it were
+        // refracted into another index.
         const Bsdf in_colours = surface.bsdf();
+        if (next && is_link(in_colours, surface)) lobe = next->transmitted ? greatest_below_one : 0.0f;
         const auto seen = GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(lobe, u);
         record(surface, in_colours, seen, recorded_throughput_);
-        recorded_throughput_ *= seen ? seen->weight : glm::vec3(0.0f);
+        recorded_throughput_ *= seen ? seen->weight / odds : glm::vec3(0.0f);
     }
     void record(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next,
                 const glm::vec3& throughput) {
@@ -193,13 +197,12 @@ class Path {
         const glm::vec2 u = sampler_.next2();
         auto next = bsdf.sample(lobe, u);
         if (next) next->count_as_chosen(odds);
-        // The recorded albedo is by the BSDF's own choice, because the weights of guided directions are noisier.
-        if (recorder_.is_asked()) record(surface, bsdf, lobe, u, next);
+        // The recorded albedo is without the guide, because the weights of guided directions are noisier.
+        if (recorder_.is_asked()) record(surface, bsdf, lobe, odds, u, next);
         if (!next) return false;
         throughput_ *= next->weight;
         ray_ = continued(surface, frame, *next);
         recorder_.chose(odds);
-        if (current_) recorded_throughput_ /= odds;
         if (surface.far_side) entered_ = next->transmitted ? surface.normal : -surface.normal;
         guiding_.leave(surface, unguided, *next, ray_.direction, throughput_);
         if (!next->delta)
@@ -220,7 +223,8 @@ class Path {
         return true;
     }
 
-    // Which lobe of a smooth interface is chosen; other BSDFs choose by themselves.
+    // Whether a smooth interface reflects or refracts the path. All other BSDFs, and those of a path whose weight has
+    // grown too much, choose by their own odds.
     InterfaceChoice choice_at(const Surface& surface, const Frame& frame, const Bsdf& bsdf, const glm::vec3& wo,
                               float u) const {
         if (!is_link(bsdf, surface) || !guiding_.may_differ()) return {u, 1.0f};
@@ -394,9 +398,9 @@ class Path {
 
     // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², and the throughput is
     // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
-    // whether the path goes on. Where the path went in directions that a guide prefers to BSDFs, the share is taken to
-    // be what it would be had the BSDFs chosen them: paths to where light is have little weight each, and are what a
-    // guide is for.
+    // whether the path goes on. Where the path went in directions that a guide, or interfaces by the lights, prefer to
+    // BSDFs, the share is taken to be what it would be had the BSDFs chosen them: paths to where light is have little
+    // weight each, and are what such a choice is for.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
         // The hero's throughput stands for three wavelengths where it has gone on alone.

@@ -1,7 +1,9 @@
-// What a path has to do with guides (guiding/guide.hpp): at which surfaces it asks one, how far the guide has led it
-// from where BSDFs would have gone, and what it reports for the next guide.
+// What a path has to do with guides (guiding/guide.hpp): at which surfaces it asks one, and what it reports for the
+// next guide. It also keeps how far guides, and the choice by lights at smooth interfaces (interface_choice.hpp), have
+// led the path from where BSDFs alone would have sent it.
 #pragma once
 
+#include "film/path_record.hpp"
 #include "guiding/guide.hpp"
 #include "guiding/path_findings.hpp"
 #include "image/luminance.hpp"
@@ -42,9 +44,8 @@ class PathGuiding {
 
   private:
     // Once the product falls below this a path chooses as BSDFs do. A guide that is wrong, or a lamp that is hidden
-    // (interface_choice.hpp), may double a path's weight at each surface, so the weight grows to at most sixteen
-    // times what it would be.
-    static constexpr float least_pdf_over_unguided = 1.0f / 8;
+    // (interface_choice.hpp), may double a path's weight at each surface, once more after it has grown so far.
+    static constexpr float least_pdf_over_unguided = 2.0f / PathRecord::weight_limit;
 
     // An opaque surface that gets light from nearly all directions. Elsewhere the BSDF knows better. No medium is one:
     // a path is scattered there many times, and each guided direction spreads the weights of paths further. Of a body

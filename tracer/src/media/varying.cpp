@@ -126,7 +126,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
             if (count == 0) return;
             PointBatch points;
             for (std::size_t i = 0; i < batch_size; ++i) {
-                // What is no collision is the first one again.
+                // The unused places of a batch repeat the first collision.
                 const float distance = found[i < count ? i : 0].distance;
                 points.x[i] = way.origin.x + distance * way.direction.x;
                 points.y[i] = way.origin.y + distance * way.direction.y;

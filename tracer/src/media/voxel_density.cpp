@@ -94,7 +94,7 @@ std::optional<DensityStretch> VoxelDensity::Stretches::next() {
             }
         }
         const int number = block_.x + blocks_.x * (block_.y + blocks_.y * block_.z);
-        const float bound = directory_[voxels::entry * static_cast<std::size_t>(number) + 2];
+        const float bound = directory_[voxels::entry * static_cast<std::size_t>(number) + voxels::greatest_of_block];
         leaves = std::max(leaves, at_);
         const DensityStretch stretch{from_ + at_, std::min(from_ + leaves, to_), bound};
         at_ = leaves;

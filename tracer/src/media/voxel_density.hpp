@@ -16,7 +16,8 @@
 
 namespace phasetree::tracer {
 
-/// Where voxels are in the scene: p = linear q + translation, of points q in the grid's own space.
+/// Where voxels are in the space of the object, or of the scene if that is one tree: p = linear q + translation, of
+/// points q in the grid's own space.
 struct VoxelPlacement {
     glm::dmat3 linear{1};
     glm::dvec3 translation{0};
@@ -59,7 +60,7 @@ class VoxelDensity {
     std::shared_ptr<const VoxelGrid> grid_;
     float greatest_number_ = 0.0f;
     Bounds box_;  ///< the grid's, in its own space
-    /// From the scene to the grid's own space, whose origin is the first voxel's centre.
+    /// From the object's space to the grid's own, whose origin is the first voxel's centre.
     glm::mat3 to_grid_;
     glm::vec3 to_grid_offset_;
     Bounds bounds_{};

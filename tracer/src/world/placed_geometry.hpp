@@ -72,7 +72,7 @@ class PlacedGeometry {
     RayObjects objects_at(RTCScene scene, const glm::vec3& p, float time) const;
 
     /// From the scene to the space of a copy's object, at a share of the time in which the shutter is open. It takes
-    /// some steps for each group that the copy is in.
+    /// a binary search for each level of groups that the copy is in.
     Transform to_object(std::uint32_t copy, float time) const;
 
     /// How far apart two interfaces may be, in the scene's unit of length, to be one and the same as far as the cells

@@ -178,8 +178,9 @@ Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& c
             return surface;
         }
         const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
-        // A path that is scattered goes on in the objects that its ray is in. So within a phase that scatters it is
-        // told where the ray comes from one object into another, which is a surface that does nothing.
+        // A path that is scattered goes on in the objects that its ray is in, and a density that varies is in the space
+        // of each object. So within a phase that scatters or varies, which both have a phase function, the path is told
+        // where the ray comes from one object into another, which is a surface that does nothing.
         const Phase from = rest.in.phase(), to = met.behind.phase();
         if (from != to || phase_function(std::get<Clear>(scene_.materials[from.index]).interior))
             return surface_of_several(rest, met, travelled + met.first.distance);

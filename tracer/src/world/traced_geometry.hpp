@@ -33,9 +33,9 @@ class TracedGeometry {
     /// What stands first in the way of light along a ray, before the distance `far`.
     Visibility visibility(const Ray& ray, float far, PathCounters& counters) const;
 
-    /// The way that a ray goes through the medium of its phase. Where the density of that varies, the way is in the
-    /// space of the object that it belongs to; its direction is not of unit length there, so that lengths are the
-    /// scene's.
+    /// The way that a ray goes through the medium of its phase. Where the medium's density varies, the way is in the
+    /// space of the first object that the ray is in. Its direction is not of unit length there, so that lengths are
+    /// the scene's.
     Way way_through_medium(const Ray& ray, float length, const Wavelengths* wavelengths = nullptr) const;
 
     /// The phase at a point, at a share of the time in which the shutter is open.

@@ -95,6 +95,9 @@ namespace voxels {
 
 /// Places in the table.
 inline constexpr std::size_t size = 0, blocks = 3, first = 6, inverse_spacing = 9, head = 12, entry = 3;
+/// Places in the entry of a block in the directory, whose first number says where the block's values are: the least and
+/// the greatest of the values that its points are made of.
+inline constexpr std::size_t least_of_block = 1, greatest_of_block = 2;
 
 /// The table as whoever looks up whole numbers of voxels reads it.
 struct Table {
