@@ -148,6 +148,38 @@ TEST_CASE("planes count what is behind a pane by Fresnel's odds, however often t
     CHECK(mean_p_value(in_glass, way_through, 1e-5) > significance);
 }
 
+TEST_CASE("what is recorded of a film in wavelengths is of the way that the path takes") {
+    // A path that is refracted into glass, and recorded as reflected, has a recorded albedo that is wrong by the square
+    // of the index. The film's colours are other than what it reflects at one wavelength, which decides of the path.
+    Scene scene = pane(
+        R"(, "film_ior": 2, "film_thickness": 500)", lamp,
+        R"(, {"set": {"phase": "wall", "of": {"translate": {"by": [0, 3, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})",
+        R"(, "wall": {"diffuse": {"color": [0.5, 0.5, 0.5]}})");
+    scene.settings.spectral = true;
+    const World world(scene);
+    const Ray ray{from, -glm::normalize(from), world.geometry().label(from), {}};
+    PathCounters counters;
+    PathRecord record;
+    float least = 1, greatest = 1;
+    int straight = 0;
+    const double way_through = 0.02 / phasetree::tests::cosine_within(cosine, 1.5);
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        Sampler sampler(i, 0, 0, 1);
+        trace_path(world, scene, ray, sampler, counters, &record, {});
+        // Only what went straight through: what is reflected within the pane may be coloured as much.
+        if (!record.behind || static_cast<double>(record.lengths[1]) > 1.5 * way_through) continue;
+        ++straight;
+        const float of_wall = record.behind->albedo.y / (0.5f * record.weight);
+        least = std::min(least, of_wall);
+        greatest = std::max(greatest, of_wall);
+    }
+    CAPTURE(least);
+    CAPTURE(greatest);
+    CHECK(straight > 2000);
+    CHECK(least > 0.7f);
+    CHECK(greatest < 1.4f);
+}
+
 TEST_CASE("behind many panes that mirror a lamp, paths keep their weights within the limit, and their mean") {
     std::string panes;
     for (int i = 1; i < 12; ++i)
