@@ -21,10 +21,14 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// Sends a signal once a run has worked for a while since it has a handler for it. In its processors' time: how long
-// that takes on a machine that is busy otherwise, nobody knows.
+// What is said when the object is prepared and the first sample is to come.
+constexpr const char* samples_begin = "Progress: 0%";
+
+// Sends a signal once a run has worked for a while since it has a handler for it, and since its standard error has the
+// text `after`. In its processors' time: how long that takes on a machine that is busy otherwise, nobody knows.
 struct Interrupt {
     int signal = SIGINT;
+    std::string after = "";
     bool is_sent = false;
     double used = 0;  // when it was sent
     std::optional<double> ready = std::nullopt;
@@ -32,6 +36,7 @@ struct Interrupt {
     void operator()(pid_t child) {
         if (is_sent || !catches(child, signal)) return;
         used = processor_seconds(child);
+        if (!ready && bytes_of("/proc/" + std::to_string(child) + "/fd/2").find(after) == std::string::npos) return;
         if (!ready) ready = used;
         if (used - *ready < 0.7 * sanitizer_slowdown) return;
         is_sent = true;
@@ -216,9 +221,9 @@ TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
 TEST_CASE("Ctrl-C writes what there is and exits with 130") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
-    Interrupt interrupt{SIGINT};
-    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "-o", "a.png", "--quiet", "--spp", "16000000"},
-                                "", std::ref(interrupt));
+    Interrupt interrupt{SIGINT, samples_begin};
+    const Outcome o =
+        shell.run({"render", "scene.json", "-o", "a.exr", "-o", "a.png", "--spp", "16000000"}, "", std::ref(interrupt));
     CAPTURE(o.err);
     CHECK(interrupt.is_sent);
     CHECK(o.code == 130);
@@ -255,9 +260,9 @@ TEST_CASE("Ctrl-C while the object is prepared ends it at once and writes nothin
 TEST_CASE("Ctrl-C in the first pass exits with 130 too") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
-    Interrupt interrupt{SIGINT};
-    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--quiet", "--spp", "1", "--size", "3000x2000"},
-                                "", std::ref(interrupt));
+    Interrupt interrupt{SIGINT, samples_begin};
+    const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr", "--spp", "1", "--size", "3000x2000"}, "",
+                                std::ref(interrupt));
     CAPTURE(o.err);
     CHECK(o.code == 130);
     CHECK(o.err.find("interrupted") != std::string::npos);
