@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "caustics/glowing_lines.hpp"
+#include "caustics/shining_lines.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 
@@ -16,8 +17,8 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// With more parts of glowing surfaces than this, none sends photons, because the cells of each take memory and must be
-// learnt.
+// With more parts of what glows or shines than this, none sends photons, because the cells of each take memory and must
+// be learnt.
 constexpr std::size_t most_glowing = 4096;
 // Lines of one direction start all over the ball around such a part, so fine cells tell little.
 constexpr int cells_a_side_of_glowing = 16;
@@ -61,12 +62,13 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
         sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of({position_of(any), 0.0f})});
     first_glowing_ = sources_.size();
     const std::span<const GlowingPart> glowing = scene.lights.glowing();
-    if (std::ranges::count_if(glowing, &GlowingPart::is_of_surface) <= std::ptrdiff_t(most_glowing))
+    if (glowing.size() <= most_glowing)
         for (const GlowingPart& part : glowing) {
-            source_of_glowing_.emplace_back();
-            if (!part.is_of_surface()) continue;
-            source_of_glowing_.back() = sources_.size();
-            sources_.push_back(OfGlowing{part.bounding_sphere(), PhotonDirections(cells_a_side_of_glowing)});
+            const PhotonDirections everywhere(cells_a_side_of_glowing);
+            if (part.is_of_surface())
+                sources_.push_back(OfGlowing{part.bounding_sphere(), everywhere});
+            else
+                sources_.push_back(OfShining{part.bounding_sphere(), everywhere});
         }
     if (!sources_.empty()) choice_ = CellChoice(sources_.size());
 }
@@ -108,7 +110,7 @@ std::optional<EmittedPhoton> PhotonEmission::sample(Sampler& sampler, float time
     return std::visit(
         [&](const auto& source) -> std::optional<EmittedPhoton> {
             const std::optional<Line> line = sampled_line(source, sampler);
-            return line ? photon_on(*line, source, {number, time, wavelengths}) : std::nullopt;
+            return line ? photon_on(*line, source, {number, time, wavelengths, sampler}) : std::nullopt;
         },
         sources_[number]);
 }
@@ -144,6 +146,14 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfGlowing
     const float u_cell = sampler.next();
     const auto [direction, cell] = source.aim.sample(u_cell, sampler.next2());
     return Line{source.ball.centre + Frame(direction).to_world({across, 0.0f}), direction, 0.0f, cell};
+}
+
+std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfShining& source, Sampler& sampler) const {
+    const glm::vec3 towards = square_to_uniform_cone(sampler.next2(), 2.0f);
+    const float u_cell = sampler.next();
+    const auto [direction, cell] = source.aim.sample(u_cell, sampler.next2());
+    const float from_centre = source.ball.radius * std::cbrt(sampler.next());
+    return Line{source.ball.centre + from_centre * towards, direction, 0.0f, cell};
 }
 
 std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, const Start& start) const {
@@ -186,6 +196,28 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
                          density,
                          start.source,
                          line.cell};
+}
+
+std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfShining&, const Start& start) const {
+    const TracedGeometry::Inside inside = world_.geometry().inside(line.through, start.time);
+    const Clear* clear = std::get_if<Clear>(&scene_.materials[inside.phase.index]);
+    if (!clear || !shines(clear->interior)) return std::nullopt;
+    const Ray ray{line.through, line.direction, inside.phase, {}, inside.in};
+    const std::optional<ShiningPiece> piece = shining_piece(ray, world_, scene_);
+    if (!piece) return std::nullopt;
+    const Ray back{piece->boundary, -line.direction, inside.phase, {}, inside.in};
+    const float density = line_density(back.origin, back.direction, back.phase, piece->length);
+    if (!(density > 0.0f)) return std::nullopt;
+    const Way way = world_.geometry().way_through_medium(back, piece->length, start.wavelengths);
+    const glm::vec3 radiance = pass(clear->interior, way, start.sampler).emitted;
+    if (radiance == glm::vec3(0.0f)) return std::nullopt;
+    return EmittedPhoton{.ray = ray,
+                         .emission = {0.0f, radiance, Background{}},
+                         .power = radiance / (density * squared_ior(scene_, ray.phase)),
+                         .line_density = density,
+                         .source = start.source,
+                         .cell = line.cell,
+                         .is_of_medium = true};
 }
 
 std::optional<Ray> PhotonEmission::ray_on(const Line& line, float time) const {
@@ -237,19 +269,35 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
     bool is_searched = false;
     float sum = 0;
     scene_.lights.for_each_lamp_near(LightNode::Kind::glowing, origin, direction, [&](std::uint32_t number) {
-        const std::optional<std::size_t> i = source_of_glowing_[number];
-        if (!i) return;
-        const OfGlowing& source = std::get<OfGlowing>(sources_[*i]);
-        const std::optional<float> leaves = distance_to_leave(source.ball, origin, direction);
+        const std::size_t i = first_glowing_ + number;
+        const OfGlowing* source = std::get_if<OfGlowing>(&sources_[i]);
+        if (!source) return;
+        const std::optional<float> leaves = distance_to_leave(source->ball, origin, direction);
         if (!leaves) return;
         if (*leaves > free && !is_searched) {
             free = std::max(free, free_distance(glowing, direction, world_, scene_));
             is_searched = true;
         }
         if (*leaves > free) return;
-        sum += share(*i) * source.aim.density(direction) / (pi * source.ball.radius * source.ball.radius);
+        sum += share(i) * source->aim.density(direction) / (pi * source->ball.radius * source->ball.radius);
     });
     return sum / squared_ior(scene_, glowing.near_side.phase);
+}
+
+float PhotonEmission::line_density(const glm::vec3& boundary, const glm::vec3& towards_light, Phase phase,
+                                   float length) const {
+    if (first_glowing_ == sources_.size()) return 0.0f;
+    float sum = 0;
+    scene_.lights.for_each_lamp_near(LightNode::Kind::glowing, boundary, towards_light, [&](std::uint32_t number) {
+        const std::size_t i = first_glowing_ + number;
+        const OfShining* source = std::get_if<OfShining>(&sources_[i]);
+        if (!source) return;
+        const float within = length_in(source->ball, boundary, towards_light, length);
+        const float radius = source->ball.radius;
+        sum +=
+            share(i) * source->aim.density(-towards_light) * (within / radius) / (4.0f / 3.0f * pi * radius * radius);
+    });
+    return sum / squared_ior(scene_, phase);
 }
 
 float PhotonEmission::density(const OfCap& source, const glm::vec3& origin, const glm::vec3& towards_light) const {

@@ -1,7 +1,7 @@
 // How photons leave the lights: from which light, where and in which direction, and how densely.
 //
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
-// point of the line; where light is refracted n² dG is kept (the étendue). There are three kinds of sources, and the
+// point of the line; where light is refracted n² dG is kept (the étendue). There are four kinds of sources, and the
 // densities of each kind are a mixture by themselves, with the share cᵢ of each source.
 //
 // *Infinite lights and area lights:*
@@ -15,7 +15,12 @@
 // from all around sends no photons. Lines that nothing proposes are left to the other techniques of path.hpp.
 //
 // *Balls around parts of surfaces that glow:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
-// would start a photon on this line at this same place (glowing_lines.hpp). Media that shine send no photons.
+// would start a photon on this line at this same place (glowing_lines.hpp).
+//
+// *Balls around parts of media that shine:* a photon carries what the medium sends along one straight piece of the
+// line, from where the piece leaves the medium to where it came in, or to what ends it: an opaque surface or a lamp. A
+// point of the ball, which is evenly distributed in its volume, chooses that piece. So pᵢ = q l/(4/3 π r³), with the
+// length l of what the ball has of the piece.
 //
 // *Point lights:* all lines of one pass through it, and have no density by area. They have one of directions, cᵢ q, and
 // a photon carries the light's intensity over that. No other technique finds light of it that smooth interfaces bent
@@ -39,13 +44,18 @@ namespace phasetree::tracer {
 /// A photon that is about to start.
 struct EmittedPhoton {
     /// It starts where its line enters the sphere about the object, or at its light if that is farther along the line,
-    /// or on the surface that glows.
+    /// or on the surface that glows, or in the medium that shines.
     Ray ray;
-    Lights::Emission emission;  ///< what is seen from the origin backwards if nothing is in the way
-    glm::vec3 power;            ///< radiance of the light over p(line); of a point light, intensity over cᵢ q
-    float line_density;         ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
-    std::size_t source;         ///< the number of the source that proposed it: less than PhotonEmission::sources()
-    std::size_t cell;           ///< that cell of the source in which it is aimed
+    /// What is seen from the origin backwards if nothing is in the way; of a medium that shines, from where the photon
+    /// leaves it.
+    Lights::Emission emission;
+    glm::vec3 power;     ///< radiance of the light over p(line); of a point light, intensity over cᵢ q
+    float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
+    std::size_t source;  ///< the number of the source that proposed it: less than PhotonEmission::sources()
+    std::size_t cell;    ///< that cell of the source in which it is aimed
+    /// What the medium around the origin does to the photon until its first boundary is part of the power already, and
+    /// the light is seen from there: so it is of media that shine.
+    bool is_of_medium = false;
 };
 
 class PhotonEmission {
@@ -53,8 +63,8 @@ class PhotonEmission {
     /// Refers to the world and the scene, which must outlive it. All sources have equal shares at first.
     PhotonEmission(const World& world, const Scene& scene);
 
-    /// How many sources send photons: lights, bright parts of lights, and parts of glowing surfaces. There are none if
-    /// nothing clear bends light, or if the object has no finite bounds.
+    /// How many sources send photons: lights, bright parts of lights, and parts of surfaces that glow and of media that
+    /// shine. There are none if nothing clear bends light, or if the object has no finite bounds.
     std::size_t sources() const { return sources_.size(); }
     /// In how many cells a source aims its photons.
     std::size_t cells(std::size_t source) const;
@@ -66,6 +76,9 @@ class PhotonEmission {
     /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
     /// towards_light, over which the line is known to be free.
     float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
+    /// The same of a straight piece of a line through a medium that shines, which leads from its boundary so far
+    /// towards the light.
+    float line_density(const glm::vec3& boundary, const glm::vec3& towards_light, Phase phase, float length) const;
     /// The same of a point light, by its number in Lights::points(), for a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
@@ -91,7 +104,11 @@ class PhotonEmission {
         BoundingSphere ball;
         PhotonDirections aim;
     };
-    using Source = std::variant<OfCap, OfArea, OfPoint, OfGlowing>;
+    struct OfShining {
+        BoundingSphere ball;
+        PhotonDirections aim;
+    };
+    using Source = std::variant<OfCap, OfArea, OfPoint, OfGlowing, OfShining>;
 
     /// Where photons fly, before it is known what sends them.
     struct Line {
@@ -104,11 +121,13 @@ class PhotonEmission {
     std::optional<Line> sampled_line(const OfArea&, Sampler&) const;
     std::optional<Line> sampled_line(const OfPoint&, Sampler&) const;
     std::optional<Line> sampled_line(const OfGlowing&, Sampler&) const;
+    std::optional<Line> sampled_line(const OfShining&, Sampler&) const;
     /// What a photon is that starts on a line: the number of the source that proposed the line, and as sample() has it.
     struct Start {
         std::size_t source;
         float time;
         const Wavelengths* wavelengths;
+        Sampler& sampler;
     };
     /// The photon that starts on a line. Nothing if no photon can start there.
     std::optional<EmittedPhoton> photon_on(const Line& line, const OfCap&, const Start& start) const {
@@ -119,6 +138,7 @@ class PhotonEmission {
     }
     std::optional<EmittedPhoton> photon_on(const Line&, const OfPoint&, const Start&) const;
     std::optional<EmittedPhoton> photon_on(const Line&, const OfGlowing&, const Start&) const;
+    std::optional<EmittedPhoton> photon_on(const Line&, const OfShining&, const Start&) const;
     /// The same, of whatever light is seen along the line.
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
@@ -139,11 +159,11 @@ class PhotonEmission {
     const Scene& scene_;
     glm::vec3 centre_{0};
     float radius_ = 0;  ///< of the sphere about the object
-    /// First those of infinite lights, then area lights in their order, then point lights, then what glows.
+    /// First those of infinite lights, then area lights in their order, then point lights, then parts of what glows or
+    /// shines, in the order of Lights::glowing().
     std::vector<Source> sources_;
     std::size_t first_area_ = 0, first_point_ = 0, first_glowing_ = 0;
-    CellChoice choice_{1};                                       ///< of a source: cᵢ
-    std::vector<std::optional<std::size_t>> source_of_glowing_;  ///< by the number of a part among all that glow
+    CellChoice choice_{1};  ///< of a source: cᵢ
 };
 
 }  // namespace phasetree::tracer

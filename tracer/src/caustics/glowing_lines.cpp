@@ -1,7 +1,6 @@
 #include "caustics/glowing_lines.hpp"
 
-#include <cmath>
-
+#include "caustics/chord.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
@@ -34,19 +33,6 @@ FreeLine followed(Ray ray, float far, Heading heading, const World& world, const
         ray = surface->transmitted(direction);
     }
     return {std::nullopt, free};
-}
-
-// The distances along a line at which it enters and leaves a ball.
-struct Chord {
-    float enters, leaves;
-};
-std::optional<Chord> chord(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction) {
-    const float along = glm::dot(ball.centre - origin, direction);
-    const glm::vec3 across = ball.centre - origin - along * direction;
-    const float squared_half = ball.radius * ball.radius - glm::dot(across, across);
-    if (!(squared_half > 0.0f)) return std::nullopt;
-    const float half = std::sqrt(squared_half);
-    return Chord{along - half, along + half};
 }
 
 }  // namespace

@@ -31,15 +31,16 @@ class PhotonFlight {
           ray_(emitted.ray),
           carried_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
           power_(emitted.power) {
-        // A photon of a glowing surface starts on it, so nothing can be in between.
-        if (std::holds_alternative<OfGlowingSurface>(emitted.emission.source)) start_sees_light_ = true;
+        // A photon of a glowing surface starts on it, and one of a medium in it, so nothing can be in between.
+        if (emitted.is_of_medium || std::holds_alternative<OfGlowingSurface>(emitted.emission.source))
+            start_sees_light_ = true;
         // No sampled direction meets a point. A shadow ray meets it only if the photon's first interface is rough;
         // multiply_quotients() then has the quotient in place of this 0.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 
     void trace(TracedPhotons& traced) {
-        for (;;) {
+        for (bool is_first = true;; is_first = false) {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
@@ -54,11 +55,7 @@ class PhotonFlight {
             // much of that is left there.
             if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
-            glm::vec3 left =
-                transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, carried_), sampler_);
-            if (phase_function(medium()) && !chain_survives(left, sampler_)) return;
-            power_ *= left;
-            if (power_ == glm::vec3(0.0f)) return;
+            if (!(is_first && emitted_.is_of_medium) && !pass_medium(distance)) return;
             if (!is_dispersed_ && surface->optics.get().disperses()) disperse();
             const Bsdf bsdf = surface->bsdf(carried_);
             if (bsdf.passes_through()) {
@@ -81,6 +78,15 @@ class PhotonFlight {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
+
+    // Multiplies the power by what the medium leaves of it. Returns false if the photon ends there.
+    bool pass_medium(float distance) {
+        glm::vec3 left =
+            transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, carried_), sampler_);
+        if (phase_function(medium()) && !chain_survives(left, sampler_)) return false;
+        power_ *= left;
+        return power_ != glm::vec3(0.0f);
+    }
 
     Photon photon_at(const glm::vec3& position) const {
         return {position,

@@ -56,8 +56,9 @@ class Path {
             const Surface* surface = std::get_if<Surface>(&hit);
             const float distance = surface ? surface->distance : Bounds::infinity;
             const auto light = scene_.lights.seen(ray_.origin, ray_.direction, distance, is_camera_ray_, current_);
-            const Flight flight = through_medium(light ? light->distance : distance);
-            add_emission_of_medium(flight.emitted);
+            const float end = light ? light->distance : distance;
+            const Flight flight = through_medium(end);
+            add_emission_of_medium(flight.emitted, end);
             if (light && !flight.scattered_at) {
                 if (is_camera_ray_ && light->distance == Bounds::infinity) recorder_.shows_background();
                 add_light(throughput_ * chain_.weight(scene_, photons_, ray_) * flight.weight * light->radiance,
@@ -119,10 +120,11 @@ class Path {
         scatter_and_continue(MediumPoint{ray_.origin + distance * ray_.direction, ray_.phase, phase, ray_.in});
     }
 
-    // What a medium shines by itself is of no lamp, and goes with the background.
-    void add_emission_of_medium(const glm::vec3& emitted) {
+    // What a medium shines by itself is of no lamp, and goes with the background. It is that of the ray's way to `end`,
+    // even if the path is scattered before.
+    void add_emission_of_medium(const glm::vec3& emitted, float end) {
         if (emitted == glm::vec3(0.0f)) return;
-        const glm::vec3 radiance = throughput_ * chain_.weight_without_photons(scene_) * emitted;
+        const glm::vec3 radiance = throughput_ * chain_.weight_of_medium(scene_, photons_, ray_, end) * emitted;
         add_light(radiance, Background{}, ray_.direction, false);
     }
 
@@ -282,15 +284,18 @@ class Path {
             return technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf, by_directions,
                                     density_of_photons);
         };
-        if (arrival.from_media != glm::vec3(0.0f))
-            add_light(throughput_ * f * arrival.from_media * (weight(0.0f) / light.pdf), Background{}, light.wi, true);
-        if (!arrival.light) return;
-        const auto& [radiance, source, direction, line_density, to_boundary] = *arrival.light;
-        // Photons that light a medium come by its boundary. A shadow ray that meets none has no line density, and the
-        // distance to the boundary is infinite, of which there is no coverage to be asked for.
-        if (line_density > 0.0f) by_photons.reach_boundary(to_boundary);
-        add_light(throughput_ * f * radiance * (weight(by_photons.per_line_density * line_density) / light.pdf), source,
-                  direction, true);
+        const auto add = [&](const glm::vec3& radiance, float line_density, const LightSource& source,
+                             const glm::vec3& direction) {
+            // Photons that light a medium come by its boundary. A shadow ray that meets none has no line density, and
+            // the distance to the boundary is infinite, of which there is no coverage to be asked for.
+            if (line_density > 0.0f) by_photons.reach_boundary(arrival.to_boundary);
+            add_light(throughput_ * f * radiance * (weight(by_photons.per_line_density * line_density) / light.pdf),
+                      source, direction, true);
+        };
+        for (const auto& [radiance, line_density] : arrival.from_media)
+            add(radiance, line_density, Background{}, light.wi);
+        if (arrival.light)
+            add(arrival.light->radiance, arrival.light->line_density, arrival.light->source, arrival.light->direction);
     }
 
     // Whether photons that go on from the surface count at an earlier place of the path, and not on the surface.

@@ -63,8 +63,12 @@ struct PathChain {
         const bool is_found = per_line > 0.0f && photons_follow(interfaces());
         return weight(scene, is_found ? per_line * line_density(photons, ray, glowing) : 0.0f);
     }
-    /// The same of what a medium on the ray sends. Photons bring none of it.
-    float weight_without_photons(const Scene& scene) const { return weight(scene, 0.0f); }
+    /// The same of what the medium sends that the ray is in, from its origin to a distance.
+    float weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const {
+        const float per_line = by_photons.per_line_density;
+        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
+        return weight(scene, is_found ? per_line * line_density_in_medium(photons, ray, distance) : 0.0f);
+    }
 
   private:
     float weight(const Scene& scene, float density_of_photons) const {

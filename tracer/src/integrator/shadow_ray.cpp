@@ -17,6 +17,10 @@ float line_density(const Photons& photons, const Ray& ray, const Surface& glowin
     return photons ? photons.emission->line_density(glowing, ray.direction, glowing.distance) : 0.0f;
 }
 
+float line_density_in_medium(const Photons& photons, const Ray& ray, float distance) {
+    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase, distance) : 0.0f;
+}
+
 namespace {
 
 // This is Arrival::line_density of a point light, which is seen straight ahead.
@@ -44,7 +48,6 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
     };
     Arrival arrival;
     glm::vec3 throughput(1.0f);
-    float to_boundary = 0;
     float to_sampled =
         sampled.distance;  // how far the sampled light is from the ray's origin, as long as it is straight
     for (int length = 0, segment = 0;; ++segment) {
@@ -55,7 +58,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         const Blocked* blocked = std::get_if<Blocked>(&met);
         const bool escaped = !surface && !blocked;
         const float distance = surface ? surface->distance : blocked ? blocked->distance : Bounds::infinity;
-        if (segment == 0) to_boundary = distance;
+        if (segment == 0) arrival.to_boundary = distance;
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
         const Surface* glowing =
             blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
@@ -70,19 +73,22 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
-        const Passage passage = pass(
-            medium,
-            context.world.geometry().way_through_medium(ray, light ? light->distance : distance, ray_wavelengths.now()),
-            context.sampler);
+        const float way = light ? light->distance : distance;
+        const Passage passage =
+            pass(medium, context.world.geometry().way_through_medium(ray, way, ray_wavelengths.now()), context.sampler);
         const bool is_dispersed_here = ray_wavelengths.is_dispersed && !path_wavelengths.is_dispersed;
         const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.wavelengths->hero_to_all : glm::vec3(1.0f);
-        if (brings_emission) arrival.from_media += throughput * passage.emitted * to_path;
+        if (brings_emission && passage.emitted != glm::vec3(0.0f))
+            arrival.from_media.push_back(
+                {throughput * passage.emitted * to_path, photons_follow(interfaces_before + length)
+                                                             ? line_density_in_medium(context.photons, ray, way)
+                                                             : 0.0f});
         throughput *= passage.left;
         if (is_dark || throughput == glm::vec3(0.0f)) return arrival;
         if (light) {
             throughput *= to_path;
             arrival.light = Arrival::FromLight{throughput * light->radiance, light->source, ray.direction,
-                                               density_at_end(length, glowing), to_boundary};
+                                               density_at_end(length, glowing)};
             return arrival;
         }
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "integrator/path.hpp"
 #include "lights/lights.hpp"
@@ -41,12 +42,17 @@ struct Arrival {
         /// it is EmittedPhoton::line_density / (n² d²), with the index n at the start and the distance d
         /// (rough_chain.hpp).
         float line_density;
-        float to_boundary;  ///< how far the first boundary is from the start; infinity if the light is before it
     };
     std::optional<FromLight> light{};
-    /// The radiance that the media on the way send by themselves, also if there is no light behind. A shadow ray to a
-    /// point light brings none of it: it has no density of directions.
-    glm::vec3 from_media{0.0f};
+    /// The radiance that a medium on the way sends by itself, also if there is no light behind.
+    struct FromMedium {
+        glm::vec3 radiance;
+        float line_density;  ///< as that of a light
+    };
+    /// One for each piece of the way that is in a medium that shines. A shadow ray to a point light brings none: it has
+    /// no density of directions.
+    std::vector<FromMedium> from_media{};
+    float to_boundary = 0;  ///< how far the first boundary is from the start; infinity if the light is before it
 };
 
 /// One random sample of E (path.hpp) along a shadow ray: the emission at the end of a chain of smooth clear interfaces,
@@ -66,5 +72,7 @@ Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sa
 float line_density(const Photons&, const Ray&);
 /// The same of a ray that leads to a surface that glows.
 float line_density(const Photons&, const Ray&, const Surface& glowing);
+/// The same of the piece of a ray, from its origin to a distance, that is in a medium that shines.
+float line_density_in_medium(const Photons&, const Ray&, float distance);
 
 }  // namespace phasetree::tracer
