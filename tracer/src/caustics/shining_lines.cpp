@@ -1,0 +1,31 @@
+#include "caustics/shining_lines.hpp"
+
+#include <algorithm>
+
+#include "caustics/chord.hpp"
+#include "phasetree/math/bounds.hpp"
+
+namespace phasetree::tracer {
+
+std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, const Scene& scene) {
+    PathCounters uncounted;
+    const Hit ahead = world.geometry().intersect(ray, uncounted);
+    const Surface* leaves = std::get_if<Surface>(&ahead);
+    if (!leaves || scene.lights.area_light_in_the_way(ray.origin, ray.direction, leaves->distance, LightSource{}))
+        return std::nullopt;
+    Ray back = ray;
+    back.direction = -ray.direction;
+    const Hit behind = world.geometry().intersect(back, uncounted);
+    const Surface* begins = std::get_if<Surface>(&behind);
+    float distance = begins ? begins->distance : Bounds::infinity;
+    if (const auto lamp = scene.lights.area_light_seen(back.origin, back.direction, distance, false))
+        distance = lamp->distance;
+    return ShiningPiece{ray.origin + leaves->distance * ray.direction, leaves->distance + distance};
+}
+
+float length_in(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction, float length) {
+    const std::optional<Chord> within = chord(ball, origin, direction);
+    return within ? std::max(std::min(within->leaves, length) - std::max(within->enters, 0.0f), 0.0f) : 0.0f;
+}
+
+}  // namespace phasetree::tracer
