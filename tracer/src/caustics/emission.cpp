@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "caustics/glowing_lines.hpp"
 #include "caustics/shining_lines.hpp"
+#include "image/luminance.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 
@@ -20,8 +22,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // With more parts of what glows or shines than this, none sends photons, because the cells of each take memory and must
 // be learnt.
 constexpr std::size_t most_glowing = 4096;
-// Lines of one direction start all over the ball around such a part, so fine cells tell little.
-constexpr int cells_a_side_of_glowing = 16;
+// Lines of one direction start all over the ball around such a part, so fine cells tell little, least of all of a
+// medium.
+constexpr int cells_a_side_of_glowing = 16, cells_a_side_of_shining = 8;
 
 // This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
 constexpr double even_part = 0.1;
@@ -64,13 +67,36 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     const std::span<const GlowingPart> glowing = scene.lights.glowing();
     if (glowing.size() <= most_glowing)
         for (const GlowingPart& part : glowing) {
-            const PhotonDirections everywhere(cells_a_side_of_glowing);
             if (part.is_of_surface())
-                sources_.push_back(OfGlowing{part.bounding_sphere(), everywhere});
+                sources_.push_back(OfGlowing{part.bounding_sphere(), PhotonDirections(cells_a_side_of_glowing)});
             else
-                sources_.push_back(OfShining{part.bounding_sphere(), everywhere});
+                sources_.push_back(shining(part.bounding_sphere()));
         }
     if (!sources_.empty()) choice_ = CellChoice(sources_.size());
+}
+
+PhotonEmission::OfShining PhotonEmission::shining(const BoundingSphere& ball) const {
+    OfShining source{PhotonPlaces(ball), PhotonDirections(cells_a_side_of_shining)};
+    std::vector<double> brightness;
+    for (std::size_t i = 0; i < source.places.cells(); ++i) {
+        const glm::vec3 place = source.places.centre(i);
+        // Of what moves, neighbouring cells are asked at different times.
+        const double time = scene_.moves() ? std::fmod(std::numbers::phi * static_cast<double>(i), 1.0) : 0.0;
+        const TracedGeometry::Inside inside = world_.geometry().inside(place, static_cast<float>(time));
+        const Clear* clear = std::get_if<Clear>(&scene_.materials[inside.phase.index]);
+        if (!clear || !shines(clear->interior)) {
+            brightness.push_back(0);
+            continue;
+        }
+        const Ray ray{place, {0, 0, 1}, inside.phase, {}, inside.in};
+        const float of_most = brightness_at(clear->interior, world_.geometry().way_through_medium(ray, 0.0f).origin);
+        brightness.push_back(static_cast<double>(of_most * luminance(emission(clear->interior))));
+    }
+    const double sum = std::accumulate(brightness.begin(), brightness.end(), 0.0);
+    if (!(sum > 0)) return source;
+    for (double& cell : brightness) cell += even_part / (1 - even_part) * sum / static_cast<double>(brightness.size());
+    source.places.set_weights(brightness);
+    return source;
 }
 
 std::size_t PhotonEmission::cells(std::size_t source) const {
@@ -149,11 +175,12 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfGlowing
 }
 
 std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfShining& source, Sampler& sampler) const {
-    const glm::vec3 towards = square_to_uniform_cone(sampler.next2(), 2.0f);
+    const glm::vec2 u_place = sampler.next2();
     const float u_cell = sampler.next();
     const auto [direction, cell] = source.aim.sample(u_cell, sampler.next2());
-    const float from_centre = source.ball.radius * std::cbrt(sampler.next());
-    return Line{source.ball.centre + from_centre * towards, direction, 0.0f, cell};
+    const float u_third = sampler.next();
+    const auto place = source.places.sample(sampler.next(), {u_place, u_third});
+    return place ? std::optional(Line{*place, direction, 0.0f, cell}) : std::nullopt;
 }
 
 std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, const Start& start) const {
@@ -292,10 +319,8 @@ float PhotonEmission::line_density(const glm::vec3& boundary, const glm::vec3& t
         const std::size_t i = first_glowing_ + number;
         const OfShining* source = std::get_if<OfShining>(&sources_[i]);
         if (!source) return;
-        const float within = length_in(source->ball, boundary, towards_light, length);
-        const float radius = source->ball.radius;
-        sum +=
-            share(i) * source->aim.density(-towards_light) * (within / radius) / (4.0f / 3.0f * pi * radius * radius);
+        sum += share(i) * source->aim.density(-towards_light) *
+               source->places.density_along(boundary, towards_light, length);
     });
     return sum / squared_ior(scene_, phase);
 }

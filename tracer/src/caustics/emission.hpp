@@ -19,8 +19,8 @@
 //
 // *Balls around parts of media that shine:* a photon carries what the medium sends along one straight piece of the
 // line, from where the piece leaves the medium to where it came in, or to what ends it: an opaque surface or a lamp. A
-// point of the ball, which is evenly distributed in its volume, chooses that piece. So pᵢ = q l/(4/3 π r³), with the
-// length l of what the ball has of the piece.
+// place in the ball chooses that piece (places.hpp). So pᵢ = q ∫ v, with the density v of places per volume and its
+// integral along what the ball has of the piece.
 //
 // *Point lights:* all lines of one pass through it, and have no density by area. They have one of directions, cᵢ q, and
 // a photon carries the light's intensity over that. No other technique finds light of it that smooth interfaces bent
@@ -34,6 +34,7 @@
 
 #include "caustics/aim.hpp"
 #include "caustics/cell_choice.hpp"
+#include "caustics/places.hpp"
 #include "caustics/target.hpp"
 #include "lights/cap.hpp"
 #include "sampling/sobol.hpp"
@@ -105,7 +106,7 @@ class PhotonEmission {
         PhotonDirections aim;
     };
     struct OfShining {
-        BoundingSphere ball;
+        PhotonPlaces places;
         PhotonDirections aim;
     };
     using Source = std::variant<OfCap, OfArea, OfPoint, OfGlowing, OfShining>;
@@ -142,6 +143,8 @@ class PhotonEmission {
     /// The same, of whatever light is seen along the line.
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
+    /// More of the places in the ball where the medium is brighter.
+    OfShining shining(const BoundingSphere& ball) const;
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     /// Where a photon starts on a line; none in an opaque phase.

@@ -1,8 +1,5 @@
 #include "caustics/shining_lines.hpp"
 
-#include <algorithm>
-
-#include "caustics/chord.hpp"
 #include "phasetree/math/bounds.hpp"
 
 namespace phasetree::tracer {
@@ -21,11 +18,6 @@ std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, co
     if (const auto lamp = scene.lights.area_light_seen(back.origin, back.direction, distance, false))
         distance = lamp->distance;
     return ShiningPiece{ray.origin + leaves->distance * ray.direction, leaves->distance + distance};
-}
-
-float length_in(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction, float length) {
-    const std::optional<Chord> within = chord(ball, origin, direction);
-    return within ? std::max(std::min(within->leaves, length) - std::max(within->enters, 0.0f), 0.0f) : 0.0f;
 }
 
 }  // namespace phasetree::tracer

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "lights/bounding_sphere.hpp"
 #include "scene/scene.hpp"
 #include "world/world.hpp"
 
@@ -19,8 +18,5 @@ struct ShiningPiece {
 /// the lamp, that who looks back from the boundary would see. Nothing if the light meets a lamp before it leaves the
 /// phase, or no surface at all.
 std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, const Scene& scene);
-
-/// How much a ball has of the piece of a line that begins at the origin and is of that length, which may be infinite.
-float length_in(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction, float length);
 
 }  // namespace phasetree::tracer

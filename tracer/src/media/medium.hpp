@@ -53,6 +53,16 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
+/// The luminance of what it shines by itself at a place, in the space of Way, over that of emission().
+inline float brightness_at(const Medium& medium, const glm::vec3& place) {
+    const auto* varying = std::get_if<VaryingMedium>(&medium);
+    if (!varying) return 1.0f;
+    PointBatch places{};
+    places.x[0] = place.x;
+    places.y[0] = place.y;
+    places.z[0] = place.z;
+    return varying->brightness_at(places)[0];
+}
 /// The spectrum of that; null if it is not known.
 inline SharedLightSpectrum emission_spectrum(const Medium& medium) {
     return std::visit(
