@@ -272,6 +272,29 @@ TEST_CASE("no photons where nothing bends light or no light has a middle") {
     CHECK(lights("1.5", R"({"constant": {}})") == 0);
 }
 
+TEST_CASE("photons of a flame start in it, and nowhere else") {
+    const Scene scene = scene_of(
+        R"("glass": {"clear": {"ior": 1.5}}, "flame": {"clear": {"ior": 1, "emission": [1, 1, 1], "absorption": [0.001, 0.001, 0.001]}})",
+        R"({"over": [{"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 2], "of": {"capsule": {"from": [-1, -1, 0], "to": [1, 1, 0.3], "radius": 0.05}}}}}},
+                     {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
+        R"("lights": [])");
+    const World world(scene);
+    const PhotonEmission emission(world, scene);
+    CHECK(emission.sources() == scene.lights.glowing().size());
+    int started = 0;
+    for (std::uint32_t i = 0; i < 4000; ++i) {
+        Sampler sampler(i, 0, 0, 7);
+        const auto photon = emission.sample(sampler, 0);
+        if (!photon) continue;
+        ++started;
+        CHECK(photon->ray.phase == world.geometry().label(photon->ray.origin));
+        CHECK(photon->emission.radiance.x > 0.0f);
+        CHECK(photon->emission.radiance.x < 3.0f);  // as far as the flame is long
+    }
+    // The flame fills less than a hundredth of the box around it, and its balls are larger than it by half or more.
+    CHECK(started > 400);
+}
+
 TEST_CASE("a lamp above a wall throws no photons through what is below it") {
     const auto found_on_the_floor = [](const std::string& lamp_height) {
         const Scene scene = scene_of(

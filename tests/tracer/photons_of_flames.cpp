@@ -36,8 +36,8 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     std::vector<double> weights(places.cells());
     for (double& weight : weights) weight = static_cast<double>(random()) + 0.01;
     places.set_weights(weights);
-    // Along lines through places, of directions that are evenly spread, the mean of f ∫ 1 / ∫ v over lines is that of
-    // their measure: ∫ 1 dA dω = 4π · π r². Each place has a line with the density ∫ v / 4π.
+    // A line through a place, in a direction that is evenly spread, has the density ∫ v / 4π. So the mean of 1 over
+    // that is the measure of all lines that meet the ball, 4π · π r².
     Moments measure;
     for (int i = 0; i < 40000; ++i) {
         const glm::vec3 direction = square_to_uniform_cone(random.two(), 2.0f);

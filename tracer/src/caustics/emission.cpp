@@ -1,5 +1,7 @@
 #include "caustics/emission.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "caustics/glowing_lines.hpp"
 #include "caustics/shining_lines.hpp"
 #include "image/luminance.hpp"
+#include "phasetree/math/float_mode.hpp"
 #include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 
@@ -70,16 +73,20 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
             if (part.is_of_surface())
                 sources_.push_back(OfGlowing{part.bounding_sphere(), PhotonDirections(cells_a_side_of_glowing)});
             else
-                sources_.push_back(shining(part.bounding_sphere()));
+                sources_.push_back(
+                    OfShining{PhotonPlaces(part.bounding_sphere()), PhotonDirections(cells_a_side_of_shining)});
         }
+    tbb::parallel_for(first_glowing_, sources_.size(), [&](std::size_t i) {
+        const FlushSubnormals flush;
+        if (OfShining* source = std::get_if<OfShining>(&sources_[i])) prefer_bright_places(source->places);
+    });
     if (!sources_.empty()) choice_ = CellChoice(sources_.size());
 }
 
-PhotonEmission::OfShining PhotonEmission::shining(const BoundingSphere& ball) const {
-    OfShining source{PhotonPlaces(ball), PhotonDirections(cells_a_side_of_shining)};
+void PhotonEmission::prefer_bright_places(PhotonPlaces& places) const {
     std::vector<double> brightness;
-    for (std::size_t i = 0; i < source.places.cells(); ++i) {
-        const glm::vec3 place = source.places.centre(i);
+    for (std::size_t i = 0; i < places.cells(); ++i) {
+        const glm::vec3 place = places.centre(i);
         // Of what moves, neighbouring cells are asked at different times.
         const double time = scene_.moves() ? std::fmod(std::numbers::phi * static_cast<double>(i), 1.0) : 0.0;
         const TracedGeometry::Inside inside = world_.geometry().inside(place, static_cast<float>(time));
@@ -93,10 +100,9 @@ PhotonEmission::OfShining PhotonEmission::shining(const BoundingSphere& ball) co
         brightness.push_back(static_cast<double>(of_most * luminance(emission(clear->interior))));
     }
     const double sum = std::accumulate(brightness.begin(), brightness.end(), 0.0);
-    if (!(sum > 0)) return source;
+    if (!(sum > 0)) return;
     for (double& cell : brightness) cell += even_part / (1 - even_part) * sum / static_cast<double>(brightness.size());
-    source.places.set_weights(brightness);
-    return source;
+    places.set_weights(brightness);
 }
 
 std::size_t PhotonEmission::cells(std::size_t source) const {

@@ -143,8 +143,8 @@ class PhotonEmission {
     /// The same, of whatever light is seen along the line.
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
-    /// More of the places in the ball where the medium is brighter.
-    OfShining shining(const BoundingSphere& ball) const;
+    /// From now on places of a ball are chosen nearly in proportion to how brightly media shine there.
+    void prefer_bright_places(PhotonPlaces& places) const;
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     /// Where a photon starts on a line; none in an opaque phase.

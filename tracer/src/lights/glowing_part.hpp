@@ -4,7 +4,7 @@
 //
 // Directions are uniform in the cone that the ball fills, as towards a ball light. Where little of the
 // ball is filled many of them miss it, which makes noise and nothing else. What shines outside all balls is found by
-// the paths' directions, and by shadow rays that something else proposed. A ball around a part of a surface sends
+// the paths' directions, and by shadow rays that something else proposed. The balls send
 // photons, too (caustics/emission.hpp).
 #pragma once
 
