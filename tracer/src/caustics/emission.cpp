@@ -29,13 +29,23 @@ constexpr std::size_t most_glowing = 4096;
 // medium.
 constexpr int cells_a_side_of_glowing = 16, cells_a_side_of_shining = 8;
 
-// This part of the photons is spread evenly whatever was learnt, because what was learnt is an estimate.
+// This part of the photons is spread evenly whatever was learnt, or is known of a medium, because that is an estimate.
 constexpr double even_part = 0.1;
 
 // Whether photons go on where they meet it.
 bool sends_light_on(const Material& material) {
     if (const Clear* clear = std::get_if<Clear>(&material)) return clear->ior != 1.0f;
     return has_metal(material);
+}
+
+double sum_of(const std::vector<double>& cells) {
+    return std::accumulate(cells.begin(), cells.end(), 0.0);
+}
+
+// Raises all weights of cells alike, so that the even part of what is chosen by them is spread evenly.
+void add_even_part(std::vector<double>& cells) {
+    const double even = even_part / (1 - even_part) * sum_of(cells) / static_cast<double>(cells.size());
+    for (double& cell : cells) cell += even;
 }
 
 glm::vec3 position_of(const AnyPointLight& any) {
@@ -99,9 +109,8 @@ void PhotonEmission::prefer_bright_places(PhotonPlaces& places) const {
         const float of_most = brightness_at(clear->interior, world_.geometry().way_through_medium(ray, 0.0f).origin);
         brightness.push_back(static_cast<double>(of_most * luminance(emission(clear->interior))));
     }
-    const double sum = std::accumulate(brightness.begin(), brightness.end(), 0.0);
-    if (!(sum > 0)) return;
-    for (double& cell : brightness) cell += even_part / (1 - even_part) * sum / static_cast<double>(brightness.size());
+    if (!(sum_of(brightness) > 0)) return;
+    add_even_part(brightness);
     places.set_weights(brightness);
 }
 
@@ -110,9 +119,6 @@ std::size_t PhotonEmission::cells(std::size_t source) const {
 }
 
 void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
-    const auto sum_of = [](const std::vector<double>& cells) {
-        return std::accumulate(cells.begin(), cells.end(), 0.0);
-    };
     double total = 0;
     for (const std::vector<double>& cells : worth) total += sum_of(cells);
     if (!(total > 0)) return;
@@ -122,8 +128,7 @@ void PhotonEmission::learn(std::vector<std::vector<double>> worth) {
         const double sum = sum_of(cells);
         shares.push_back(even_part / static_cast<double>(sources_.size()) + (1 - even_part) * sum / total);
         if (!(sum > 0)) continue;
-        const double even = even_part / (1 - even_part) * sum / static_cast<double>(cells.size());
-        for (double& cell : cells) cell += even;
+        add_even_part(cells);
         std::visit([&](auto& source) { source.aim.set_weights(cells); }, sources_[i]);
     }
     choice_.set_weights(shares);

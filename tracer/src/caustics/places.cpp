@@ -30,7 +30,7 @@ float PhotonPlaces::density_along(const glm::vec3& origin, const glm::vec3& dire
     if (!within) return 0.0f;
     const float end = std::min(within->leaves, length);
     float t = std::max(within->enters, 0.0f);
-    if (!(t < end)) return 0.0f;
+    if (!(t < end && end < Bounds::infinity)) return 0.0f;
     // From cell to cell, by the next plane between cells that the line comes to along each axis.
     const glm::vec3 in_cells = (origin + t * direction - corner()) / cell_side();
     glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(in_cells)), 0, cells_a_side - 1);
