@@ -77,6 +77,30 @@ TEST_CASE("each outcome is as likely as the choice says, and so counts as often 
     }
 }
 
+TEST_CASE("what glows, and a flame, are chosen as lamps are") {
+    const auto odds_with_ball_of = [](const std::string& material, const std::string& at) {
+        const Scene scene = pane("", "",
+                                 R"(, {"set": {"phase": "ball", "of": {"translate": {"by": )" + at +
+                                     R"(, "of": {"sphere": {"radius": 0.4}}}}}})",
+                                 R"(, "ball": )" + material);
+        const World world(scene);
+        const auto surface = surface_met(world, from, -from);
+        REQUIRE(surface);
+        const glm::vec3 wo = surface->frame().to_local(glm::normalize(from));
+        const InterfaceChoice choice = chosen_by_lights(scene, *surface, surface->bsdf(), surface->frame(), wo, 0.0f);
+        return choice.odds_over_fresnel * surface->bsdf().sample(wo, 0.0f, {})->pdf;
+    };
+    const std::string mirrored = "[-2, -3.4641016, 0]", behind_pane = "[-2, 3.4641016, 0]", elsewhere = "[5, -2, 5]";
+    for (const char* const material : {R"({"glowing": {"radiance": 3}})",
+                                       R"({"clear": {"ior": 1, "emission": [3, 2, 1], "absorption": [1, 1, 1]}})"}) {
+        CAPTURE(material);
+        const float f = odds_with_ball_of(material, elsewhere);
+        CHECK(f == doctest::Approx(0.0415).epsilon(0.1));  // Fresnel's
+        CHECK(odds_with_ball_of(material, mirrored) == doctest::Approx(0.5f + 0.5f * f).epsilon(1e-4));
+        CHECK(odds_with_ball_of(material, behind_pane) == doctest::Approx(0.5f * f).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("where no light is seen, or all of it is reflected, the choice is Fresnel's") {
     const Scene scene = pane("", R"({"sphere": {"centre": [50, 50, 50], "radius": 0.1, "radiance": [1, 1, 1]}})");
     const World world(scene);

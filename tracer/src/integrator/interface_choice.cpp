@@ -21,8 +21,10 @@ float brightness(const Scene& scene, const Surface& surface, const Frame& frame,
     const float cosine_squared = 1.0f - x * x - y * y;
     if (!(cosine_squared > 0.0f)) return 0.0f;  // such a plane keeps the light inside
     const glm::vec3 outside(x, y, std::copysign(std::sqrt(cosine_squared), next.wi.z));
-    const auto light = scene.lights.seen(surface.near_side.origin, frame.to_world(outside), Bounds::infinity, false);
-    return light ? luminance(light->radiance) : 0.0f;
+    const glm::vec3 direction = frame.to_world(outside);
+    const auto light = scene.lights.seen(surface.near_side.origin, direction, Bounds::infinity, false);
+    return std::max(light ? luminance(light->radiance) : 0.0f,
+                    scene.lights.glowing_luminance(surface.near_side.origin, direction));
 }
 
 }  // namespace

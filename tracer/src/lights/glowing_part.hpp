@@ -32,6 +32,10 @@ class GlowingPart {
     glm::vec3 centre() const { return ball_.centre(); }
     /// An estimate of its luminance: the whole ball counts as shining.
     float luminance() const { return ball_.radiance().x; }
+    /// Whether a ray meets the ball.
+    bool is_met(const glm::vec3& origin, const glm::vec3& direction) const {
+        return ball_.intersect(origin, direction).has_value();
+    }
     /// Steradians that the ball fills as seen from p.
     double solid_angle(const glm::vec3& p) const { return ball_.solid_angle(p); }
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const { return ball_.sample(p, u); }

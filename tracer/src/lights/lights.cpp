@@ -379,6 +379,16 @@ Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance, c
     return {distance, light_of(radiance, area_spectrum_[area_light], wavelengths), OfAreaLight{area_light}};
 }
 
+float Lights::glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const {
+    float brightest = 0;
+    if (glowing_.empty()) return brightest;
+    for_each_lamp_near(LightNode::Kind::glowing, origin, direction, [&](std::uint32_t number) {
+        const GlowingPart& part = glowing_[number];
+        if (part.luminance() > brightest && part.is_met(origin, direction)) brightest = part.luminance();
+    });
+    return brightest;
+}
+
 glm::vec3 Lights::intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths) const {
     const glm::vec3 intensity = std::visit([&](const auto& light) { return light.intensity(away); }, points_[index]);
     return light_of(intensity, point_spectrum_[index], wavelengths);

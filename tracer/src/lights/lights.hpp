@@ -160,6 +160,10 @@ class Lights {
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                             bool camera_ray, const Wavelengths* wavelengths = nullptr) const;
 
+    /// The luminance of the brightest ball around a part of what glows that a ray meets: an estimate of what comes from
+    /// there if nothing is in the way. 0 if it meets none.
+    float glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const;
+
     /// What the point light of this number in points() sends in a direction away from it: its radiant intensity.
     glm::vec3 intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths = nullptr) const;
 
