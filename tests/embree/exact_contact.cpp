@@ -210,6 +210,9 @@ const std::vector<Meant> meant = {
       film("green", "skin", "vacuum"), film("green", "stripe", any)},
      "The rind is a sequence of thin layers, the outermost with stripes."},
     {"wet_sand", {film("sand", "water", "vacuum")}, "The pond is shallow at its shore."},
+    {"wine_by_candlelight",
+     {film("vacuum", "glass", "vacuum"), film("vacuum", "glass", "wine")},
+     "The glass has a thin wall."},
 };
 
 bool is_meant(const std::string& scene, const Film& film) {
