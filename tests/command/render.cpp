@@ -1,4 +1,5 @@
 // `phasetree render` from the outside: files, exit codes, progress, interruption.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
@@ -36,11 +37,20 @@ struct Interrupt {
     void operator()(pid_t child) {
         if (is_sent || !catches(child, signal)) return;
         used = processor_seconds(child);
-        if (!ready && bytes_of("/proc/" + std::to_string(child) + "/fd/2").find(after) == std::string::npos) return;
+        if (!ready && !has_said_it(child)) return;
         if (!ready) ready = used;
         if (used - *ready < 0.7 * sanitizer_slowdown) return;
         is_sent = true;
         ::kill(child, signal);
+    }
+
+  private:
+    // Before it is the command, the process has this one's standard error, which may be a pipe: whoever reads that
+    // waits.
+    bool has_said_it(pid_t child) const {
+        const std::string err = "/proc/" + std::to_string(child) + "/fd/2";
+        std::error_code ended;
+        return std::filesystem::is_regular_file(err, ended) && bytes_of(err).find(after) != std::string::npos;
     }
 };
 
