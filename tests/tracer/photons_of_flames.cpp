@@ -117,4 +117,26 @@ TEST_CASE("a medium that is lit by a flame is as bright with photons as by paths
     check_pictures(made, long_form ? 1.01 : 1.04, 1e-4);
 }
 
+TEST_CASE("flames in objects that are placed, copied and moving are as bright with photons as by paths alone") {
+    const auto made = [](bool caustics) {
+        return read_scene(phasetree::Document::from_text(
+            R"({"version": 1, "phases": {)" +
+                flame_and(
+                    R"("ior": 1, "absorption": [0.5, 1, 2], "density": {"plane": {"offset": 0.5}}, "density_depth": 1)") +
+                R"(, "milk": {"clear": {"ior": 1.4, "scattering": [4, 4, 4], "absorption": [0.1, 0.1, 0.1]}}},
+                "objects": [{"name": "ball", "tree": )" +
+                set("milk", "[0, 0, 0]", 1) + R"(}, {"name": "fire", "tree": )" + set("flame", "[0, 0, 0]", 0.4) +
+                R"(}],
+                "instances": [{"of": "ball"},
+                    {"of": "fire", "transform": [{"scale": {"factor": 1.3}}, {"rotate": {"axis": [1, 0, 0], "angle": 120}},
+                        {"translate": {"by": {"keys": [[0, [-0.5, 0, 1.8]], [1, [0.5, 0, 1.8]]]}}}]},
+                    {"of": "fire", "transform": {"translate": {"by": [1.6, 0, 0]}}}],
+                "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 15}, "lights": [],
+                "render": {"width": 20, "height": 20, "shutter": [0, 1], "samples": )" +
+                std::string(long_form ? "4096" : "256") + R"(, "caustics": )" + (caustics ? "true" : "false") + "}}",
+            "test.json"));
+    };
+    check_pictures(made, long_form ? 1.01 : 1.04, 1e-4);
+}
+
 }  // namespace test_photons_of_flames

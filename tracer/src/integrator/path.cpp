@@ -11,6 +11,7 @@
 #include "integrator/path_chain.hpp"
 #include "integrator/path_guiding.hpp"
 #include "integrator/path_recorder.hpp"
+#include "integrator/photon_density.hpp"
 #include "integrator/roulette.hpp"
 #include "integrator/shadow_ray.hpp"
 #include "integrator/technique_weight.hpp"
@@ -21,10 +22,6 @@
 namespace phasetree::tracer {
 
 namespace {
-
-// Photons whose direction has a smaller cosine than this are dropped, because what they bring is divided by the cosine:
-// one would count a thousand times. The other techniques find such light instead, but for that of point lights.
-constexpr float least_photon_cosine = 1e-3f;
 
 // One path, and what it needs at every step.
 class Path {
@@ -184,8 +181,10 @@ class Path {
         const GuidedBsdf bsdf(unguided, frame, frame.to_local(-ray_.direction), guiding_.at(surface, unguided));
         LightProposal proposal;
         const auto per_line_density_of = [&](const glm::vec3& wi) {
-            return is_passed_by_photons(surface, unguided) ? per_line_density_beyond(surface, bsdf, wi)
-                                                           : per_line_density_at(surface, bsdf, wi);
+            return is_passed_by_photons(surface, unguided)
+                       ? per_line_density_beyond(chain_.by_photons.per_line_density / *chain_.pdf, scene_, surface,
+                                                 bsdf, wi)
+                       : per_line_density_at(photons_, scene_, surface, bsdf, wi);
         };
         if (!unguided.is_delta()) {
             // Photons that go on from the surface weigh by the same density of shadow rays, and know of no bending.
@@ -239,7 +238,8 @@ class Path {
         const HenyeyGreenstein& phase = point.phase_function;
         const auto proposal = LightProposal::at(point, entered_, world_, scene_, all_wavelengths());
         const auto placement = photons_ ? PhotonPlacement::in(medium(), photons_.map->half_length()) : std::nullopt;
-        const PhotonDensity by_photons{placement ? per_line_density_across(point.phase) : 0.0f, placement};
+        const PhotonDensity by_photons{placement ? per_line_density_across(photons_, scene_, point.phase) : 0.0f,
+                                       placement};
         if (const auto light = sampled_light(proposal)) {
             const float f = phase.evaluate(glm::dot(ray_.direction, light->wi));
             add_direct_light(*light, glm::vec3(f), f, by_photons, point.leaving(light->wi), 0);
@@ -306,36 +306,6 @@ class Path {
     int interfaces_before(const Surface& surface, const Bsdf& bsdf) const {
         return is_passed_by_photons(surface, bsdf) ? chain_.interfaces() + 1 : 0;
     }
-    // PhotonDensity::per_line_density of a direction that leads on from a rough interface, if photons count at an
-    // earlier place.
-    float per_line_density_beyond(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
-        // A bump may send the path into the surface once more, where no photon comes from.
-        if (!surface.far_side && !(photon_cosine(surface, bsdf.frame(), wi) > 0.0f)) return 0.0f;
-        const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
-        return chain_.by_photons.per_line_density / *chain_.pdf *
-               rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene_, left_to.phase).ior, wi.z,
-                            clear_at(scene_, surface.near_side.phase).ior, bsdf.wo().z);
-    }
-    // The cosine by which photons from a local direction are spread over the surface: it is by the geometric normal.
-    static float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3& wi) {
-        if (surface.far_side) return std::abs(wi.z);
-        if (surface.normal == surface.geometric_normal) return wi.z;
-        return wi.z > 0.0f ? glm::dot(frame.to_world(wi), surface.geometric_normal) : 0.0f;
-    }
-    // PhotonDensity::per_line_density of a direction at a surface on which photons count; 0 if they do not count in it.
-    float per_line_density_at(const Surface& surface, const GuidedBsdf& bsdf, const glm::vec3& wi) const {
-        if (!photons_ || bsdf.bsdf().is_delta()) return 0.0f;
-        const float cosine = photon_cosine(surface, bsdf.frame(), wi);
-        if (!(cosine > least_photon_cosine)) return 0.0f;
-        return per_line_density_across(wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) * cosine;
-    }
-    // N π r² n². Where a phase disperses, n is that of the d line: all techniques weigh by the same, so their weights
-    // still sum to 1.
-    float per_line_density_across(Phase phase) const {
-        const float ior = clear_at(scene_, phase).ior;
-        return photons_.map->expected() * ior * ior;
-    }
-
     // Adds what one photon brings to the point `at`. `f` is the BSDF or the phase function for its direction, and
     // `power` what is left there of the photon's power. Photons find the direction with the density `by_photons`, and
     // the path itself would go on in it with the density `pdf`. It is called only if all techniques are used.
@@ -367,7 +337,7 @@ class Path {
             const bool is_from_near = photon.phase == near;
             if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
             if (is_from_near != (wi.z > 0.0f)) return;
-            const float by_photons = per_line_density_at(surface, bsdf, wi) * photon.line_density;
+            const float by_photons = per_line_density_at(photons_, scene_, surface, bsdf, wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
             // Photons are counted by area of the surface, and so have the surface's cosine already.
             const glm::vec3 f = bsdf.evaluate(wi) / photon_cosine(surface, bsdf.frame(), wi);
@@ -384,7 +354,7 @@ class Path {
     // Adds what photons bring whose places in a medium are near the point.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
-        const float across = per_line_density_across(point.phase);
+        const float across = per_line_density_across(photons_, scene_, point.phase);
         photons_.map->near_in_medium(point.position, point.phase, [&](const Photon& photon, float depth) {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;

@@ -5,29 +5,13 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "caustics/photon_placement.hpp"
 #include "integrator/light_proposal.hpp"
+#include "integrator/photon_density.hpp"
 #include "integrator/shadow_ray.hpp"
 #include "integrator/technique_weight.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
-
-/// The density with which photons find a direction is `per_line_density` times the line density at the light's end of
-/// the chain. That factor is N π r² n² cos θ on a surface and N π r² n² F in a medium (path.hpp), times R of each rough
-/// interface on the way, over the densities with which the path has chosen the directions before (rough_chain.hpp).
-struct PhotonDensity {
-    float per_line_density = 0;
-    /// It is set while F is still missing: in a medium that photons light, until the chain's first boundary is known.
-    std::optional<PhotonPlacement> placement{};
-
-    /// Multiplies by F: the boundary at which the chain leaves the medium is at this distance. Later boundaries change
-    /// nothing.
-    void reach_boundary(float distance) {
-        if (placement) per_line_density *= placement->coverage(distance);
-        placement.reset();
-    }
-};
 
 struct PathChain {
     /// The density with which the path chose the chain's first direction: by the BSDF, a guide, or the phase function.
