@@ -16,7 +16,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// A phase that shines, with more of its material.
+// Phases: glass, and a flame that shines, with more of its material.
 std::string flame_and(const std::string& more) {
     return std::string(glass) + R"(, "flame": {"clear": {"emission": [6, 3, 1], )" + more + "}}";
 }
@@ -39,7 +39,7 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     // A line through a place, in a direction that is evenly spread, has the density ∫ v / 4π. So the mean of 1 over
     // that is the measure of all lines that meet the ball, 4π · π r².
     Moments measure;
-    for (int i = 0; i < 40000; ++i) {
+    for (int i = 0; i < 200000; ++i) {
         const glm::vec3 direction = square_to_uniform_cone(random.two(), 2.0f);
         const float u_cell = random();
         const glm::vec2 u = random.two();
@@ -64,6 +64,24 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     const double expected = 4 * std::numbers::pi * std::numbers::pi * 4;
     CHECK(mean_p_value(measure, expected, 0) > 1e-4);
     CHECK(mean_p_value(measure, 1.02 * expected, 0) < 1e-4);
+    // Along axes and in coordinate planes, where steps along an axis have no end: places all alike are as dense, per
+    // length, on every line.
+    const PhotonPlaces even(ball);
+    const auto per_length = [&](const glm::vec3& direction) {
+        return static_cast<double>(even.density_along(ball.centre - 3.0f * direction, direction, infinity)) / 4;
+    };
+    const double slanting = per_length(glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f)));
+    CHECK(slanting > 0);
+    for (const glm::vec3& direction :
+         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),
+          glm::vec3(0, 0, -1), glm::vec3(0.6f, 0.8f, 0), glm::vec3(0, -0.6f, 0.8f), glm::vec3(-0.8f, 0, -0.6f)}) {
+        CAPTURE(direction.x);
+        CAPTURE(direction.y);
+        CHECK(per_length(direction) == doctest::Approx(slanting).epsilon(1e-4));
+    }
+    // Half of the line has half of it, and no line of no ball has any.
+    CHECK(static_cast<double>(even.density_along(ball.centre - glm::vec3(3, 0, 0), {1, 0, 0}, 3)) / 2 ==
+          doctest::Approx(slanting).epsilon(1e-4));
     CHECK(places.density_along({1, 5, 3}, {1, 0, 0}, infinity) == 0.0f);
     CHECK(places.density_along({1, 5, 3}, {0, 1, 0}, infinity) == 0.0f);
     CHECK(places.density_along({1, 5, 3}, {0, -1, 0}, 5.0f) == 0.0f);
@@ -83,11 +101,20 @@ TEST_CASE("media that shine within glass are as bright with photons as by paths 
                 flame),
             R"([{"sphere": {"centre": [-0.1, 0.1, 0.1], "radius": 0.15, "radiance": [0.05, 0, 0]}}])", 1.04);
     }
-    SUBCASE("two balls before each other, which scatter, of another index than that around them") {
+    SUBCASE("two balls that scatter, one behind the other, whose index is not the glass's") {
         check_picture_of_floor(flame_and(R"("ior": 1.3, "scattering": [1, 1, 1], "absorption": [0.5, 1, 2])"),
                                R"({"over": [)" + set("flame", "[0.3, 0, 0.1]", 0.35) + ", " +
                                    set("flame", "[-0.4, 0, -0.1]", 0.35) + ", " + in_glass + "]}",
                                "[]", 1.04);
+    }
+    SUBCASE("forty balls in a shell, beside what glows, and a lamp that hides some of them from one side") {
+        check_picture_of_floor(
+            flame_and(absorbing) + R"(, "hot": {"glowing": {"radiance": 0.2}})",
+            shell_around(
+                R"({"set": {"phase": "flame", "of": {"fibonacci_sphere": {"count": 40, "radius": 0.6, "of": {"sphere": {"radius": 0.08}}}}}}, )" +
+                set("hot", "[0, 0, 0]", 0.2)),
+            R"([{"rectangle": {"centre": [0.4, 0, 0], "target": [1, 0, 0], "width": 0.5, "height": 0.5, "radiance": [0.05, 0, 0]}}])",
+            1.04);
     }
     SUBCASE("of varying density") {
         check_picture_of_floor(

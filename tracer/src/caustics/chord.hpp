@@ -1,4 +1,4 @@
-// What a ball has of a straight line.
+// The part of a straight line that is in a ball.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-/// The distances along a line at which it enters and leaves a ball; negative behind its origin.
+/// The distances along a line at which it enters and leaves a ball; negative behind the line's origin.
 struct Chord {
     float enters, leaves;
 };

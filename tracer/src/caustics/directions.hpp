@@ -1,4 +1,4 @@
-// The photons of a small lamp within the object or close to it, and those of a part of a surface that glows, fly in all
+// The photons of a small lamp within the object or close to it, and those of a part of what glows or shines, fly in all
 // directions. The sphere of directions is divided into cells of equal solid angle, and each cell has a probability.
 // With z = cos θ and the azimuth φ a cell is a rectangle of (z, φ), and the density of directions in it
 //     p(ω) = p(cell) · (number of cells)/(4π).

@@ -25,11 +25,14 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // With more parts of what glows or shines than this, none sends photons, because the cells of each take memory and must
 // be learnt.
 constexpr std::size_t most_glowing = 4096;
-// Lines of one direction start all over the ball around such a part, so fine cells tell little, least of all of a
-// medium.
-constexpr int cells_a_side_of_glowing = 16, cells_a_side_of_shining = 8;
+// Photons of one direction start all over the ball around such a part, so fine cells of directions gain little; those
+// of a medium least of all.
+constexpr int direction_cells_a_side_of_glowing = 16, direction_cells_a_side_of_shining = 8;
+// So many places are asked at most how bright media are there, in all balls together.
+constexpr std::size_t most_places_asked = 1 << 20;
 
-// This part of the photons is spread evenly whatever was learnt, or is known of a medium, because that is an estimate.
+// This share of the photons, and of places in a medium, is spread evenly, because what was learnt, or is known of a
+// medium's brightness, is an estimate.
 constexpr double even_part = 0.1;
 
 // Whether photons go on where they meet it.
@@ -42,7 +45,7 @@ double sum_of(const std::vector<double>& cells) {
     return std::accumulate(cells.begin(), cells.end(), 0.0);
 }
 
-// Raises all weights of cells alike, so that the even part of what is chosen by them is spread evenly.
+// Raises all weights by the same amount, so that even_part of the choices is even.
 void add_even_part(std::vector<double>& cells) {
     const double even = even_part / (1 - even_part) * sum_of(cells) / static_cast<double>(cells.size());
     for (double& cell : cells) cell += even;
@@ -81,37 +84,48 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     if (glowing.size() <= most_glowing)
         for (const GlowingPart& part : glowing) {
             if (part.is_of_surface())
-                sources_.push_back(OfGlowing{part.bounding_sphere(), PhotonDirections(cells_a_side_of_glowing)});
-            else
                 sources_.push_back(
-                    OfShining{PhotonPlaces(part.bounding_sphere()), PhotonDirections(cells_a_side_of_shining)});
+                    OfGlowing{part.bounding_sphere(), PhotonDirections(direction_cells_a_side_of_glowing)});
+            else
+                sources_.push_back(OfShining{PhotonPlaces(part.bounding_sphere()),
+                                             PhotonDirections(direction_cells_a_side_of_shining)});
         }
     tbb::parallel_for(first_glowing_, sources_.size(), [&](std::size_t i) {
         const FlushSubnormals flush;
-        if (OfShining* source = std::get_if<OfShining>(&sources_[i])) prefer_bright_places(source->places);
+        if (OfShining* source = std::get_if<OfShining>(&sources_[i]))
+            prefer_bright_places(source->places, most_places_asked / (glowing.size() * source->places.cells()));
     });
     if (!sources_.empty()) choice_ = CellChoice(sources_.size());
 }
 
-void PhotonEmission::prefer_bright_places(PhotonPlaces& places) const {
-    std::vector<double> brightness;
-    for (std::size_t i = 0; i < places.cells(); ++i) {
-        const glm::vec3 place = places.centre(i);
-        // Of what moves, neighbouring cells are asked at different times.
-        const double time = scene_.moves() ? std::fmod(std::numbers::phi * static_cast<double>(i), 1.0) : 0.0;
-        const TracedGeometry::Inside inside = world_.geometry().inside(place, static_cast<float>(time));
-        const Clear* clear = std::get_if<Clear>(&scene_.materials[inside.phase.index]);
-        if (!clear || !shines(clear->interior)) {
-            brightness.push_back(0);
-            continue;
+void PhotonEmission::prefer_bright_places(PhotonPlaces& places, std::size_t asked_a_cell) const {
+    const std::size_t asked = std::clamp<std::size_t>(asked_a_cell, 1, 8);
+    std::vector<double> brightness(places.cells());
+    for (std::size_t cell = 0; cell < places.cells(); ++cell) {
+        if (!places.meets_ball(cell)) continue;
+        for (std::size_t k = 0; k < asked; ++k) {
+            // The middles of the cell's eighths, or one of them, which is another in each cell. Of what moves, they are
+            // asked at different times.
+            const std::size_t eighth = (cell + k) % 8;
+            const glm::vec3 in_cell(eighth & 1 ? 0.75f : 0.25f, eighth & 2 ? 0.75f : 0.25f, eighth & 4 ? 0.75f : 0.25f);
+            const double time =
+                scene_.moves() ? std::fmod(std::numbers::phi * static_cast<double>(cell + 8 * k), 1.0) : 0.0;
+            brightness[cell] += brightness_at(places.place(cell, in_cell), static_cast<float>(time));
         }
-        const Ray ray{place, {0, 0, 1}, inside.phase, {}, inside.in};
-        const float of_most = brightness_at(clear->interior, world_.geometry().way_through_medium(ray, 0.0f).origin);
-        brightness.push_back(static_cast<double>(of_most * luminance(emission(clear->interior))));
     }
     if (!(sum_of(brightness) > 0)) return;
     add_even_part(brightness);
     places.set_weights(brightness);
+}
+
+double PhotonEmission::brightness_at(const glm::vec3& place, float time) const {
+    const TracedGeometry::Inside inside = world_.geometry().inside(place, time);
+    const Clear* clear = std::get_if<Clear>(&scene_.materials[inside.phase.index]);
+    if (!clear || !shines(clear->interior)) return 0;
+    // A ray without length leads the place into the medium's own space. Its direction does not matter.
+    const Ray ray{place, {0, 0, 1}, inside.phase, {}, inside.in};
+    const float share = share_of_emission(clear->interior, world_.geometry().way_through_medium(ray, 0.0f).origin);
+    return static_cast<double>(share * luminance(emission(clear->interior)));
 }
 
 std::size_t PhotonEmission::cells(std::size_t source) const {
@@ -170,7 +184,9 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfArea& s
 }
 
 std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfPoint& source, Sampler& sampler) const {
-    sampler.next2();  // the two numbers that choose a place on other lights, so that all use the same dimensions
+    // The two numbers that choose a place on other lights are drawn here, too, so that the next ones are of the same
+    // dimensions for all lights; media that shine draw more.
+    sampler.next2();
     const float u_cell = sampler.next();
     const glm::vec3 from = position_of(scene_.lights.points()[source.number]);
     const auto aimed = source.aim.sample(from, u_cell, sampler.next2());
@@ -243,12 +259,13 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
     const Ray ray{line.through, line.direction, inside.phase, {}, inside.in};
     const std::optional<ShiningPiece> piece = shining_piece(ray, world_, scene_);
     if (!piece) return std::nullopt;
-    const Ray back{piece->boundary, -line.direction, inside.phase, {}, inside.in};
-    const float density = line_density(back.origin, back.direction, back.phase, piece->length);
+    const Ray from_boundary{piece->boundary, -line.direction, inside.phase, {}, inside.in};
+    const float density = line_density_in_medium(piece->boundary, from_boundary.direction, inside.phase, piece->length);
     if (!(density > 0.0f)) return std::nullopt;
-    const Way way = world_.geometry().way_through_medium(back, piece->length, start.wavelengths);
+    const Way way = world_.geometry().way_through_medium(from_boundary, piece->length, start.wavelengths);
     const glm::vec3 radiance = pass(clear->interior, way, start.sampler).emitted;
     if (radiance == glm::vec3(0.0f)) return std::nullopt;
+    // What a medium sends is of no lamp, and goes with the background, as in paths.
     return EmittedPhoton{.ray = ray,
                          .emission = {0.0f, radiance, Background{}},
                          .power = radiance / (density * squared_ior(scene_, ray.phase)),
@@ -322,17 +339,18 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
     return sum / squared_ior(scene_, glowing.near_side.phase);
 }
 
-float PhotonEmission::line_density(const glm::vec3& boundary, const glm::vec3& towards_light, Phase phase,
-                                   float length) const {
+float PhotonEmission::line_density_in_medium(const glm::vec3& boundary, const glm::vec3& against_light, Phase phase,
+                                             float length) const {
     if (first_glowing_ == sources_.size()) return 0.0f;
     float sum = 0;
-    scene_.lights.for_each_lamp_near(LightNode::Kind::glowing, boundary, towards_light, [&](std::uint32_t number) {
+    const auto add = [&](std::uint32_t number) {
         const std::size_t i = first_glowing_ + number;
         const OfShining* source = std::get_if<OfShining>(&sources_[i]);
         if (!source) return;
-        sum += share(i) * source->aim.density(-towards_light) *
-               source->places.density_along(boundary, towards_light, length);
-    });
+        const float of_place = source->places.density_along(boundary, against_light, length);
+        if (of_place > 0.0f) sum += share(i) * source->aim.density(-against_light) * of_place;
+    };
+    scene_.lights.for_each_lamp_near(LightNode::Kind::glowing, boundary, against_light, add, length);
     return sum / squared_ior(scene_, phase);
 }
 

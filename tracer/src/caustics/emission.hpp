@@ -1,8 +1,9 @@
 // How photons leave the lights: from which light, where and in which direction, and how densely.
 //
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
-// point of the line; where light is refracted n² dG is kept (the étendue). There are four kinds of sources, and the
-// densities of each kind are a mixture by themselves, with the share cᵢ of each source.
+// point of the line; where light is refracted n² dG is kept (the étendue). The densities of infinite
+// lights and area lights together are one mixture, with the share cᵢ of each source; those of each other kind of source
+// are a mixture by themselves.
 //
 // *Infinite lights and area lights:*
 //     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = q/(A cos θ)  of an area light.
@@ -17,10 +18,12 @@
 // *Balls around parts of surfaces that glow:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
 // would start a photon on this line at this same place (glowing_lines.hpp).
 //
-// *Balls around parts of media that shine:* a photon carries what the medium sends along one straight piece of the
-// line, from where the piece leaves the medium to where it came in, or to what ends it: an opaque surface or a lamp. A
-// place in the ball chooses that piece (places.hpp). So pᵢ = q ∫ v, with the density v of places per volume and its
-// integral along what the ball has of the piece.
+// *Balls around parts of media that shine:* a place in the ball (places.hpp) and a direction choose a line, and the
+// place chooses the straight piece of it that is in the medium. The piece ends where the light leaves the medium. It
+// begins where the line enters the medium, or at the opaque surface or lamp that hides the rest. The photon carries all
+// that the medium sends along the piece. Any place on the piece would have chosen it, so pᵢ = q ∫ v, with the density q
+// of the direction per steradian (directions.hpp), the density v of places per volume, and the integral along the part
+// of the piece that is in the ball. The sum is over all balls that the piece meets.
 //
 // *Point lights:* all lines of one pass through it, and have no density by area. They have one of directions, cᵢ q, and
 // a photon carries the light's intensity over that. No other technique finds light of it that smooth interfaces bent
@@ -54,8 +57,8 @@ struct EmittedPhoton {
     float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
     std::size_t source;  ///< the number of the source that proposed it: less than PhotonEmission::sources()
     std::size_t cell;    ///< that cell of the source in which it is aimed
-    /// What the medium around the origin does to the photon until its first boundary is part of the power already, and
-    /// the light is seen from there: so it is of media that shine.
+    /// Whether a medium that shines sends it. Then the power already includes what that medium takes away up to the
+    /// photon's first boundary, and nothing can hide the light from the origin.
     bool is_of_medium = false;
 };
 
@@ -65,7 +68,8 @@ class PhotonEmission {
     PhotonEmission(const World& world, const Scene& scene);
 
     /// How many sources send photons: lights, bright parts of lights, and parts of surfaces that glow and of media that
-    /// shine. There are none if nothing clear bends light, or if the object has no finite bounds.
+    /// shine. There are none if no clear phase bends light and nothing is of metal, or if the object has no
+    /// finite bounds.
     std::size_t sources() const { return sources_.size(); }
     /// In how many cells a source aims its photons.
     std::size_t cells(std::size_t source) const;
@@ -77,9 +81,10 @@ class PhotonEmission {
     /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
     /// towards_light, over which the line is known to be free.
     float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
-    /// The same of a straight piece of a line through a medium that shines, which leads from its boundary so far
-    /// towards the light.
-    float line_density(const glm::vec3& boundary, const glm::vec3& towards_light, Phase phase, float length) const;
+    /// The same of a straight piece of a line in a medium that shines, from the boundary where its light comes out,
+    /// back against that light over `length`, which may be infinite. The phase is the medium's.
+    float line_density_in_medium(const glm::vec3& boundary, const glm::vec3& against_light, Phase phase,
+                                 float length) const;
     /// The same of a point light, by its number in Lights::points(), for a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
@@ -101,10 +106,13 @@ class PhotonEmission {
         std::size_t number;
         PhotonAim aim;
     };
+    /// Of a part of a surface that glows.
     struct OfGlowing {
         BoundingSphere ball;
         PhotonDirections aim;
     };
+    /// Of a part of a medium that shines: `places` chooses a point of the line, and `aim` its direction. Only the cells
+    /// of `aim` are learnt.
     struct OfShining {
         PhotonPlaces places;
         PhotonDirections aim;
@@ -143,8 +151,11 @@ class PhotonEmission {
     /// The same, of whatever light is seen along the line.
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
-    /// From now on places of a ball are chosen nearly in proportion to how brightly media shine there.
-    void prefer_bright_places(PhotonPlaces& places) const;
+    /// From now on places of a ball are chosen in proportion to how brightly media shine there, but for a tenth, which
+    /// stays even. So many places of each cell are asked, at most 8.
+    void prefer_bright_places(PhotonPlaces& places, std::size_t asked_a_cell) const;
+    /// The luminance per unit of length that a medium sends at a place.
+    double brightness_at(const glm::vec3& place, float time) const;
     /// A point of a line that is sure to be before everything that it meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
     /// Where a photon starts on a line; none in an opaque phase.

@@ -1,6 +1,6 @@
-// A photon: light that came from a lamp through at least one interface of clear phases, smooth or rough, and fell on an
-// opaque surface that is not a mirror, on a rough interface, or into a medium that scatters. It stands for the whole
-// chain of interfaces behind it.
+// A photon: light that came from a lamp, or what glows or shines, through at least one interface of clear phases,
+// smooth or rough, and fell on an opaque surface that is not a mirror, on a rough interface, or into a medium that
+// scatters. It stands for the whole chain of interfaces behind it.
 #pragma once
 
 #include <glm/vec3.hpp>

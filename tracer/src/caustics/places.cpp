@@ -1,6 +1,8 @@
 #include "caustics/places.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "caustics/chord.hpp"
 #include "phasetree/math/bounds.hpp"
@@ -8,21 +10,38 @@
 namespace phasetree::tracer {
 
 PhotonPlaces::PhotonPlaces(const BoundingSphere& ball)
-    : ball_(ball), choice_(static_cast<std::size_t>(cells_a_side * cells_a_side * cells_a_side)) {}
+    : ball_(ball), choice_(static_cast<std::size_t>(cells_a_side * cells_a_side * cells_a_side)) {
+    set_weights(std::vector<double>(choice_.size(), 1.0));
+}
+
+bool PhotonPlaces::meets_ball(std::size_t cell) const {
+    // In sides of cells, from the ball's centre, which is a corner of cells, to the nearest corner of this one.
+    constexpr int middle = cells_a_side / 2;
+    const glm::ivec3 at = coordinates(cell) - middle;
+    const glm::ivec3 nearest = glm::max(glm::max(at, -1 - at), glm::ivec3(0));
+    return nearest.x * nearest.x + nearest.y * nearest.y + nearest.z * nearest.z < middle * middle;
+}
+
+void PhotonPlaces::set_weights(std::span<const double> weights) {
+    std::vector<double> in_ball(weights.begin(), weights.end());
+    for (std::size_t cell = 0; cell < in_ball.size(); ++cell)
+        if (!meets_ball(cell)) in_ball[cell] = 0;
+    choice_.set_weights(in_ball);
+}
 
 glm::ivec3 PhotonPlaces::coordinates(std::size_t cell) const {
     const int i = static_cast<int>(cell);
     return {i % cells_a_side, i / cells_a_side % cells_a_side, i / (cells_a_side * cells_a_side)};
 }
 
-glm::vec3 PhotonPlaces::centre(std::size_t cell) const {
-    return corner() + (glm::vec3(coordinates(cell)) + 0.5f) * cell_side();
+glm::vec3 PhotonPlaces::place(std::size_t cell, const glm::vec3& share) const {
+    return corner() + (glm::vec3(coordinates(cell)) + share) * cell_side();
 }
 
 std::optional<glm::vec3> PhotonPlaces::sample(float u_cell, const glm::vec3& u) const {
     const std::size_t cell = choice_.sample(static_cast<double>(u_cell));
-    const glm::vec3 place = corner() + (glm::vec3(coordinates(cell)) + u) * cell_side();
-    return glm::distance(place, ball_.centre) < ball_.radius ? std::optional(place) : std::nullopt;
+    const glm::vec3 chosen = place(cell, u);
+    return glm::distance(chosen, ball_.centre) < ball_.radius ? std::optional(chosen) : std::nullopt;
 }
 
 float PhotonPlaces::density_along(const glm::vec3& origin, const glm::vec3& direction, float length) const {

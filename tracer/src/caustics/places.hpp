@@ -1,6 +1,6 @@
-// Where in a ball around a medium that shines a photon's line is chosen. The cube around the ball is divided into cells
-// with a probability each, in which places are evenly spread; what of them is not in the ball sends no photon. So the
-// density per volume of a place in the ball is that of its cell, P(cell)/(volume of a cell).
+// A photon of a medium that shines flies on a line through a place that is chosen in a ball around a part of the
+// medium. The cube around the ball is divided into cells with a probability each, and places are spread evenly in a
+// cell; one outside of the ball sends no photon. So places have the density P(cell)/(volume of a cell) per volume.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,18 +14,21 @@ namespace phasetree::tracer {
 
 class PhotonPlaces {
   public:
-    /// All cells are equally likely.
+    /// All cells that meet the ball are equally likely.
     explicit PhotonPlaces(const BoundingSphere& ball);
 
     std::size_t cells() const { return choice_.size(); }
-    glm::vec3 centre(std::size_t cell) const;
-    /// As CellChoice has it.
-    void set_weights(std::span<const double> weights) { choice_.set_weights(weights); }
+    /// Whether some of a cell is in the ball.
+    bool meets_ball(std::size_t cell) const;
+    /// The place in a cell at these shares, in [0, 1]³, of its sides.
+    glm::vec3 place(std::size_t cell, const glm::vec3& share) const;
+    /// As CellChoice has it, but that cells outside of the ball are never chosen.
+    void set_weights(std::span<const double> weights);
 
     /// A place: u_cell in [0, 1) chooses the cell, u in [0, 1)³ the place in it. Nothing if it is outside of the ball.
     std::optional<glm::vec3> sample(float u_cell, const glm::vec3& u) const;
-    /// The density of places, per volume, integrated along a line from its origin to a distance, which may be infinite:
-    /// per area across the line. The direction is of unit length.
+    /// The integral of the density of places along a line, from its origin to the distance `length`, which may be
+    /// infinite. It is per area across the line. The direction is of unit length.
     float density_along(const glm::vec3& origin, const glm::vec3& direction, float length) const;
 
   private:

@@ -1,23 +1,25 @@
 #include "caustics/shining_lines.hpp"
 
 #include "phasetree/math/bounds.hpp"
+#include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
 std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, const Scene& scene) {
     PathCounters uncounted;
     const Hit ahead = world.geometry().intersect(ray, uncounted);
-    const Surface* leaves = std::get_if<Surface>(&ahead);
-    if (!leaves || scene.lights.area_light_in_the_way(ray.origin, ray.direction, leaves->distance, LightSource{}))
+    const Surface* end = std::get_if<Surface>(&ahead);
+    if (!end || !sends_photons_on(end->bsdf(), *end)) return std::nullopt;
+    if (scene.lights.area_light_in_the_way(ray.origin, ray.direction, end->distance, LightSource{}))
         return std::nullopt;
-    Ray back = ray;
-    back.direction = -ray.direction;
-    const Hit behind = world.geometry().intersect(back, uncounted);
-    const Surface* begins = std::get_if<Surface>(&behind);
-    float distance = begins ? begins->distance : Bounds::infinity;
-    if (const auto lamp = scene.lights.area_light_seen(back.origin, back.direction, distance, false))
+    Ray backwards = ray;
+    backwards.direction = -ray.direction;
+    const Hit behind = world.geometry().intersect(backwards, uncounted);
+    const Surface* begin = std::get_if<Surface>(&behind);
+    float distance = begin ? begin->distance : Bounds::infinity;
+    if (const auto lamp = scene.lights.area_light_seen(backwards.origin, backwards.direction, distance, false))
         distance = lamp->distance;
-    return ShiningPiece{ray.origin + leaves->distance * ray.direction, leaves->distance + distance};
+    return ShiningPiece{ray.origin + end->distance * ray.direction, end->distance + distance};
 }
 
 }  // namespace phasetree::tracer

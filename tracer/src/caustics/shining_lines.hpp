@@ -11,12 +11,12 @@ namespace phasetree::tracer {
 /// A straight piece of a line within one clear phase.
 struct ShiningPiece {
     glm::vec3 boundary;  ///< where light that goes in the line's direction leaves the phase
-    float length;        ///< from there back to where the piece begins; infinity if nothing ends it
+    float length;        ///< from there back to where the piece begins; infinity if it begins nowhere
 };
 
-/// The piece that a ray's origin is on, with the ray's direction as that of the light. It begins at the surface, or at
-/// the lamp, that who looks back from the boundary would see. Nothing if the light meets a lamp before it leaves the
-/// phase, or no surface at all.
+/// The piece that the ray's origin is on; light goes in the ray's direction. The piece begins at the nearest surface or
+/// lamp behind the origin, and ends at the first surface ahead. Nothing if a lamp is before that surface, if there is
+/// none, or if no photon goes on from it. The phase need not shine.
 std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, const Scene& scene);
 
 }  // namespace phasetree::tracer

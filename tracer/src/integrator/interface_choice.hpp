@@ -5,13 +5,13 @@
 // noise. So a path is reflected with the probability
 //     q = (F + F B / (F B + (1 − F) B')) / 2,
 // where F is Fresnel's reflectance, and B and B' are how bright the lights are in the directions in which the path
-// would be reflected and refracted, as if nothing were in the way; of what glows or shines, as the balls around its
-// parts are (lights/glowing_part.hpp). A path that is reflected then weighs F/q, and one that is refracted (1 − F)/(1 −
-// q), each at most 2.
+// would be reflected and refracted, as if nothing were in the way; of what glows or shines, B is the luminance of
+// the brightest ball (lights/glowing_part.hpp) in that direction. A path that is reflected then weighs F/q, and one
+// that is refracted (1 − F)/(1 − q), each at most 2.
 //
-// A direction in glass is not that in which the path will see a lamp. It is taken to leave by a plane parallel to the
-// interface, as it does from a pane, and from the wall of a bottle nearly. So what the far side of a pane reflects
-// counts as well as what its near side does.
+// A direction in glass is not that in which the path will see a lamp. The path is taken to leave the glass by a plane
+// parallel to the interface, as it does from a pane, and from the wall of a bottle nearly. So lamps that the far side
+// of a pane reflects count, too.
 #pragma once
 
 #include <glm/vec3.hpp>

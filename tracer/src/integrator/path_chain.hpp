@@ -37,24 +37,25 @@ struct PathChain {
     /// The weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do not
     /// follow to its end is found by the path alone, whichever techniques are asked for.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
-        const float per_line = by_photons.per_line_density;
-        const float line = per_line > 0.0f && photons_follow(interfaces()) ? line_density(photons, ray) : 0.0f;
-        return weight(scene, per_line * line);
+        return weight_with(scene, [&] { return line_density(photons, ray); });
     }
     /// The same of what a surface sends that the ray met.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const {
-        const float per_line = by_photons.per_line_density;
-        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
-        return weight(scene, is_found ? per_line * line_density(photons, ray, glowing) : 0.0f);
+        return weight_with(scene, [&] { return line_density(photons, ray, glowing); });
     }
     /// The same of what the medium sends that the ray is in, from its origin to a distance.
     float weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const {
-        const float per_line = by_photons.per_line_density;
-        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
-        return weight(scene, is_found ? per_line * line_density_in_medium(photons, ray, distance) : 0.0f);
+        return weight_with(scene, [&] { return line_density_in_medium(photons, ray, distance); });
     }
 
   private:
+    /// The line density is asked for only if photons bring the light.
+    template <class LineDensity>
+    float weight_with(const Scene& scene, LineDensity&& line_density_at_end) const {
+        const float per_line = by_photons.per_line_density;
+        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
+        return weight(scene, is_found ? per_line * line_density_at_end() : 0.0f);
+    }
     float weight(const Scene& scene, float density_of_photons) const {
         if (!pdf || length > longest_chain || (has_mirror && density_of_photons == 0.0f)) return 1;
         return technique_weight(scene.settings.techniques, Technique::directions, *pdf,

@@ -18,7 +18,7 @@ float line_density(const Photons& photons, const Ray& ray, const Surface& glowin
 }
 
 float line_density_in_medium(const Photons& photons, const Ray& ray, float distance) {
-    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase, distance) : 0.0f;
+    return photons ? photons.emission->line_density_in_medium(ray.origin, ray.direction, ray.phase, distance) : 0.0f;
 }
 
 namespace {

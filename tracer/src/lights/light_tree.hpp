@@ -1,7 +1,7 @@
 // With many lamps it is too slow to ask each one. The tree joins lamps into clusters, and clusters into larger ones.
 // Choosing a lamp, or finding those that a ray may hit, then looks at a few dozen nodes.
 //
-// A lamp is an area light, a point light, or a part of a surface that glows. There are at most `most_roots` roots once
+// A lamp is an area light, a point light, or a part of what glows or shines. There are at most `most_roots` roots once
 // lamps are clustered, each a cluster or a lamp; before that every lamp is a root. A root is chosen among all roots;
 // from there the path leads to one of the two members of each cluster, nearly in proportion to what they give at the
 // receiver. The caller says what a node gives, of clusters by received(). The probability below the root is the product

@@ -145,12 +145,13 @@ class Lights {
                                  const Wavelengths* wavelengths = nullptr) const;
 
     /// Calls use(number) for each lamp of one kind, area lights or parts of what glows, that a ray from the origin in a
-    /// unit direction may meet, and for some others. Without clusters all of the kind come, in their order.
+    /// unit direction may meet before a distance, and for some others. Without clusters all of the kind come, in their
+    /// order.
     template <class Use>
-    void for_each_lamp_near(LightNode::Kind kind, const glm::vec3& origin, const glm::vec3& direction,
-                            const Use& use) const {
+    void for_each_lamp_near(LightNode::Kind kind, const glm::vec3& origin, const glm::vec3& direction, const Use& use,
+                            float before = std::numeric_limits<float>::infinity()) const {
         tree_.for_each_maybe_hit(
-            origin, direction, [] { return std::numeric_limits<float>::infinity(); },
+            origin, direction, [before] { return before; },
             [&](const LightNode& lamp) {
                 if (lamp.kind == kind) use(lamp.number);
             });

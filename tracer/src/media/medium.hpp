@@ -53,8 +53,9 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
-/// The luminance of what it shines by itself at a place, in the space of Way, over that of emission().
-inline float brightness_at(const Medium& medium, const glm::vec3& place) {
+/// The luminance of what it shines by itself at a place, in the space of Way, over that of emission(); more
+/// than 1 where it is hotter than the medium's reference.
+inline float share_of_emission(const Medium& medium, const glm::vec3& place) {
     const auto* varying = std::get_if<VaryingMedium>(&medium);
     if (!varying) return 1.0f;
     PointBatch places{};
