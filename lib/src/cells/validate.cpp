@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "model/local_data.hpp"
 #include "phasetree/nodes/list.hpp"
 #include "program/dispatch.hpp"
 #include "program/fused.hpp"
@@ -68,7 +69,7 @@ class Validation {
         if (tables_.first_certificate.size() != tables_.cells.size() + 1 || tables_.first_certificate.front() != 0 ||
             tables_.first_certificate.back() != tables_.certificates.size() ||
             !std::ranges::is_sorted(tables_.first_certificate))
-            return "its certificates are not its cells'";
+            return "the certificate table does not match the cells";
         for (std::size_t i = 0; i < tables_.cells.size(); ++i) {
             const InterfaceCell& c = tables_.cells[i];
             if (c.shape >= routines_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
@@ -125,31 +126,21 @@ class Validation {
             if (!has_constants(routines_.steps[s.first_step + i].op, routines_.data[c.first_data + i])) return false;
         return true;
     }
-    // Whether an operation finds its constants at an index. A primitive with data reads as many as these say
-    // themselves, so it may refer only to the data of the same primitive in the object's program, which are complete.
+    // Whether an operation finds its constants at an index. A primitive with data reads as many floats as the data
+    // themselves say. So a specialised primitive checks its data, and any other one may only refer to the data of the
+    // same primitive in the object's program, which are complete.
     bool has_constants(std::uint32_t op, std::uint32_t at) const {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;
         if (!has_data(op)) return true;
-        if (static_cast<Op>(op) == program::op_of<Mesh::Specialised>())
-            return Mesh::Specialised::is_sound(constants_.subspan(at));
-        if (static_cast<Op>(op) == program::op_of<Balls::Specialised>())
-            return Balls::Specialised::is_sound(constants_.subspan(at));
-        if (static_cast<Op>(op) == program::op_of<OutlineInBox::Specialised>())
-            return OutlineInBox::Specialised::is_sound(constants_.subspan(at));
-        if (traits(static_cast<Op>(op)).is_specialised) return is_list_of_sites(at);
-        return std::ranges::binary_search(object_data_, std::pair{op, at});
-    }
-    // Whether the data of a specialised pattern are there: its parameters, the number of floats that follow, and
-    // those.
-    bool is_list_of_sites(std::uint32_t at) const {
-        constexpr std::uint32_t head = SpecialisedVoronoi::parameters + 1;
-        if (!fits(at, head, constants_.size())) return false;
-        const float count = constants_[at + head - 1];
-        constexpr auto site = static_cast<float>(VoronoiSites::site_floats);
-        if (!(count >= 0 && count <= site * VoronoiSites::neighbours) || count != site * std::floor(count / site))
-            return false;
-        return fits(at + head, static_cast<std::uint64_t>(count), constants_.size());
+        bool is_sound = false;
+        program::dispatch(DataPrimitives(), op - first_data_primitive, [&]<class P>() {
+            if constexpr (CheckedData<P>)
+                is_sound = P::is_sound(constants_.subspan(at));
+            else
+                is_sound = std::ranges::binary_search(object_data_, std::pair{op, at});
+        });
+        return is_sound;
     }
 
     // Whether these steps are a tree in postfix order, by the depth of the stack that evaluates them.

@@ -48,88 +48,91 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
         const T& b = registers[s.b];
         T& to = registers[s.to];
         const float* c = steps.constants(i);
-        switch (static_cast<Op>(s.op)) {
-            case Op::input:
-                break;
-            case Op::negate:
-                to = -a;
-                break;
-            case Op::add:
-                to = a + b;
-                break;
-            case Op::subtract:
-                to = a - b;
-                break;
-            case Op::minimum:
-            case Op::far_bound_inside:
-                to = min(a, b);
-                break;
-            case Op::maximum:
-            case Op::far_bound:
-                to = max(a, b);
-                break;
-            case Op::absolute:
-                to = abs(a);
-                break;
-            case Op::add_constant:
-                to = a + *c;
-                break;
-            case Op::constant_minus:
-                to = *c - a;
-                break;
-            case Op::multiply_constant:
-                to = a * *c;
-                break;
-            case Op::smooth_minimum:
-                to = smooth_min(a, b, *c);
-                break;
-            case Op::guarded:
-                to = guarded(a, b, *c);
-                break;
-            case Op::falloff:
-                to = falloff(a, *c);
-                break;
-            case Op::corner:
-                to = corner(a, b);
-                break;
-            case Op::nearer:
-                to = nearer(a, b);
-                break;
-            default: {
-                const PointInRegisters<T> input{registers, s.a};
-                const std::uint32_t index = s.op - first_primitive;
-                // done() is called with the first coordinate, `to`, after the switch.
-                const auto set_point = [&](const Vec3<T>& q) {
-                    registers[s.to] = q.x;
-                    registers[s.to + 1] = q.y;
-                    registers[s.to + 2] = q.z;
-                    done(registers[s.to + 1]);
-                    done(registers[s.to + 2]);
-                };
-                const auto primitive = [&]<class P>(const float* floats, const auto& point) {
-                    distance.template operator()<P>(floats, point, to);
-                };
-                if (s.op < first_map) {
-                    if (index < Primitives::size)
-                        program::dispatch(Primitives(), index,
-                                          [&]<class P>() { primitive.template operator()<P>(c, input); });
-                    else
-                        program::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
-                                          [&]<class P>() { primitive.template operator()<P>(c, input); });
-                    continue;
-                }
-                if (s.op >= first_placed) {
-                    const auto placed = program::read<PlacedPrimitive>(c);
-                    program::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
-                        primitive.template operator()<P>(c + placed_floats, placed.map(Vec3<T>(input)));
-                    });
-                    to = to * placed.scale + placed.offset;
-                } else if (s.op == affine_map) {
-                    set_point(program::read<AffineMap>(c)(Vec3<T>(input)));
-                } else {
-                    program::dispatch(PointMaps(), s.op - first_map,
-                                      [&]<class M>() { set_point(program::read<M>(c)(Vec3<T>(input))); });
-                }
+        if (s.op >= first_primitive) {
+            const PointInRegisters<T> input{registers, s.a};
+            const std::uint32_t index = s.op - first_primitive;
+            // done() is called with the first coordinate, `to`, at the end of the loop.
+            const auto set_point = [&](const Vec3<T>& q) {
+                registers[s.to] = q.x;
+                registers[s.to + 1] = q.y;
+                registers[s.to + 2] = q.z;
+                done(registers[s.to + 1]);
+                done(registers[s.to + 2]);
+            };
+            const auto primitive = [&]<class P>(const float* floats, const auto& point) {
+                distance.template operator()<P>(floats, point, to);
+            };
+            if (s.op < first_map) {
+                if (index < Primitives::size)
+                    program::dispatch(Primitives(), index,
+                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
+                else
+                    program::dispatch(DataPrimitives(), index - static_cast<std::uint32_t>(Primitives::size),
+                                      [&]<class P>() { primitive.template operator()<P>(c, input); });
+                continue;
+            }
+            if (s.op >= first_placed) {
+                const auto placed = program::read<PlacedPrimitive>(c);
+                program::dispatch(Primitives(), s.op - first_placed, [&]<class P>() {
+                    primitive.template operator()<P>(c + placed_floats, placed.map(Vec3<T>(input)));
+                });
+                to = to * placed.scale + placed.offset;
+            } else if (s.op == affine_map) {
+                set_point(program::read<AffineMap>(c)(Vec3<T>(input)));
+            } else {
+                program::dispatch(PointMaps(), s.op - first_map,
+                                  [&]<class M>() { set_point(program::read<M>(c)(Vec3<T>(input))); });
+            }
+        } else {
+            switch (static_cast<Op>(s.op)) {
+                case Op::input:
+                    break;
+                case Op::negate:
+                    to = -a;
+                    break;
+                case Op::add:
+                    to = a + b;
+                    break;
+                case Op::subtract:
+                    to = a - b;
+                    break;
+                case Op::minimum:
+                case Op::far_bound_inside:
+                    to = min(a, b);
+                    break;
+                case Op::maximum:
+                case Op::far_bound:
+                    to = max(a, b);
+                    break;
+                case Op::absolute:
+                    to = abs(a);
+                    break;
+                case Op::add_constant:
+                    to = a + *c;
+                    break;
+                case Op::constant_minus:
+                    to = *c - a;
+                    break;
+                case Op::multiply_constant:
+                    to = a * *c;
+                    break;
+                case Op::smooth_minimum:
+                    to = smooth_min(a, b, *c);
+                    break;
+                case Op::guarded:
+                    to = guarded(a, b, *c);
+                    break;
+                case Op::falloff:
+                    to = falloff(a, *c);
+                    break;
+                case Op::corner:
+                    to = corner(a, b);
+                    break;
+                case Op::nearer:
+                    to = nearer(a, b);
+                    break;
+                case Op::first_primitive:  // no operation
+                    break;
             }
         }
         done(to);

@@ -41,20 +41,36 @@ struct Simple {
         float* to = at(registers, s.to);
         const float* a = at(registers, s.a);
         const float* b = at(registers, s.b);
-        if constexpr (op == Op::negate) store(-load(a), to);
-        if constexpr (op == Op::add) store(load(a) + load(b), to);
-        if constexpr (op == Op::subtract) store(load(a) - load(b), to);
-        if constexpr (op == Op::minimum || op == Op::far_bound_inside) store(min(load(a), load(b)), to);
-        if constexpr (op == Op::maximum || op == Op::far_bound) store(max(load(a), load(b)), to);
-        if constexpr (op == Op::absolute) store(abs(load(a)), to);
-        if constexpr (op == Op::add_constant) store(load(a) + *constants, to);
-        if constexpr (op == Op::constant_minus) store(*constants - load(a), to);
-        if constexpr (op == Op::multiply_constant) store(load(a) * *constants, to);
-        if constexpr (op == Op::smooth_minimum) store(smooth_min(load(a), load(b), *constants), to);
-        if constexpr (op == Op::guarded) store(guarded(load(a), load(b), *constants), to);
-        if constexpr (op == Op::falloff) store(falloff(load(a), *constants), to);
-        if constexpr (op == Op::corner) store(corner(load(a), load(b)), to);
-        if constexpr (op == Op::nearer) store(nearer(load(a), load(b)), to);
+        if constexpr (op == Op::negate)
+            store(-load(a), to);
+        else if constexpr (op == Op::add)
+            store(load(a) + load(b), to);
+        else if constexpr (op == Op::subtract)
+            store(load(a) - load(b), to);
+        else if constexpr (op == Op::minimum || op == Op::far_bound_inside)
+            store(min(load(a), load(b)), to);
+        else if constexpr (op == Op::maximum || op == Op::far_bound)
+            store(max(load(a), load(b)), to);
+        else if constexpr (op == Op::absolute)
+            store(abs(load(a)), to);
+        else if constexpr (op == Op::add_constant)
+            store(load(a) + *constants, to);
+        else if constexpr (op == Op::constant_minus)
+            store(*constants - load(a), to);
+        else if constexpr (op == Op::multiply_constant)
+            store(load(a) * *constants, to);
+        else if constexpr (op == Op::smooth_minimum)
+            store(smooth_min(load(a), load(b), *constants), to);
+        else if constexpr (op == Op::guarded)
+            store(guarded(load(a), load(b), *constants), to);
+        else if constexpr (op == Op::falloff)
+            store(falloff(load(a), *constants), to);
+        else if constexpr (op == Op::corner)
+            store(corner(load(a), load(b)), to);
+        else if constexpr (op == Op::nearer)
+            store(nearer(load(a), load(b)), to);
+        else
+            static_assert(op == Op::input, "the kernel does not run this operation");
     }
 };
 

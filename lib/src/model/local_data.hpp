@@ -16,11 +16,10 @@ namespace phasetree {
 template <class N>
 concept LocalDataPrimitive = DataPrimitive<N> &&
     requires(const float* data, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
-    requires DataPrimitive<typename N::Specialised>;
+    requires CheckedData<typename N::Specialised>;
     { N::specialise(data, range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;
     { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
-    { N::Specialised::is_sound(of) } -> std::same_as<bool>;  // whether these floats, from a file, can be such data
     { N::search_half_instructions } -> std::convertible_to<unsigned>;
 };
 /// One that can do with fewer floats where only values up to `farthest` are required: above it, the specialised

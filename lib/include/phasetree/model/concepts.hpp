@@ -45,13 +45,20 @@ concept PatternPrimitive = requires(const N& n) {
     { n.period() } -> std::same_as<float>;
 };
 
+/// A primitive whose data may come from a file of cells, which can be forged: is_sound() says whether these floats are
+/// complete data of this primitive, so that evaluating it reads no further. The floats may go on behind the data.
+template <class N>
+concept CheckedData = DataPrimitive<N> && requires(std::span<const float> floats) {
+    { N::is_sound(floats) } -> std::same_as<bool>;
+};
+
 /// A long primitive of which little matters in a small box. There N::Specialised, a primitive with data, gives the same
 /// values to the last bit: specialise() appends its floats for the points of `range`, or appends nothing and returns
 /// false if that would be no gain. `of` is empty, or holds the floats that it gave for a box around this one.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
-    requires DataPrimitive<typename N::Specialised>;
+    requires CheckedData<typename N::Specialised>;
     { n.specialise(range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // the number of floats
     // The cost, in halves of that of a simple instruction.

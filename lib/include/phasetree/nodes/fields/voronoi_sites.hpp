@@ -133,6 +133,13 @@ struct SpecialisedVoronoi {
     static std::span<const float> list(const float* data) {
         return {data + parameters + 1, static_cast<std::size_t>(data[parameters])};
     }
+    static bool is_sound(std::span<const float> data) {
+        if (data.size() < parameters + 1) return false;
+        constexpr auto site = static_cast<float>(VoronoiSites::site_floats);
+        const float count = data[parameters];
+        return count >= 0 && count <= site * VoronoiSites::neighbours && count == site * std::floor(count / site) &&
+               data.size() >= floats(data.data());
+    }
 };
 
 namespace detail {
