@@ -16,11 +16,11 @@ chosen=("$@")
 clone="$HOME/my sources/phasetree"
 mkdir -p "$HOME/logs" "$HOME/my sources"
 if [ ! -e "$clone/.git" ]; then
-    git clone --quiet "$HOME/phasetree.bundle" "$clone" || exit 1
+    git -c init.defaultBranch=main clone --quiet --no-checkout "$HOME/phasetree.bundle" "$clone" || exit 1
 else
     git -C "$clone" fetch --quiet "$HOME/phasetree.bundle" || exit 1
 fi
-git -C "$clone" checkout --quiet --detach "$commit" || exit 1
+git -C "$clone" -c advice.detachedHead=false checkout --quiet --detach "$commit" || exit 1
 cd "$clone" || exit 1
 
 # picture_is_lit FILE: it is an image, and neither black nor white.
