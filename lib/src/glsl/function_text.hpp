@@ -19,7 +19,7 @@ struct NumberSlot {
 /// The body of a function as text. Functions whose texts are the same differ in their numbers at most.
 struct FunctionText {
     std::string float_body;             ///< This body computes with floats.
-    std::string dual_body;              ///< This one computes with dual numbers, values with gradients: dual_text.hpp.
+    std::string dual_body;              ///< This one computes with dual numbers: values with gradients.
     std::vector<NumberSlot> slots;      ///< The markers of both bodies are indices into these.
     std::vector<SharedFunction> calls;  ///< Both bodies call these.
     bool has_lookup = false;
