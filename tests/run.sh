@@ -79,7 +79,7 @@ fuzz_one() {
 }
 
 if [ "$minutes" ]; then
-    install_packages "$root/build/packages.log" "${packages_to_build[@]}" clang libclang-rt-14-dev
+    install_packages "$root/build/packages.log" "${packages_to_fuzz[@]}"
     configure fuzz || exit 1
     build fuzz fuzz || exit 1
     fuzzer="$root/build/fuzz/tests/fuzz/fuzz"

@@ -1,19 +1,28 @@
 # shellcheck shell=bash
-# What the build needs of the system, and how it gets there. Sourced by tracer/quickstart.sh and tests/run.sh.
+# The packages that a build needs, and functions to install them, configure and build. Sourced by tracer/quickstart.sh,
+# tests/run.sh and tests/coverage.sh.
 #
-# On Debian and Ubuntu missing packages are installed with apt, through sudo when not root. Where that is impossible
-# the scripts go on with what is there: libraries built by hand are as good, and CMake is the judge of that. Only when
-# CMake does not find them does the message name the packages.
+# On Debian and Ubuntu, missing packages are installed with apt, through sudo unless run by root. Where that is impossible,
+# the scripts continue with what is installed: libraries built by hand work as well. If CMake does not find what it needs,
+# the message names the packages.
+#
+# The names are those of Debian 12, Debian 13 and Ubuntu 24.04. The test packaging/listed_packages fails if the build or
+# the tests use a file of a package that is neither listed nor a dependency of a listed one.
 
 # The repository.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
+# What the command and the libraries are built with. libopenvdb-dev does not depend on libboost-dev, but its headers include
+# Boost's. openimageio-tools contains files that OpenImageIO's CMake package requires.
 packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopenimageio-dev openimageio-tools
     libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev
     libcpp-httplib-dev zlib1g-dev libopenvdb-dev libboost-dev libharfbuzz-dev)
-# shellcheck disable=SC2034 # the scripts use it
-packages_to_test=("${packages_to_build[@]}" doctest-dev dpkg-dev file pybind11-dev python3-dev
+# shellcheck disable=SC2034 # used by the scripts
+packages_to_test=("${packages_to_build[@]}" clang doctest-dev dpkg-dev file pybind11-dev python3-dev
     python3-numpy python3-matplotlib libegl-dev libgles-dev libgl1-mesa-dri)
+# The sanitizers and libFuzzer; both names stand for the distribution's default version of Clang.
+# shellcheck disable=SC2034
+packages_to_fuzz=("${packages_to_build[@]}" clang libclang-rt-dev)
 
 # Why packages could not be installed, and which; empty when all are there.
 packages_problem=
@@ -31,7 +40,7 @@ as_root() {
 # twice COMMAND…: a mirror that is being updated, or a dropped connection, is well a few seconds later.
 twice() { "$@" || { sleep 5 && "$@"; }; }
 
-# missing_packages NAME…: those of them that are not installed, one a line.
+# missing_packages NAME…: those that are not installed, one per line.
 missing_packages() {
     local name
     for name in "$@"; do
@@ -39,31 +48,31 @@ missing_packages() {
     done
 }
 
-# install_packages LOG NAME…: asks apt for nothing when all of them are there. Never fails: see packages_problem.
+# install_packages LOG NAME…: installs the packages that are missing, if any. Never fails; sets packages_problem.
 install_packages() {
     local log=$1 missing
     shift
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         packages_absent=("$@")
-        packages_problem="This system has no apt: please install them, or the same libraries from elsewhere, some way."
+        packages_problem="This system has no apt. Install these packages, or the same libraries from elsewhere."
         return
     fi
     mapfile -t missing < <(missing_packages "$@")
     [ ${#missing[@]} -gt 0 ] || return 0
     packages_absent=("${missing[@]}")
     if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
-        packages_problem="Installing them takes root, and there is no sudo."
+        packages_problem="Installing them requires root, and sudo is not installed."
         return
     fi
     say "Installing ${missing[*]} …"
     mkdir -p "$(dirname "$log")"
-    # A fresh machine may be busy with its own upgrade: wait for it instead of failing. A source list that cannot be
-    # fetched is not the end: the packages may come from another.
+    # A fresh machine may be busy with its own upgrade: wait for it instead of failing. Continue when a source list cannot
+    # be fetched: the packages may come from another one.
     local apt=(apt-get -qq -o DPkg::Lock::Timeout=600)
     twice as_root "${apt[@]}" update >"$log" 2>&1 || true
     if ! twice as_root "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
         tail -n 15 "$log" >&2
-        packages_problem="apt could not install them: see above, and the whole of it in $log."
+        packages_problem="apt could not install them; see above, and $log for all of its output."
         if grep -q 'Unable to locate package' "$log" && grep -qi '^ID=ubuntu' /etc/os-release 2>/dev/null; then
             packages_problem+=" They are in Ubuntu's \"universe\": sudo add-apt-repository universe"
         fi
@@ -96,6 +105,8 @@ configure() {
         name_packages
         return 1
     fi
+    # Optional libraries that are installed but broken (tracer/cmake/optional_dependency.cmake).
+    sed -n 's/^-- \(Building without .*: a test program fails to build: .*\)/\1/p' "$log" >&2
 }
 
 name_packages() {

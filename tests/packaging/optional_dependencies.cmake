@@ -1,0 +1,97 @@
+# An installed library whose headers do not compile, or that does not link, is left out: configuring succeeds and says so
+# in one line. The real project is configured, with a broken package in place of each library. Run by CTest:
+#   cmake -DSOURCE=… -DWORK=… -DGENERATOR=Ninja -DPREFIX_PATH=… -P optional_dependencies.cmake
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
+file(REMOVE_RECURSE "${WORK}")
+set(prefix "${WORK}/prefix")
+
+# As libopenvdb-dev without libboost-dev.
+foreach(header openvdb io/File math/Maps)
+    file(WRITE "${prefix}/include/openvdb/${header}.h" "#include <nowhere/conversion_traits.hpp>\n")
+endforeach()
+file(WRITE "${prefix}/lib/libopenvdb.so" "")
+# It compiles, and its library lacks what the header declares.
+file(WRITE "${prefix}/include/hb.h" "struct hb_buffer_t; hb_buffer_t* hb_buffer_create(); void hb_buffer_destroy(hb_buffer_t*);\n")
+file(WRITE "${prefix}/include/hb-ot.h" "")
+file(WRITE "${prefix}/include/httplib.h" "#error this compiler is too old\n")
+foreach(module harfbuzz cpp-httplib)
+    file(WRITE "${prefix}/lib/pkgconfig/${module}.pc"
+        "Name: ${module}\nDescription: a broken package\nVersion: 9.0\nCflags: -I${prefix}/include\n")
+endforeach()
+# It compiles, and its library is not installed.
+file(WRITE "${prefix}/include/OpenImageDenoise/oidn.hpp" "namespace oidn {
+enum class DeviceType { CPU };
+struct Device { void commit() {} };
+inline Device newDevice(DeviceType) { return {}; }
+}\n")
+file(WRITE "${prefix}/include/pybind11/pybind11.h" "inline int version = PYBIND11_VERSION_THAT_IS_MISSING;\n")
+foreach(header numpy stl)
+    file(WRITE "${prefix}/include/pybind11/${header}.h" "")
+endforeach()
+foreach(package "OpenImageDenoise;OpenImageDenoise;${prefix}/lib/libnowhere.so" "pybind11;pybind11::module;")
+    list(POP_FRONT package name target library)
+    file(WRITE "${prefix}/lib/cmake/${name}/${name}Config.cmake" "
+        add_library(${target} INTERFACE IMPORTED)
+        target_include_directories(${target} INTERFACE \"${prefix}/include\")
+        target_link_libraries(${target} INTERFACE ${library})")
+    file(WRITE "${prefix}/lib/cmake/${name}/${name}ConfigVersion.cmake" "
+        set(PACKAGE_VERSION 9.0)
+        set(PACKAGE_VERSION_COMPATIBLE TRUE)")
+endforeach()
+
+# configure(): the lines about libraries that are left out are in `left_out`, the names of compiled files in `commands`.
+function(configure)
+    execute_process(WORKING_DIRECTORY "${SOURCE}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output
+        COMMAND ${CMAKE_COMMAND} --preset quickstart -G "${GENERATOR}" -B "${WORK}/build" -DCMAKE_UNITY_BUILD=OFF
+            -DPHASETREE_INSTALL=OFF "-DCMAKE_PREFIX_PATH=${prefix};${PREFIX_PATH}")
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "Configuring with broken packages ended with ${status}\n${output}")
+    endif()
+    string(REGEX MATCHALL "-- Building without [^\n]*" left_out "${output}")
+    file(READ "${WORK}/build/compile_commands.json" commands)
+    set(left_out "${left_out}" PARENT_SCOPE)
+    set(commands "${commands}" PARENT_SCOPE)
+endfunction()
+
+# expect_left_out(BEGINNING REASON INSTALL): one line names the library, the reason and the package.
+function(expect_left_out beginning reason install)
+    set(lines ${left_out})
+    list(FILTER lines INCLUDE REGEX "^-- Building without ${beginning} \\(.*\\): a test program fails to build: .*${reason}.*apt-get install .*${install}")
+    list(LENGTH lines count)
+    if(NOT count EQUAL 1)
+        string(JOIN "\n" all ${left_out})
+        message(FATAL_ERROR "${count} lines say that ${beginning} is left out because of ${reason}, among\n${all}")
+    endif()
+endfunction()
+
+function(expect_not text part)
+    string(FIND "${text}" "${part}" at)
+    if(NOT at EQUAL -1)
+        message(FATAL_ERROR "\"${part}\" is in ${text}")
+    endif()
+endfunction()
+
+configure()
+expect_left_out(OpenVDB "nowhere/conversion_traits.hpp" "libopenvdb-dev libboost-dev")
+expect_left_out(HarfBuzz "hb_buffer_create" libharfbuzz-dev)
+expect_left_out("Open Image Denoise 2" "libnowhere" libopenimagedenoise-dev)
+expect_left_out(cpp-httplib "this compiler is too old" libcpp-httplib-dev)
+expect_left_out("pybind11[^(]*" "PYBIND11_VERSION_THAT_IS_MISSING" pybind11-dev)
+list(LENGTH left_out count)
+if(NOT count EQUAL 5)
+    message(FATAL_ERROR "${count} lines: ${left_out}")
+endif()
+expect("${commands}" /no_openvdb.cpp /no_harfbuzz.cpp /no_open_image_denoise.cpp /no_server.cpp)
+foreach(file /openvdb.cpp /vdb_structure.cpp /harfbuzz.cpp /open_image_denoise.cpp /server.cpp plugins/python/src "${prefix}")
+    expect_not("${commands}" "${file}")
+endforeach()
+
+# A repaired package is noticed without removing the cache.
+file(WRITE "${prefix}/include/hb.h" "inline int hb_buffer_create() { return 1; }\ninline void hb_buffer_destroy(int) {}\n")
+configure()
+expect_not("${left_out}" HarfBuzz)
+expect("${left_out}" OpenVDB cpp-httplib)
+expect("${commands}" /harfbuzz.cpp)
+expect_not("${commands}" /no_harfbuzz.cpp)
+file(REMOVE_RECURSE "${WORK}")
