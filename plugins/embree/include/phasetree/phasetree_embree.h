@@ -1,36 +1,39 @@
 /* phasetree as Embree geometry: the C99 interface.
  *
- * An application loads a tree, makes an RTCGeometry of it, and commits, attaches, instances, masks and filters that
- * as any other. Embree 3.13 and Embree 4 have a library each, phasetree_embree3 and phasetree_embree4; this header
- * serves both and includes the Embree header that belongs to the library linked (PHASETREE_EMBREE_MAJOR, which the
- * CMake targets and the pkg-config files define; an rtcore.h included before it decides otherwise).
+ * An application loads a tree, creates an RTCGeometry from it, and commits, attaches, instances, masks and filters that
+ * geometry like any other. There is one library per version of Embree: phasetree_embree3 for Embree 3.13 and
+ * phasetree_embree4 for Embree 4. This header serves both. It includes the Embree header selected by
+ * PHASETREE_EMBREE_MAJOR, which the CMake targets and pkg-config files define; if rtcore.h was included before, that
+ * version is used.
  *
- * CONVENTIONS, which hold for every call below and are not said again
+ * CONVENTIONS
  *
- * Units. A tree has one unit of length, the scene file's; "distance" means that unit. Distances *along a ray* (tIn,
- * tOut) are in units of the length of the ray's direction, as Embree's tnear and tfar. Angles are in degrees.
+ * These hold for every call and are not repeated below.
  *
- * Spaces. "Geometry space" is that of the RTCScene to which the geometry is attached: within an instance, the
+ * Units. A tree has one unit of length, that of its scene file; a "distance" is measured in it. Distances *along a ray*
+ * (tIn, tOut) are in units of the length of the ray's direction, like Embree's tnear and tfar. Angles are in degrees.
+ *
+ * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
- * Errors. Every call returns a PhasetreeError. On anything but PHASETREE_ERROR_NONE nothing has changed, nothing was
- * written to the call's outputs, and phasetreeGetErrorMessage() tells a person which argument is wrong and why. No C++
- * exception leaves the library, and no argument makes it abort, except memory that is not what the call's documentation
- * says (an array that is too short, a text that does not end, a pointer to nowhere).
+ * Errors. Every call returns a PhasetreeError. After anything but PHASETREE_ERROR_NONE nothing has changed, the outputs
+ * are untouched, and phasetreeGetErrorMessage() says which argument is wrong and why. No C++ exception leaves the
+ * library. No argument makes it abort, except memory that breaks the call's contract (an array that is too short, a
+ * string without an end, an invalid pointer).
  *
- * Handles. PhasetreeTree and PhasetreeGeometry are opaque and reference counted. Calls named New return a handle with
- * one reference, which belongs to the caller; Retain adds one, Release takes one away, and the last one frees. NULL,
- * handles already freed, handles of the other kind and pointers that are no handles at all are recognised and are
- * PHASETREE_ERROR_INVALID_HANDLE; a handle's value is never used twice. (A *reference* released too often while others
- * hold some is theirs that is lost: no library can tell whose it was.)
+ * Handles. PhasetreeTree and PhasetreeGeometry are opaque and reference counted. A function named New returns a handle
+ * with one reference, owned by the caller. Retain adds a reference, Release drops one, and dropping the last one frees
+ * the object. NULL, freed handles, handles of the other kind and arbitrary pointers are detected and give
+ * PHASETREE_ERROR_INVALID_HANDLE; handle values are never reused. Releasing a handle too often while others hold
+ * references drops one of theirs, which no library can detect.
  *
- * Threads. Any thread may call anything at any time, except: a call marked "exclusive" must not run while another
- * thread uses the same geometry in any way, tracing a scene that it is attached to included (so it is in Embree, too,
- * with what changes a geometry). Trees are immutable; all calls on one tree may run at once. A handle must keep a
- * reference while a call that it was given to runs.
+ * Threads. Any thread may call any function at any time, with one exception: an "exclusive" call must not run while
+ * another thread uses the same geometry in any way, including tracing a scene it is attached to. (Embree has the same
+ * rule for calls that modify a geometry.) Trees are immutable, so all calls on one tree may run concurrently. A handle
+ * must hold a reference for as long as a call that uses it runs.
  *
- * Arithmetic. The library computes with subnormal numbers taken for zero, on every thread, and puts the thread's
- * floating-point mode back when it returns.
+ * Arithmetic. The library flushes subnormal numbers to zero on every thread, and restores the calling thread's
+ * floating-point mode before it returns.
  */
 #ifndef PHASETREE_EMBREE_H
 #define PHASETREE_EMBREE_H

@@ -1,4 +1,4 @@
-/* Bounds: convex volumes around a tree and its phases. The conventions are phasetree_embree.h's. */
+/* Bounds: convex volumes around a tree and its phases. See phasetree_embree.h for the conventions. */
 #ifndef PHASETREE_EMBREE_BOUNDS_H
 #define PHASETREE_EMBREE_BOUNDS_H
 
@@ -8,22 +8,22 @@
 extern "C" {
 #endif
 
-/* The most planes of carved bounds. */
+/* The maximum number of planes of carved bounds. */
 #define PHASETREE_MAX_PLANES 256
 
-/* The points p with normal·p ≤ offset; the normal is outward and of unit length. */
+/* The half-space normal·p ≤ offset. The normal points outward and has unit length. */
 typedef struct PhasetreePlane {
     float normal[3];
     float offset;
 } PhasetreePlane;
 
-/* What phasetreeCarveTree may be told; start from phasetreeInitCarveOptions. */
+/* Options of phasetreeCarveTree. Initialise them with phasetreeInitCarveOptions. */
 typedef struct PhasetreeCarveOptions {
-    unsigned int mostPlanes; /* 6 … PHASETREE_MAX_PLANES; the box's sides are among them */
-    float tolerance;         /* how far planes may be from the object, as a share of its diagonal, if work suffices */
+    unsigned int mostPlanes; /* 6 … PHASETREE_MAX_PLANES; includes the six sides of the box */
+    float tolerance;         /* target distance between planes and object, as a fraction of the object's diagonal */
     size_t
-        mostEvaluations; /* of eight points each; what is not reached within them is larger, and certain all the same */
-    /* Asked now and then, by the calling thread; true ends the call with PHASETREE_ERROR_CANCELLED. NULL: never. */
+        mostEvaluations; /* budget, in evaluations of eight points; if it runs out, the volume is looser, but valid */
+    /* Polled by the calling thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
 } PhasetreeCarveOptions;
@@ -37,26 +37,26 @@ static inline void phasetreeInitCarveOptions(PhasetreeCarveOptions* options) {
     options->cancelledUserPtr = NULL;
 }
 
-/* What was carved, besides the planes. */
+/* Properties of carved bounds, besides the planes. */
 typedef struct PhasetreeCarvedBounds {
-    struct RTCBounds box; /* lower > upper if there is nothing of the phases */
-    float volume, area;   /* of the polyhedron; 0 if there is nothing */
-    size_t evaluations;   /* that it took */
+    struct RTCBounds box; /* lower > upper if the phases are empty */
+    float volume, area;   /* of the polyhedron; 0 if the phases are empty */
+    size_t evaluations;   /* number of evaluations used */
     bool isWithinTolerance;
 } PhasetreeCarvedBounds;
 
-/* Carves a convex volume that certainly contains all of some phases, from their distances alone ("Sphere Carving",
- * Schott et al. 2025): a box, and planes that cut its corners off and follow flat sides of the object.
+/* Carves a convex volume that is guaranteed to contain all of the given phases: a box, and planes that cut off its
+ * corners and follow flat sides of the object. Uses distances only ("Sphere Carving", Schott et al. 2025).
  *
- * phases      PHASETREE_ALL_PHASES: all but the vacuum, which never counts. Of those that are given the tree must have
- *             one at least.
- * options     NULL: the defaults.
- * planes      room for options->mostPlanes of them, or NULL. All of the phases is behind all of them.
- * planeCount  receives how many there are; none if there is nothing of the phases. NULL if planes is.
- * bounds      receives the rest, or NULL.
+ * phases      the phases to enclose; PHASETREE_ALL_PHASES means all but the vacuum, which is always ignored. The tree
+ *             must have at least one of them.
+ * options     NULL for the defaults.
+ * planes      receives up to options->mostPlanes planes, or NULL. The phases lie behind every plane.
+ * planeCount  receives the number of planes, 0 if the phases are empty. May be NULL if planes is NULL.
+ * bounds      receives the other properties, or NULL.
  *
- * On the calling thread. It takes longer than phasetreeGetTreeBounds: milliseconds where the tree's distances are
- * exact, up to a second for a tree of a thousand nodes whose distances are not.
+ * Runs on the calling thread. Slower than phasetreeGetTreeBounds: milliseconds if the tree's distances are exact, up to
+ * a second for a tree of a thousand nodes with inexact distances.
  *
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or too far from the origin for its size */
 PHASETREE_API PhasetreeError phasetreeCarveTree(PhasetreeTree tree, PhasetreePhaseSet phases,

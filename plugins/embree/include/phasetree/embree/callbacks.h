@@ -1,5 +1,5 @@
-/* Callbacks, for applications that dispatch between geometries of their own. The conventions are phasetree_embree.h's.
- */
+/* Callbacks, for applications that dispatch between several geometries themselves. See phasetree_embree.h for the
+ * conventions. */
 #ifndef PHASETREE_EMBREE_CALLBACKS_H
 #define PHASETREE_EMBREE_CALLBACKS_H
 
@@ -14,11 +14,13 @@ PHASETREE_API void phasetreeBoundsFunction(const struct RTCBoundsFunctionArgumen
 PHASETREE_API void phasetreeIntersectFunction(const struct RTCIntersectFunctionNArguments* args);
 PHASETREE_API void phasetreeOccludedFunction(const struct RTCOccludedFunctionNArguments* args);
 
-/* Callbacks for a primitive of an RTCGeometry that is the application's own: from its callbacks it calls these with the
- * handle, and the arguments just as Embree gave them (Embree keeps more behind them than it tells; a copy will not do).
- * primID is not looked at, unless the handle has PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES: then it is the cell, below
- * PhasetreeGeometryStatistics.cells, and for any other nothing is hit and the bounds are empty. Filters are those of
- * the application's RTCGeometry. Handles without references: nothing is hit, and the bounds are empty. */
+/* Callbacks for one primitive of the application's own RTCGeometry. The application's callbacks call these with the
+ * handle and the very arguments pointer they received from Embree. Do not pass a copy: Embree stores private data
+ * behind the arguments.
+ *
+ * primID is ignored, unless the handle has PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES. Then it selects the cell, and must
+ * be below PhasetreeGeometryStatistics.cells; otherwise nothing is hit and the bounds are empty. The filter functions
+ * of the application's RTCGeometry apply. A handle without references is never hit and has empty bounds. */
 PHASETREE_API void phasetreeGetPrimitiveBounds(PhasetreeGeometry geometry,
                                                const struct RTCBoundsFunctionArguments* args);
 PHASETREE_API void phasetreeIntersectPrimitive(PhasetreeGeometry geometry,

@@ -1,4 +1,4 @@
-/* Hits, and rays that carry phases. The conventions are phasetree_embree.h's. */
+/* Hits, and rays that carry phases. See phasetree_embree.h for the conventions. */
 #ifndef PHASETREE_EMBREE_HIT_H
 #define PHASETREE_EMBREE_HIT_H
 
@@ -8,10 +8,11 @@
 extern "C" {
 #endif
 
-/* A crossing: a change of phase on a ray, bracketed by two places of which each is proven to be in its phase.
- * The bracket is no longer than the resolution, or up to 2.75 of them where rounding puts a third phase between solids
- * that abut. A ray that is reflected goes on from pointIn in phaseLeft, one that passes from pointOut in phaseEntered;
- * nothing needs to be moved along a normal, and it meets this crossing no more if it carries that phase. */
+/* A crossing: a change of phase along a ray, bracketed by two points that are each proven to be in their phase.
+ *
+ * The bracket is at most one resolution long, or up to 2.75 where rounding puts a third phase between abutting solids.
+ * A reflected ray continues from pointIn in phaseLeft, a transmitted ray from pointOut in phaseEntered. Do not offset
+ * the point along a normal: a ray that carries its phase does not hit this crossing again. */
 typedef struct PhasetreeHit {
     unsigned int phaseLeft, phaseEntered;
     unsigned int cell;
@@ -19,8 +20,8 @@ typedef struct PhasetreeHit {
     float pointIn[3], pointOut[3]; /* in geometry space */
 } PhasetreeHit;
 
-/* Returns a phase of hit i among N, within a filter function (C has none of Embree's accessors) or anywhere else: the
- * one that the ray leaves, or the one that it enters. Only for hits of a phasetree geometry. */
+/* Returns the phase that the ray leaves, or enters, at hit i of N. Works in filter functions, without Embree's C++-only
+ * accessors, and anywhere else. Valid only for hits of a phasetree geometry. */
 static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[3 * N + i];
 }
@@ -28,55 +29,54 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
     return (unsigned int)((const float*)hits)[4 * N + i];
 }
 
-/* Tells what a stock ray query has found: where exactly the phase ends and the next one begins. For which two phases
- * they are RTCHit.u and v suffice, and for the interface's normal Ng; a host that only shades a surface need not
- * decode. Decode to go on from a hit.
+/* Decodes the hit of an ordinary ray query: finds the exact bracket of the crossing. Decode a hit to continue a ray
+ * from it. To shade a surface, RTCHit.u and v (the two phases) and Ng (the normal) are enough.
  *
- * rayhit       as the query left it: the ray's origin, direction, tnear and time, tfar and the hit, which must be one
- *              of this geometry.
- * objectToWorld  of the instance through which the ray met the geometry, 12 floats, 3×4 column-major, at the ray's time
- *              (for nested ones the product); NULL if hit.instID[0] is RTC_INVALID_GEOMETRY_ID.
+ * rayhit       as left by the query: the ray's origin, direction, tnear, time and tfar, and a hit of this geometry.
+ * objectToWorld  the transform of the instance through which the ray hit the geometry, at the ray's time: 12 floats,
+ *              3×4 column-major; the product of all transforms for nested instances. NULL if hit.instID[0] is
+ *              RTC_INVALID_GEOMETRY_ID.
  *
- * pointIn and pointOut are in geometry space: a host that wants them in the world applies objectToWorld itself.
+ * pointIn and pointOut are in geometry space; apply objectToWorld to get world coordinates.
  *
- * The bracket is found again, by a few samples on the ray around tfar, with the short program of the cell that the hit
- * names: that takes no longer than the ray took. (Where the hit's cell does not know it, because primID is wrong, say,
- * the whole object is asked, and that may take many times as long.) tOut and pointOut are moved on, by less than two
- * resolutions, to where the phase is certain in spite of the rounding that a new ray undergoes: the same ray with
- * tnear = tOut starts in phaseEntered, so that a host that carries no phases neither meets this crossing again nor
- * passes the next one, as long as phases are thicker along the ray than some five resolutions. */
+ * The bracket is recomputed from a few samples along the ray around tfar, using the short program of the hit's cell.
+ * This takes no longer than tracing the ray. If primID is wrong, the whole object is evaluated, which can take many
+ * times as long. tOut and pointOut are moved forward, by less than two resolutions, to where the phase is certain
+ * despite the rounding of a new ray: the same ray with tnear = tOut starts in phaseEntered. So an application that does
+ * not carry phases neither hits this crossing again nor skips the next one, if phases are thicker along the ray than
+ * about five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
 
-/* Tells where a hit is in the tree's own space, whatever motion and instances do to the object: a place for solid
- * textures, which then move with it. The point of the ray at tfar, within the rounding of that; nothing is decoded and
- * nothing evaluated. rayhit and objectToWorld as above, and phases are not looked at. For other points, such as a
- * decoded hit's pointIn and pointOut, see phasetreeGetTreePoint. */
+/* Returns the position of a hit in the tree's own space, with motion and instances undone: the point at which to
+ * evaluate solid textures, so that they move with the object. This is the ray's point at tfar, up to rounding; nothing
+ * is decoded or evaluated, and phases are ignored. rayhit and objectToWorld are as for phasetreeDecodeHit. For other
+ * points, such as a decoded hit's pointIn and pointOut, use phasetreeGetTreePoint. */
 PHASETREE_API PhasetreeError phasetreeGetHitTreePoint(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                       const float* objectToWorld, float treePoint[3]);
 
-/* That a ray, where it starts, is in `phase` of the geometry geomID, within the instance instID (and, with Embree 4,
- * instPrimID) or none: RTC_INVALID_GEOMETRY_ID. Of nested instances, the innermost's. */
+/* States that a ray starts in `phase` of the geometry geomID inside the instance instID (and instPrimID, in Embree 4).
+ * instID is RTC_INVALID_GEOMETRY_ID without an instance, and the innermost instance if they are nested. */
 typedef struct PhasetreeMedium {
     unsigned int geomID, instID, instPrimID;
     unsigned int phase;
 } PhasetreeMedium;
 
-/* What one ray brings along, and what it takes home. */
+/* Per-ray input and output of a query with a PhasetreeRayContext. */
 typedef struct PhasetreeRay {
-    /* In: the phases that the ray carries. For a geometry that is not listed, or with PHASETREE_UNKNOWN_PHASE, the
-     * phase at the ray's start counts, as with a stock context. If another phase is at the start than the one carried,
-     * beyond what rounding explains, that is a crossing where it is noticed: at the start, if that is near an
-     * interface, else where the ray comes near the next one. Owned by the application; not written. */
+    /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
+     * phase at the ray's start, as with an ordinary context. If the start is in another phase than the one carried,
+     * beyond what rounding explains, a crossing is reported where this is noticed: at the start if an interface is
+     * close, otherwise where the ray next approaches one. Owned by the application; not modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
-    /* Out: the crossing behind the last hit that a geometry of this library reported for the ray. If the ray's hit is a
-     * geometry of this library, this is that hit's; its normal is in the hit. Left alone by occlusion queries. */
+    /* Out: the crossing of the last hit that a phasetree geometry reported for the ray. If the ray's final hit is on a
+     * phasetree geometry, it is that hit; its normal is in RTCHit. Unchanged by occlusion queries. */
     PhasetreeHit hit;
 } PhasetreeRay;
 
-/* An Embree context that lets rays carry phases. Pass &context.context where Embree wants a context. Opt-in: only for
- * scenes whose phasetree geometries have PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT; meshes do not mind it. */
+/* An Embree context with which rays carry phases. Pass &context.context to Embree. Opt-in: all phasetree geometries in
+ * the scene must have PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT. Meshes are unaffected. */
 typedef struct PhasetreeRayContext {
 #if RTC_VERSION_MAJOR >= 4
     struct RTCRayQueryContext context;
@@ -84,17 +84,17 @@ typedef struct PhasetreeRayContext {
     struct RTCIntersectContext context;
 #endif
     unsigned int apiVersion; /* set by phasetreeInitRayContext */
-    /* Element i is the ray's whose RTCRay.id is i: 0 for a single ray, and as the application numbers them for packets.
-     * Rays with an id of rayCount or more carry nothing. Owned by the application. Rays of different queries that run
-     * at once must not share an element. */
+    /* Element i belongs to the ray with RTCRay.id i: 0 for a single ray, and as numbered by the application in packets.
+     * Rays with an id of rayCount or more carry nothing. Owned by the application. Concurrent queries must not share
+     * elements. */
     PhasetreeRay* rays;
     unsigned int rayCount;
-    /* Called, if not NULL, for each crossing of a phasetree geometry after all other filters: what with Embree 4 a
-     * query's argument filter is to meshes. */
+    /* Called for each crossing of a phasetree geometry after all other filters; the counterpart of the filter in the
+     * arguments of Embree 4's queries. May be NULL. */
     void (*filter)(const struct RTCFilterFunctionNArguments* args);
 } PhasetreeRayContext;
 
-/* Initialises Embree's context, and ours so that rays carry nothing. */
+/* Initialises a context, including Embree's part, so that rays carry no phases. */
 static inline void phasetreeInitRayContext(PhasetreeRayContext* context) {
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context->context);

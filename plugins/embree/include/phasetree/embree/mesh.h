@@ -1,5 +1,5 @@
-/* Meshes: the interfaces of a geometry as triangles, for a viewport that rasterises or for another program. The
- * conventions are phasetree_embree.h's. */
+/* Meshes: the interfaces of a geometry as triangles, for rasterised viewports or other programs. See phasetree_embree.h
+ * for the conventions. */
 #ifndef PHASETREE_EMBREE_MESH_H
 #define PHASETREE_EMBREE_MESH_H
 
@@ -9,14 +9,14 @@
 extern "C" {
 #endif
 
-/* What phasetreeMakeGeometryMesh may be told; start from phasetreeInitMeshOptions. */
+/* Options of phasetreeMakeGeometryMesh. Initialise them with phasetreeInitMeshOptions. */
 typedef struct PhasetreeMeshOptions {
-    float spacing; /* of the grid, about the size of the smallest that is kept; 0: a 256th of the longest side. 1024
-                    * points of the grid along a side of the object at most */
-    /* Asked now and then, by any thread; true ends the call with PHASETREE_ERROR_CANCELLED. NULL: never. */
+    float spacing; /* of the grid, about the size of the smallest detail kept; 0 for a 256th of the longest side. At
+                    * most 1024 grid points along a side of the object */
+    /* Polled from any thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
-    /* Called now and then with the share that is done, in (0, 1], by one thread at a time. NULL: nobody is. */
+    /* Receives the fraction done, in (0, 1]; called by one thread at a time. May be NULL. */
     void (*progress)(float done, void* userPtr);
     void* progressUserPtr;
 } PhasetreeMeshOptions;
@@ -30,35 +30,34 @@ static inline void phasetreeInitMeshOptions(PhasetreeMeshOptions* options) {
     options->progressUserPtr = NULL;
 }
 
-/* Triangles of the interfaces between phases, each there once. They share their vertices, so the triangles at which a
- * phase is on one side alone are its closed surface, a manifold. */
+/* The interfaces between phases as triangles. Each triangle appears once, and neighbours share vertices, so the
+ * triangles with a given phase on exactly one side form that phase's closed, manifold surface. */
 typedef struct PhasetreeMesh {
-    const float* vertices;       /* 3 · vertexCount coordinates, in the tree's own space */
-    const unsigned int* indices; /* 3 · triangleCount; counterclockwise as seen from the phase in front */
-    const unsigned char* behind; /* triangleCount phases: the one behind, of the higher number */
-    const unsigned char* front;  /* triangleCount phases: the one in front; 0 is the vacuum */
+    const float* vertices;       /* 3 · vertexCount coordinates in the tree's own space */
+    const unsigned int* indices; /* 3 · triangleCount; counterclockwise as seen from the front phase */
+    const unsigned char* behind; /* triangleCount phases: the one with the higher index */
+    const unsigned char* front;  /* triangleCount phases: the one with the lower index; 0 is the vacuum */
     size_t vertexCount, triangleCount;
-    float spacing; /* that was used */
-    /* How many crossings there are along the lines of the grid, and how many of these are not shown, because a phase is
-     * thinner there than the spacing. */
+    float spacing; /* the spacing used */
+    /* The number of crossings along the grid's lines, and the number of those missing from the mesh because a phase is
+     * thinner than the spacing there. */
     size_t crossings, passedOver;
 } PhasetreeMesh;
 
-/* Makes a mesh of the interfaces of a geometry by rays through its cells (phasetree/meshing/phase_mesh.hpp says how),
- * and hands it over.
+/* Meshes the interfaces of a geometry by tracing rays through its cells. phasetree/meshing/phase_mesh.hpp describes the
+ * method.
  *
- * options  NULL: the defaults.
- * receive  called once with the mesh, by the calling thread, if there is no error. Its arrays are the library's, and
- *          gone when it returns. It must not throw.
- * userPtr  is passed on to it.
+ * options  NULL for the defaults.
+ * receive  called once with the mesh, on the calling thread, if there is no error. The arrays belong to the library and
+ *          are valid only during the call. Must not throw.
+ * userPtr  passed to receive.
  *
- * All phases are in it, whatever is hidden, and it is where the tree is, whatever moves the geometry. It uses the
- * threads of TBB's default arena, and is the same for any number of them; it takes about a second for the default
- * spacing.
+ * The mesh contains all phases, shown or hidden, in the tree's own space regardless of motion. Uses the threads of
+ * TBB's default arena; the result does not depend on their number. With the default spacing it takes about a second.
  *
- * PHASETREE_ERROR_INVALID_ARGUMENT   the spacing is none, or would take too many points
- * PHASETREE_ERROR_INVALID_OPERATION  the geometry was built with opaque phases, in which nothing is found
- * PHASETREE_ERROR_CANCELLED          options->cancelled has ended it */
+ * PHASETREE_ERROR_INVALID_ARGUMENT   the spacing is not positive and finite, or needs too many grid points
+ * PHASETREE_ERROR_INVALID_OPERATION  the geometry was built with opaque phases, inside which interfaces are unknown
+ * PHASETREE_ERROR_CANCELLED          options->cancelled returned true */
 PHASETREE_API PhasetreeError phasetreeMakeGeometryMesh(PhasetreeGeometry geometry, const PhasetreeMeshOptions* options,
                                                        void (*receive)(const PhasetreeMesh* mesh, void* userPtr),
                                                        void* userPtr);

@@ -1,4 +1,4 @@
-/* Points: the phase, the distances and the closest interface at one. The conventions are phasetree_embree.h's. */
+/* Points: the phase, distances and closest interface at a point. See phasetree_embree.h for the conventions. */
 #ifndef PHASETREE_EMBREE_POINT_H
 #define PHASETREE_EMBREE_POINT_H
 
@@ -8,37 +8,39 @@
 extern "C" {
 #endif
 
-/* The phase at a point of the geometry as it stands (hidden phases included), and the radius of a ball around it in
- * which there certainly is no other; the second may be NULL.
+/* Returns the phase at a point, hidden phases included, and the radius of a ball around it that is guaranteed to
+ * contain no other phase.
  *
- * point  in geometry space; finite numbers.
- * time   of the motion; any number if there is none. */
+ * point        in geometry space; finite.
+ * time         the time of the motion; ignored if there is none.
+ * emptyRadius  may be NULL. */
 PHASETREE_API PhasetreeError phasetreeGetPhase(PhasetreeGeometry geometry, const float point[3], float time,
                                                unsigned int* phase, float* emptyRadius);
 
-/* Φ at a point: PHASETREE_MAX_PHASES signed distances, +∞ for phases that the object does not have. The phase is the
- * smallest one's. In the tree's units, also where the geometry is placed with a scale; the point as above. */
+/* Returns Φ at a point: PHASETREE_MAX_PHASES signed distances, +∞ for phases that the object does not have. The phase
+ * at the point is the one with the smallest distance. Distances are in the tree's units, even if the geometry is
+ * scaled. point and time are as for phasetreeGetPhase. */
 PHASETREE_API PhasetreeError phasetreeGetDistances(PhasetreeGeometry geometry, const float point[3], float time,
                                                    float distances[PHASETREE_MAX_PHASES]);
 
-/* Takes a point of geometry space to the tree's own: what phasetreeSetGeometryMotion does to the object, undone. Point
- * and time as above. Within an instance geometry space is the instanced scene's; a point of the world is taken there
- * first, by the inverse of objectToWorld. */
+/* Transforms a point from geometry space to the tree's own space, the inverse of phasetreeSetGeometryMotion. point and
+ * time are as for phasetreeGetPhase. For an instance, geometry space is the instanced scene's; transform a world-space
+ * point by the inverse of objectToWorld first. */
 PHASETREE_API PhasetreeError phasetreeGetTreePoint(PhasetreeGeometry geometry, const float point[3], float time,
                                                    float treePoint[3]);
 
-/* Many points, each as above. Strides are in bytes, multiples of 4 and no less: of points with coordinates one after
- * another, (x, y, z), (x, y, z) …, x, y and z are addresses in the first one and `stride` is its size; of one array a
- * coordinate, `stride` is sizeof(float). */
+/* An array of points. Strides are in bytes, positive multiples of 4. For interleaved coordinates (x, y, z), (x, y, z)
+ * …, let x, y and z point into the first element and set `stride` to its size. For separate arrays, set `stride` to
+ * sizeof(float). */
 typedef struct PhasetreePoints {
     size_t count;
-    const float *x, *y, *z; /* of the first point; with a count of 0 not looked at */
+    const float *x, *y, *z; /* of the first point; ignored if count is 0 */
     size_t stride;
-    const float* time; /* of the first point; NULL: all at time 0 */
-    size_t timeStride; /* 0: all at *time */
+    const float* time; /* of the first point; NULL for time 0 */
+    size_t timeStride; /* 0 if all points share *time */
 } PhasetreePoints;
 
-/* Sets the defaults: no points, one array a coordinate, time 0. */
+/* Sets the defaults: no points, one array per coordinate, time 0. */
 static inline void phasetreeInitPoints(PhasetreePoints* points) {
     points->count = 0;
     points->x = points->y = points->z = NULL;
@@ -47,83 +49,82 @@ static inline void phasetreeInitPoints(PhasetreePoints* points) {
     points->timeStride = sizeof(float);
 }
 
-/* Tells the phases at many points at once, as phasetreeGetPhase: to the last bit the same, several times as fast,
- * because eight points are evaluated together. On the calling thread alone; threads that share the work call it for
- * parts of the points, with outputs that do not overlap.
+/* Returns the phases at many points. The results equal phasetreeGetPhase to the last bit, several times as fast,
+ * because eight points are evaluated together. Runs on the calling thread; to use more threads, call it for parts of
+ * the points with disjoint outputs.
  *
- * phases      `count` of them.
- * emptyRadii  `count`, or NULL.
+ * phases      receives `count` phases.
+ * emptyRadii  receives `count` radii, or NULL.
  *
- * PHASETREE_ERROR_INVALID_ARGUMENT   a stride is none, or a coordinate or a time no finite number: the message says of
- *                                    which point; nothing is written
- * PHASETREE_ERROR_INVALID_OPERATION  the motion's transform has no inverse at a point's time; nothing is written */
+ * PHASETREE_ERROR_INVALID_ARGUMENT   a stride is invalid, or a coordinate or time is not finite; the message names the
+ *                                    point. Nothing is written
+ * PHASETREE_ERROR_INVALID_OPERATION  the motion's transform has no inverse at a point's time. Nothing is written */
 PHASETREE_API PhasetreeError phasetreeGetPhaseN(PhasetreeGeometry geometry, const PhasetreePoints* points,
                                                 unsigned int* phases, float* emptyRadii);
 
-/* Tells Φ at many points at once, as phasetreeGetDistances, and in the same way.
+/* Returns Φ at many points; the batched form of phasetreeGetDistances, in the way of phasetreeGetPhaseN.
  *
- * phaseCount   the phases 0 … phaseCount − 1 are asked for; 1 … PHASETREE_MAX_PHASES.
- * distances    that of phase k at point i is written pointStride·i + phaseStride·k bytes behind it. Both strides are
- *              multiples of 4. Phases within points: pointStride = 4·phaseCount, phaseStride = 4; points within phases:
- *              pointStride = 4, phaseStride = 4·count. One stride must step over all that the other reaches, which is
- *              that times its count.
+ * phaseCount   evaluates the phases 0 … phaseCount − 1; 1 … PHASETREE_MAX_PHASES.
+ * distances    the distance of phase k at point i is written pointStride·i + phaseStride·k bytes after this address.
+ *              Both strides are multiples of 4. For phases within points: pointStride = 4·phaseCount, phaseStride = 4.
+ *              For points within phases: pointStride = 4, phaseStride = 4·count. Elements must not overlap: one stride
+ *              must be at least the other one times its count.
  *
- * Errors as above, and PHASETREE_ERROR_INVALID_ARGUMENT for strides that overlap. */
+ * Errors are those of phasetreeGetPhaseN, and PHASETREE_ERROR_INVALID_ARGUMENT for strides that overlap. */
 PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, const PhasetreePoints* points,
                                                     unsigned int phaseCount, float* distances, size_t pointStride,
                                                     size_t phaseStride);
 
-/* What a search for the closest interface has found. */
+/* The result of a search for the closest interface. */
 typedef struct PhasetreeClosest {
     bool found;
-    /* No interface is nearer than emptyRadius, guaranteed. An interface is at `point`, at `distance`: between places of
-     * phase `here` and of phase `there` that are no farther apart than the resolution. Without `found`, emptyRadius is
-     * how far certainly no interface is: the radius that was asked for or more, or less where the evaluations came to
-     * their end before; distance is that radius, and the rest is not set. */
+    /* No interface is closer than emptyRadius, guaranteed. If `found`, there is an interface at `point`, at `distance`,
+     * between points of the phases `here` and `there` that are at most one resolution apart. Otherwise emptyRadius is
+     * the radius searched: the requested one or more, or less if the evaluations ran out; distance equals it, and the
+     * other members are not set. */
     float emptyRadius;
     float distance;
     float point[3];
-    unsigned int here, there; /* `here` is the phase on the side of the query's point, as far as it can be told */
+    unsigned int here, there; /* `here` is the phase on the side of the query point, as far as it can be determined */
 } PhasetreeClosest;
 
-/* The closest interface to a point, of any phases but between two that are opaque (PhasetreeGeometryOptions).
+/* Finds the closest interface to a point, between any phases that are not both opaque (PhasetreeGeometryOptions).
  *
- * point, time   as above.
- * radius        a distance: how far to look; +∞: everywhere.
- * tolerance     how near emptyRadius and distance come to each other before the search ends, as a share of distance:
- *               0.001 … 1; it also ends when they are within four resolutions, and after 2^14 divisions of
- *               the bounds at the latest. The larger, the quicker.
+ * point, time   as for phasetreeGetPhase.
+ * radius        the maximum distance to search; +∞ for no limit.
+ * tolerance     stops when emptyRadius and distance differ by less than this fraction of distance; 0.001 … 1. Larger
+ *               is faster. The search also stops when they are within four resolutions, and after 2^14 subdivisions.
  *
- * Searches by branch and bound: divides the object's bounds into octants again and again, and excludes those in which
- * the 1-Lipschitz distances at the middle leave no room for an interface. */
+ * Uses branch and bound: subdivides the object's bounds into octants, and discards those whose centre's 1-Lipschitz
+ * distances leave no room for an interface. */
 PHASETREE_API PhasetreeError phasetreeFindClosestInterface(PhasetreeGeometry geometry, const float point[3], float time,
                                                            float radius, float tolerance, PhasetreeClosest* closest);
 
-/* Point queries of whole scenes. Embree does not tell a point query's callback whose user pointer is whose, so the
- * application lists the geometries that it wants to be asked. */
+/* A geometry that takes part in point queries of a whole scene. The application lists them, because Embree does not
+ * tell a point query's callback which geometry it is called for. */
 typedef struct PhasetreePointQueryGeometry {
-    unsigned int geomID, instID; /* instID: of the innermost instance, or RTC_INVALID_GEOMETRY_ID */
+    unsigned int geomID, instID; /* instID of the innermost instance, or RTC_INVALID_GEOMETRY_ID */
     PhasetreeGeometry geometry;
 } PhasetreePointQueryGeometry;
 
-/* What a point query of a whole scene is told, and what it finds: the user pointer of rtcPointQuery. */
+/* Input and output of a point query of a whole scene; the user pointer of rtcPointQuery. */
 typedef struct PhasetreePointQuery {
     unsigned int apiVersion; /* PHASETREE_API_VERSION */
     const PhasetreePointQueryGeometry* geometries;
     unsigned int geometryCount;
     float tolerance; /* see phasetreeFindClosestInterface */
-    /* Out: the closest so far, in world space, and whose. closest.found must be false at first. closest.emptyRadius
-     * is the one around the query's point in the geometry that was found, and says nothing of the others. Of all listed
-     * geometries no interface is nearer than distance·(1 − tolerance), or than the query's radius if nothing was found,
-     * but for the two other ends of a search that phasetreeFindClosestInterface names. */
+    /* Out: the closest interface so far, in world space, and the geometry it belongs to. Set closest.found to false
+     * before the query. closest.emptyRadius refers to the geometry found and says nothing about the others. No
+     * interface of any listed geometry is closer than distance·(1 − tolerance), or than the query's radius if nothing
+     * was found, except where a search stopped early (see phasetreeFindClosestInterface). */
     PhasetreeClosest closest;
     unsigned int geomID, instID;
 } PhasetreePointQuery;
 
-/* The callback for rtcPointQuery: given to it, or registered with geometries (PHASETREE_GEOMETRY_FLAG_POINT_QUERY). The
- * query's user pointer is a PhasetreePointQuery. Shrinks the query's radius to the distance found, as Embree wants it,
- * so that it goes well with an application's own callbacks for meshes, called from one that dispatches by geomID. Works
- * within instances of any affine transform. Returns true if it has shrunk the radius. */
+/* The callback for rtcPointQuery; pass it to the query, or register it with geometries by
+ * PHASETREE_GEOMETRY_FLAG_POINT_QUERY. The user pointer of the query must be a PhasetreePointQuery. Shrinks the query's
+ * radius to the distance found, as Embree expects, so it can be combined with an application's callbacks for meshes by
+ * dispatching on geomID. Works inside instances with any affine transform. Returns true if it shrank the radius. */
 PHASETREE_API bool phasetreePointQueryFunction(struct RTCPointQueryFunctionArguments* args);
 
 #if defined(__cplusplus)

@@ -1,4 +1,4 @@
-/* Trees: reading, editing and asking them. The conventions are phasetree_embree.h's. */
+/* Trees: loading, editing and inspecting them. See phasetree_embree.h for the conventions. */
 #ifndef PHASETREE_EMBREE_TREE_H
 #define PHASETREE_EMBREE_TREE_H
 
@@ -8,75 +8,80 @@
 extern "C" {
 #endif
 
-/* Where PhasetreeFileReader.readImage puts an image: only within that call. */
+/* The destination of PhasetreeFileReader.readImage. Valid only during that call. */
 typedef struct PhasetreeImageSink* PhasetreeImage;
 
-/* Sets an image's size in pixels and makes room for its values.
+/* Sets the size of an image in pixels and allocates its values.
  *
- * returns  the room, owned by the library, for width·height values: rows from the top, each value from 0 (low) to 1
- *          (high). NULL if a size is 0, above 32768, or memory is short. */
+ * returns  an array of width·height values, owned by the library, to be filled row by row from the top with values
+ *          from 0 (low) to 1 (high). NULL if a size is 0 or above 32768, or if memory is exhausted. */
 PHASETREE_API float* phasetreeNewImageValues(PhasetreeImage image, unsigned int width, unsigned int height);
 
-/* How height maps are read, the only images that trees name; the library itself reads none. readImage is called during
- * the calls that it is given to and on their thread: it opens the file (path is UTF-8, already relative to the working
- * directory, not to the scene), asks phasetreeNewImageValues for room, fills it and returns NULL; or it returns what
- * is wrong with the file, a text that must stay good until the call is over. userPtr is handed through. */
+/* Reads the height maps of a scene. The library has no image readers of its own, and height maps are the only images
+ * that a tree refers to.
+ *
+ * readImage is called on the calling thread, during the call that received the reader. The path is UTF-8 and relative
+ * to the working directory, not to the scene. On success, readImage allocates the values with phasetreeNewImageValues,
+ * fills them and returns NULL. On failure it returns a message, which must stay valid until the outer call returns.
+ * userPtr is passed through. */
 typedef struct PhasetreeFileReader {
     const char* (*readImage)(void* userPtr, const char* path, PhasetreeImage image);
     void* userPtr;
 } PhasetreeFileReader;
 
-/* Reads a tree from a scene file (JSON; what the file says besides "phases", "shapes" and "tree" is not looked at).
+/* Loads a tree from a JSON scene file. Members other than "phases", "shapes" and "tree" are ignored.
  *
- * path    UTF-8, ends with 0.
- * reader  NULL if no images are to be read; a scene with a height map is then an error. Copied; what its userPtr points
- *         to must live as long as the tree or any tree edited from it, because edits read again.
+ * path    UTF-8, null-terminated.
+ * reader  reads height maps; with NULL, a scene with a height map is an error. The struct is copied. Whatever its
+ *         userPtr points to must outlive the tree and all trees edited from it, because edits read the files again.
  * tree    receives the new handle.
  *
- * Files that the scene names are sought beside it. All of them are read during the call. */
+ * File names in the scene are relative to the scene's folder. All files are read during the call. */
 PHASETREE_API PhasetreeError phasetreeNewTreeFromFile(unsigned int apiVersion, const char* path,
                                                       const PhasetreeFileReader* reader, PhasetreeTree* tree);
 
-/* Reads a tree from a text in memory, else as phasetreeNewTreeFromFile does.
+/* Loads a tree from JSON text in memory. Otherwise like phasetreeNewTreeFromFile.
  *
- * text    UTF-8, `length` bytes; need not end with 0. Copied.
- * name    what errors call it, and, taken for a path, beside what files are sought; NULL: "<text>" and the working
+ * text    UTF-8, `length` bytes, not necessarily null-terminated. Copied.
+ * name    the name to use in error messages; its folder is where files are looked up. NULL for "<text>" and the working
  *         directory. */
 PHASETREE_API PhasetreeError phasetreeNewTreeFromText(unsigned int apiVersion, const char* text, size_t length,
                                                       const char* name, const PhasetreeFileReader* reader,
                                                       PhasetreeTree* tree);
 
-/* A new tree: `tree` with one value of its scene text replaced. `tree` itself stays as it is, for whoever uses it.
+/* Returns a new tree in which one value of the scene text is replaced. The original tree is unchanged.
  *
- * path    a JSON Pointer (RFC 6901) to a value within the text: "/shapes/bulb/sphere/radius", "/tree/under/0". A value
- *         in a named shape changes wherever the shape is used.
- * value   the new value as JSON, ends with 0: "0.5", "[1, 0, 0]", "\"glass\"", or a whole subtree.
+ * path    a JSON Pointer (RFC 6901) to a value in the scene text, such as "/shapes/bulb/sphere/radius" or
+ *         "/tree/under/0". A change to a named shape applies wherever the shape is used.
+ * value   the new value as null-terminated JSON: "0.5", "[1, 0, 0]", "\"glass\"", or a whole subtree.
  *
- * Errors are told at the edited text's lines and columns. The text is read again, with the files that it names. */
+ * The edited text and all files that it names are read again. Errors refer to lines and columns of the edited text. */
 PHASETREE_API PhasetreeError phasetreeNewEditedTree(PhasetreeTree tree, const char* path, const char* value,
                                                     PhasetreeTree* edited);
 
-/* Adds a reference to a tree, or takes one away: the last one frees it. */
+/* Adds a reference to a tree, or drops one. Dropping the last reference frees the tree. */
 PHASETREE_API PhasetreeError phasetreeRetainTree(PhasetreeTree tree);
 PHASETREE_API PhasetreeError phasetreeReleaseTree(PhasetreeTree tree);
 
-/* How many phases the scene names, the vacuum included: the tree's phases are 0 … count − 1. */
+/* Returns the number of phases, including the vacuum. The tree's phases are 0 … count − 1. */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseCount(PhasetreeTree tree, unsigned int* count);
 
-/* A phase's name, "vacuum" for 0. UTF-8; belongs to the tree and lives as long. */
+/* Returns the name of a phase in UTF-8; phase 0 is "vacuum". The string is valid as long as the tree. */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseName(PhasetreeTree tree, unsigned int phase, const char** name);
 
-/* A phase's index by its name; INVALID_ARGUMENT if there is none of that name. */
+/* Finds a phase by its name; PHASETREE_ERROR_INVALID_ARGUMENT if no phase has that name. */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, const char* name, unsigned int* phase);
 
-/* Tells a phase's material: that member of the scene's "phases", from brace to brace as it is written there but without
- * comments, so that any reader of JSON takes it. NULL for the vacuum, where the scene has something else than an object
- * in its place, and for trees that were built in C++. The library itself does not look at materials: what is in them is
- * between the scene's author and the application (the path tracer's are described in the project's README.md). Belongs
- * to the tree and lives as long; an edit may change it, as anything in the text ("/phases/glass"). */
+/* Returns the material of a phase as JSON: the phase's member of the scene's "phases" as written, but without comments.
+ * Returns NULL for the vacuum, for a phase whose member is not an object, and for trees built in C++.
+ *
+ * The library does not interpret materials; they are between the scene's author and the application. The scene file
+ * reference (scenes/nodes.md) describes the path tracer's. The string is valid as long as the tree. Edits may change
+ * it, like any other part of the text ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
-/* A box around everything that is not vacuum; infinite where the tree is. */
+/* Returns a box around everything that is not vacuum. It is infinite in the directions in which the tree is unbounded.
+ */
 PHASETREE_API PhasetreeError phasetreeGetTreeBounds(PhasetreeTree tree, struct RTCBounds* bounds);
 
 #if defined(__cplusplus)
