@@ -19,7 +19,7 @@ packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopen
     libcpp-httplib-dev zlib1g-dev libopenvdb-dev libboost-dev libharfbuzz-dev)
 # shellcheck disable=SC2034 # used by the scripts
 packages_to_test=("${packages_to_build[@]}" clang doctest-dev dpkg-dev file pybind11-dev python3-dev
-    python3-numpy python3-matplotlib libegl-dev libgles-dev libgl1-mesa-dri)
+    python3-numpy python3-matplotlib libegl-dev libgles-dev libopengl-dev libgl1-mesa-dri)
 # The sanitizers and libFuzzer; both names stand for the distribution's default version of Clang.
 # shellcheck disable=SC2034
 packages_to_fuzz=("${packages_to_build[@]}" clang libclang-rt-dev)

@@ -32,6 +32,10 @@ set(quiet "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     set(quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif()
+# Where a branch would cost more, code uses | and & between booleans on purpose.
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    list(APPEND quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical>)
+endif()
 
 # In a unity build files of a target are compiled several at a time, and a local name would be said to hide one of another
 # file's.

@@ -45,7 +45,7 @@ PhaseMesh meshed(const Phased& object, float spacing) {
 // Formats that know vertices by their places alone join those that are in one place.
 std::size_t vertices_in_one_place(std::vector<glm::vec3> vertices) {
     std::ranges::sort(vertices, {}, [](const glm::vec3& v) { return std::tuple(v.x, v.y, v.z); });
-    return std::ranges::unique(vertices).size();
+    return static_cast<std::size_t>(vertices.end() - std::unique(vertices.begin(), vertices.end()));
 }
 
 std::size_t faults_of(const PhaseMesh& mesh, PhaseSet phases) {

@@ -33,11 +33,10 @@ void read(const std::filesystem::path& path, std::size_t bytes) {
     try {
         const FilmFile file(path);
         promised(file.header().area.size() <= bytes, "a film takes no more memory than its file allows");
-        std::uint64_t samples = 0;
         for (int i = 0; i < file.header().bands(); ++i) {
             const FilmTile band = file.band(i);
             ByteWriter out;
-            for (int y = band.area().y0; y < band.area().y1; ++y) samples += band.write_row(y, out);
+            for (int y = band.area().y0; y < band.area().y1; ++y) band.write_row(y, out);
         }
         Film film(file.header().film, file.header().area, file.header().subjects);
         file.add_to(film);

@@ -11,6 +11,12 @@
 
 namespace phasetree::tracer::view {
 
+// Which of the functions override one of the library depends on its version, so some are not marked `override`.
+#ifdef __clang__
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Winconsistent-missing-override"
+#endif
+
 class Connection : public httplib::Stream {
   public:
     static constexpr std::size_t most_bytes_of_head = 16 * 1024;
@@ -29,7 +35,7 @@ class Connection : public httplib::Stream {
     /// Answers without the library.
     void refuse(std::string_view status);
 
-    // The library asks by these names before 0.19, and by those from then on.
+    // The library calls the first two before 0.19 and the others from then on, so none can be marked `override`.
     bool is_readable() const { return true; }
     bool is_writable() const { return true; }
     bool wait_readable() const { return true; }
@@ -55,5 +61,9 @@ class Connection : public httplib::Stream {
     Clock::time_point deadline_ = Clock::now() + to_send_a_request;
     bool is_answering_ = false;
 };
+
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
 
 }  // namespace phasetree::tracer::view

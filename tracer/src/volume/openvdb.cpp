@@ -202,7 +202,7 @@ VoxelGrid level_set_of(const Grid& grid) {
 template <class Grid>
 VoxelGrid numbers_of(const Grid& grid) {
     // A frame of a simulation may have nothing yet.
-    if (grid.evalActiveVoxelBoundingBox().empty()) return number_grid({.size = {1, 1, 1}}, {{0.0f}});
+    if (grid.evalActiveVoxelBoundingBox().empty()) return number_grid({.size = {1, 1, 1}}, {0.0f});
     if (static_cast<double>(grid.background()) != 0)
         throw std::runtime_error("its background is not 0, so that it is without end");
     const CoordBBox box = active_leaves(grid, 1);
