@@ -312,7 +312,7 @@ TEST_CASE("a number in a file's metadata has the length of its type") {
         const std::size_t at = wrong.find(stored, wrong.find("a_")) + stored.size();
         REQUIRE(at < wrong.size());
         wrong[at] = static_cast<char>(wrong[at] + 4);
-        CHECK(said_of_level_set(folder.write_bytes("wrong.vdb", wrong)) == "it is cut off, or damaged");
+        CHECK(said_of_level_set(folder.write_bytes("wrong.vdb", wrong)) == "it is truncated or damaged");
     }
 }
 
