@@ -94,6 +94,49 @@ TEST_CASE("all numbers of 8 and of 16 bits are what they were") {
     }
 }
 
+TEST_CASE("labels of any other kind of integers are what they were") {
+    Stack stack;
+    const auto numbers_in = [&](const std::string& name) {
+        const LabelGrid grid = tracer::read_label_grid(stack.path(name), "");
+        std::vector<std::int32_t> numbers;
+        for (const std::uint8_t v : grid.voxels) numbers.push_back(grid.numbers[v]);
+        return numbers;
+    };
+    stack.write<short>("signed.tif", 5, 1, {-32768, -1, 0, 1, 32767});
+    CHECK(numbers_in("signed.tif") == std::vector<std::int32_t>{-32768, -1, 0, 1, 32767});
+    stack.write<char>("small.tif", 4, 1, {'\x80', '\xff', '\x01', '\x7f'});
+    CHECK(numbers_in("small.tif") == std::vector<std::int32_t>{-128, -1, 1, 127});
+    for (int first = 0; first < 1 << 20; first += 40'009) {
+        std::vector<unsigned> words;
+        std::vector<int> signed_words;
+        std::vector<std::int32_t> expected;
+        for (int i = 0; i < 200; ++i) {
+            words.push_back(static_cast<unsigned>(first + i));
+            signed_words.push_back(-first - i);
+            expected.push_back(first + i);
+        }
+        stack.write("long.tif", 200, 1, words);
+        REQUIRE(numbers_in("long.tif") == expected);
+        for (std::int32_t& n : expected) n = -n;
+        stack.write("signed_long.tif", 200, 1, signed_words);
+        REQUIRE(numbers_in("signed_long.tif") == expected);
+    }
+    stack.write<unsigned>("large.tif", 2, 1, {1, (1 << 20) + 1});
+    CHECK(stack.said_of("large.tif").find("it has a label beyond 1048576; renumber its labels") != std::string::npos);
+    // Bits are spread over bytes when they are decoded.
+    for (const int bits : {1, 2, 4, 10, 12}) {
+        CAPTURE(bits);
+        const std::string path = stack.path("bits.tif").string();
+        const auto out = OIIO::ImageOutput::create(path);
+        OIIO::ImageSpec spec(2, 1, 1, bits > 8 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:BitsPerSample", bits);
+        REQUIRE(out->open(path, spec));
+        REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, std::array{0.0f, 1.0f}.data()));
+        out->close();
+        CHECK(numbers_in("bits.tif") == std::vector<std::int32_t>{0, (1 << bits) - 1});
+    }
+}
+
 TEST_CASE("what is no stack is refused, with the image and what is wrong") {
     Stack stack;
     CHECK(stack.said_of("no_###.png") ==
@@ -115,7 +158,7 @@ TEST_CASE("what is no stack is refused, with the image and what is wrong") {
     stack.write("rgb.png", 1, 1, Bytes{0, 1, 2}, 3);
     CHECK(stack.said_of("rgb.png").find("labels are grey values, but it has 3 channels") != std::string::npos);
     stack.write("real.exr", 1, 1, std::vector<float>{0.5f});
-    CHECK(stack.said_of("real.exr").find("labels are grey values of 8 or 16 bits") != std::string::npos);
+    CHECK(stack.said_of("real.exr").find("labels are integers of at most 32 bits") != std::string::npos);
     std::vector<unsigned short> many(300);
     for (std::size_t i = 0; i < 300; ++i) many[i] = static_cast<unsigned short>(i);
     stack.write("many.png", 300, 1, many);

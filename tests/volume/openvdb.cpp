@@ -5,19 +5,17 @@
 
 #ifdef PHASETREE_HAS_OPENVDB
 
-#include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cstring>
-#include <fstream>
 
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/volume.hpp"
 #include "phasetree/nodes/phased/labels.hpp"
-#include "phasetree_support/temporary_directory.hpp"
 #include "support/random_voxels.hpp"
+#include "volume/vdb_folder.hpp"
 
 // What the leak sanitizer is told here. OpenVDB 10 loses the node that it is reading when a file ends too early,
 // because RootNode::readTopology() holds it by a plain pointer while it throws.
@@ -25,6 +23,8 @@ extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:readTopology";
 }
+
+namespace test_openvdb {
 
 using namespace phasetree;
 using namespace phasetree::tests;
@@ -34,52 +34,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Folder {
-    support::TemporaryDirectory directory;
-
-    Folder() { openvdb::initialize(); }
-
-    fs::path write(const std::string& name, const openvdb::GridCPtrVec& grids, std::uint32_t compression = 6) {
-        const fs::path path = directory.path() / name;
-        openvdb::io::File file(path.string());
-        file.setCompression(compression);
-        file.write(grids);
-        return path;
-    }
-    fs::path write_bytes(const std::string& name, const std::string& bytes) {
-        const fs::path path = directory.path() / name;
-        std::ofstream(path, std::ios::binary) << bytes;
-        return path;
-    }
-};
-
 openvdb::FloatGrid::Ptr ball(double radius, const openvdb::Vec3f& at, float voxel, const std::string& name) {
     auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(static_cast<float>(radius), at, voxel);
     grid->setName(name);
     return grid;
 }
 
-template <class Read>
-std::string said_by(const Read& read) {
-    try {
-        (void)read();
-    } catch (const std::runtime_error& e) {
-        const std::string text = e.what();
-        return text.substr(text.find("\": ") + 3);
-    }
-    return "nothing";
-}
-std::string said_of(const fs::path& path, const std::string& grid = "") {
-    return said_by([&] { return tracer::read_level_set(path, grid); });
-}
-std::string said_of_labels(const fs::path& path, const std::string& grid = "") {
-    return said_by([&] { return tracer::read_label_grid(path, grid); });
-}
-
 }  // namespace
 
 TEST_CASE("a volume has the values that OpenVDB's own sampler has") {
-    Folder folder;
+    const VdbFolder folder;
     Random rng(631);
     double worst = 0;
     std::size_t inside = 0, points = 0;
@@ -108,7 +72,7 @@ TEST_CASE("a volume has the values that OpenVDB's own sampler has") {
 }
 
 TEST_CASE("grids of doubles and of halves, shifted and scaled") {
-    Folder folder;
+    const VdbFolder folder;
     auto doubles = openvdb::tools::createLevelSetSphere<openvdb::DoubleGrid>(0.5f, openvdb::Vec3f(1, 2, 3), 0.05f);
     const Field of_doubles = Volume{.file = held_content(tracer::read_level_set(folder.write("d.vdb", {doubles}), ""))};
     CHECK(distance(of_doubles, {1.5f, 2, 3}) == doctest::Approx(0).epsilon(0.01).scale(1));
@@ -120,7 +84,7 @@ TEST_CASE("grids of doubles and of halves, shifted and scaled") {
 }
 
 TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds that reach over many blocks") {
-    Folder folder;
+    const VdbFolder folder;
     Random rng(633);
     auto cloud = openvdb::FloatGrid::create(0);
     const openvdb::Vec3d spacing(0.1, 0.2, 0.05);
@@ -137,7 +101,7 @@ TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds tha
     cloud->fill({{8, 0, 96}, {23, 15, 111}}, 1.5f);
     // What a solver leaves below 0 is nothing.
     cloud->tree().setValueOn({-20, 0, 5}, -0.25f);
-    const VoxelGrid read = tracer::read_number_grid(folder.write("cloud.vdb", {cloud}), "");
+    const VoxelGrid read = tracer::read_number_grid(folder.write("cloud.vdb", {cloud}), "").grid;
     cloud->tree().setValueOn({-20, 0, 5}, 0.0f);
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sampler(*cloud);
     const openvdb::Vec3d low = cloud->indexToWorld(openvdb::Vec3d(-20, 0, 5)),
@@ -164,10 +128,7 @@ TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds tha
 }
 
 TEST_CASE("which grids of numbers are taken, and what the others are refused for") {
-    Folder folder;
-    const auto said = [](const fs::path& path, const std::string& grid = "") {
-        return said_by([&] { return tracer::read_number_grid(path, grid); });
-    };
+    const VdbFolder folder;
     const auto named = [](const char* name, float background = 0) {
         auto grid = openvdb::FloatGrid::create(background);
         grid->tree().setValueOn({0, 0, 0}, 1);
@@ -175,25 +136,29 @@ TEST_CASE("which grids of numbers are taken, and what the others are refused for
         return grid;
     };
     const fs::path two = folder.write("two.vdb", {named("density"), named("temperature")});
-    CHECK(said(two) == "2 of its grids are of numbers: \"grid\" must name one");
-    CHECK(said(two, "density") == "nothing");
-    CHECK(said(two, "flame") == "none of its 2 grids is called \"flame\"");
-    CHECK(said(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))
+    CHECK(said_of_numbers(two) ==
+          "it has several grids of numbers; choose one by \"grid\": \"density\" (float), \"temperature\" (float)");
+    CHECK(said_of_numbers(two, "density") == "nothing");
+    CHECK(said_of_numbers(two, "flame") ==
+          "it has no grid \"flame\"; it has \"density\" (float), \"temperature\" (float)");
+    CHECK(said_of_numbers(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))
               .starts_with("it is a level set, whose numbers are distances"));
-    CHECK(said(folder.write("bg.vdb", {named("d", 0.5f)})) == "its background is not 0, so that it is without end");
-    CHECK(said(folder.write("ints.vdb", {openvdb::Int32Grid::create(0)})) ==
+    CHECK(said_of_numbers(folder.write("bg.vdb", {named("d", 0.5f)})) ==
+          "its background is not 0, so that it is without end");
+    CHECK(said_of_numbers(folder.write("ints.vdb", {openvdb::Int32Grid::create(0)})) ==
           "it is a grid of int32, but numbers are floats or doubles");
     // A frame of a simulation in which there is nothing yet.
-    const VoxelGrid nothing = tracer::read_number_grid(folder.write("empty.vdb", {openvdb::FloatGrid::create(0)}), "");
+    const VoxelGrid nothing =
+        tracer::read_number_grid(folder.write("empty.vdb", {openvdb::FloatGrid::create(0)}), "").grid;
     CHECK(voxels::linear_at(nothing.table.data(), Vec3<float>{0, 0, 0}) == 0.0f);
     const auto doubles = openvdb::DoubleGrid::create(0);
     doubles->tree().setValueOn({2, 1, 0}, 0.75);
-    const VoxelGrid of_doubles = tracer::read_number_grid(folder.write("d.vdb", {doubles}), "");
+    const VoxelGrid of_doubles = tracer::read_number_grid(folder.write("d.vdb", {doubles}), "").grid;
     CHECK(voxels::linear_at(of_doubles.table.data(), Vec3<float>{2, 1, 0}) == 0.75f);
 }
 
 TEST_CASE("labels are at OpenVDB's voxels what they are in the file") {
-    Folder folder;
+    const VdbFolder folder;
     auto grid = openvdb::Int32Grid::create(0);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
     Random rng(632);
@@ -224,7 +189,7 @@ TEST_CASE("labels are at OpenVDB's voxels what they are in the file") {
 }
 
 TEST_CASE("one of several grids is read by its name") {
-    Folder folder;
+    const VdbFolder folder;
     auto fog = openvdb::FloatGrid::create(0);
     fog->setGridClass(openvdb::GRID_FOG_VOLUME);
     fog->setName("fog");
@@ -234,59 +199,60 @@ TEST_CASE("one of several grids is read by its name") {
     whole->tree().setValue(openvdb::Coord(1, 2, 3), 1);
     const fs::path two = folder.write("two.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a"), ball(0.7, {0, 0, 0}, 0.05f, "b")});
     CHECK(tracer::read_level_set(two, "a").bytes() < tracer::read_level_set(two, "b").bytes());
-    CHECK(said_of(two) == "2 of its grids are level sets: \"grid\" must name one");
-    CHECK(said_of(two, "c") == "none of its 2 grids is called \"c\"");
+    CHECK(said_of_level_set(two) ==
+          "it has several level sets; choose one by \"grid\": \"a\" (float level set), \"b\" (float level set)");
+    CHECK(said_of_level_set(two, "c") ==
+          "it has no grid \"c\"; it has \"a\" (float level set), \"b\" (float level set)");
     const fs::path one = folder.write("one.vdb", {fog, ball(0.5, {0, 0, 0}, 0.05f, "a"), whole});
-    CHECK(said_of(one) == "nothing");
+    CHECK(said_of_level_set(one) == "nothing");
     CHECK(said_of_labels(one) == "nothing");
-    CHECK(said_of(one, "fog") ==
-          "of its grid \"fog\": it is a fog volume, not a level set: the \"density_grid\" of a material takes it as it "
-          "is, "
-          "and OpenVDB's tools make a level set of it with the isovalue that is wanted");
+    CHECK(said_of_level_set(one, "fog") ==
+          "its grid \"fog\": it is a fog volume, not a level set: use it as the \"density_grid\" of a material, or "
+          "convert it to a level set with OpenVDB's tools");
     const fs::path alone = folder.write("alone.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a")});
-    CHECK(said_of(alone, "b") == "its only grid is not called \"b\"");
-    CHECK(said_of(one, "whole") ==
-          "of its grid \"whole\": it is a grid of int32, but a level set has floats or doubles");
-    CHECK(said_of_labels(one, "fog") == "of its grid \"fog\": it is a grid of float, but labels are int32 or int64");
+    CHECK(said_of_level_set(alone, "b") == "it has no grid \"b\"; it has \"a\" (float level set)");
+    CHECK(said_of_level_set(one, "whole") ==
+          "its grid \"whole\": it is a grid of int32, but a level set has floats or doubles");
+    CHECK(said_of_labels(one, "fog") == "its grid \"fog\": it is a grid of float, but labels are int32 or int64");
     // A grid of vectors in a view's pyramid is passed over.
     auto wind = openvdb::Vec3SGrid::create();
     wind->setName("wind");
     wind->setTransform(openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {9, 9, 9}), 0.5, 2));
-    CHECK(said_of(folder.write("wind.vdb", {wind, ball(0.5, {0, 0, 0}, 0.05f, "a")})) == "nothing");
-    CHECK(said_of(folder.write("fog.vdb", {fog})).starts_with("it is a fog volume, not a level set"));
+    CHECK(said_of_level_set(folder.write("wind.vdb", {wind, ball(0.5, {0, 0, 0}, 0.05f, "a")})) == "nothing");
+    CHECK(said_of_level_set(folder.write("fog.vdb", {fog})).starts_with("it is a fog volume, not a level set"));
 }
 
 TEST_CASE("what is no level set is refused, with what is wrong") {
-    Folder folder;
-    CHECK(said_of(folder.directory.path() / "none.vdb") == "there is no such file");
-    CHECK(said_of(folder.write_bytes("a.obj", "x")) == "its name must end with .vdb");
-    CHECK(said_of(folder.write_bytes("text.vdb", "This is no grid.")) == "it is no OpenVDB file");
-    CHECK(said_of(folder.write_bytes("empty.vdb", "")) == "it is no OpenVDB file");
-    CHECK(said_of(folder.write("no_grids.vdb", {})) == "it has no grids");
+    const VdbFolder folder;
+    CHECK(said_of_level_set(folder.path("none.vdb")) == "there is no such file");
+    CHECK(said_of_level_set(folder.write_bytes("a.obj", "x")) == "its name must end with .vdb");
+    CHECK(said_of_level_set(folder.write_bytes("text.vdb", "This is no grid.")) == "it is no OpenVDB file");
+    CHECK(said_of_level_set(folder.write_bytes("empty.vdb", "")) == "it is no OpenVDB file");
+    CHECK(said_of_level_set(folder.write("no_grids.vdb", {})) == "it has no grids");
     auto empty = openvdb::FloatGrid::create(1);
     empty->setGridClass(openvdb::GRID_LEVEL_SET);
-    CHECK(said_of(folder.write("e.vdb", {empty})) == "its grid has no active voxels");
+    CHECK(said_of_level_set(folder.write("e.vdb", {empty})) == "its grid has no active voxels");
     auto unknown = ball(0.5, {0, 0, 0}, 0.05f, "a");
     unknown->setGridClass(openvdb::GRID_UNKNOWN);
-    CHECK(said_of(folder.write("u.vdb", {unknown})) == "it is not marked as a level set (its \"class\")");
+    CHECK(said_of_level_set(folder.write("u.vdb", {unknown})) == "it is not marked as a level set (its \"class\")");
     auto turned = ball(0.5, {0, 0, 0}, 0.05f, "a");
     turned->transform().preRotate(0.5);
-    CHECK(said_of(folder.write("t.vdb", {turned})).starts_with("its voxels do not lie along the axes"));
-    auto stretched = ball(0.5, {0, 0, 0}, 0.05f, "a");
-    stretched->transform().preScale(openvdb::Vec3d(1, 1, 2));
-    CHECK(said_of(folder.write("s.vdb", {stretched})) == "its voxels are no cubes");
+    CHECK(said_of_level_set(folder.write("t.vdb", {turned})).starts_with("its voxels do not lie along the axes"));
     auto negative = ball(0.5, {0, 0, 0}, 0.05f, "a");
     negative->tree().root().setBackground(-1, false);
-    CHECK(said_of(folder.write("n.vdb", {negative})) == "its background is not positive, so that it has no outside");
+    CHECK(said_of_level_set(folder.write("n.vdb", {negative})) ==
+          "its background is not positive, so that it has no outside");
     auto far = ball(0.5, {0, 0, 0}, 0.05f, "a");
     far->tree().setValue(openvdb::Coord(100000, 0, 0), 0.1f);
-    CHECK(said_of(folder.write("f.vdb", {far})).find("voxels along an axis; at most 8192 can be") != std::string::npos);
+    CHECK(said_of_level_set(folder.write("f.vdb", {far})).find("voxels along an axis; at most 8192 can be") !=
+          std::string::npos);
     auto nan = ball(0.5, {0, 0, 0}, 0.05f, "a");
     nan->tree().setValue(openvdb::Coord(3, 2, 1), std::numeric_limits<float>::quiet_NaN());
-    CHECK(said_of(folder.write("nan.vdb", {nan})).find("is too large, or no number") != std::string::npos);
+    CHECK(said_of_level_set(folder.write("nan.vdb", {nan})).find("is too large, or no number") != std::string::npos);
     auto steep = ball(0.5, {0, 0, 0}, 0.05f, "a");
     steep->tree().setValue(openvdb::Coord(10, 0, 0), 1e6f);
-    CHECK(said_of(folder.write("steep.vdb", {steep})).find("those of a level set are distances") != std::string::npos);
+    CHECK(said_of_level_set(folder.write("steep.vdb", {steep})).find("those of a level set are distances") !=
+          std::string::npos);
     auto many = openvdb::Int32Grid::create(0);
     for (int i = 0; i < 300; ++i) many->tree().setValue(openvdb::Coord(i, 0, 0), i);
     CHECK(said_of_labels(folder.write("m.vdb", {many})) == "it has more than 256 different numbers");
@@ -300,7 +266,7 @@ TEST_CASE("what is no level set is refused, with what is wrong") {
 }
 
 TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or read, in bounded memory") {
-    Folder folder;
+    const VdbFolder folder;
     const auto grid = ball(0.3, {0, 0, 0}, 0.05f, "ball");
     for (const std::uint32_t compression : {0u, 3u, 6u}) {
         const std::string whole = bytes_of(folder.write("whole.vdb", {grid}, compression));
@@ -310,7 +276,7 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
                                                : static_cast<std::size_t>(rng.below(static_cast<int>(whole.size())));
             if (length >= whole.size()) continue;
             CAPTURE(length);
-            CHECK(said_of(folder.write_bytes("cut.vdb", whole.substr(0, length))) != "nothing");
+            CHECK(said_of_level_set(folder.write_bytes("cut.vdb", whole.substr(0, length))) != "nothing");
         }
         std::size_t refused = 0;
         for (int k = 0; k < 400; ++k) {
@@ -322,7 +288,7 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
                 bytes[at] = static_cast<char>(rng.below(256));
             else
                 std::memset(&bytes[at], k % 4 == 1 ? 0xff : 0x7f, 4);
-            refused += said_of(folder.write_bytes("damaged.vdb", bytes)) != "nothing";
+            refused += said_of_level_set(folder.write_bytes("damaged.vdb", bytes)) != "nothing";
         }
         MESSAGE("of 400 damaged files ", refused, " were refused");
         CHECK(refused > 80);
@@ -332,13 +298,13 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
 // OpenVDB reads four bytes of a float, whatever length the file gives it, and goes on at another place than one who
 // believes the length. A file could hide there that it wants gigabytes.
 TEST_CASE("a number in a file's metadata has the length of its type") {
-    Folder folder;
+    const VdbFolder folder;
     auto grid = ball(0.5, {0, 0, 0}, 0.1f, "ball");
     grid->insertMeta("a_float", openvdb::FloatMetadata(1.5f));
     grid->insertMeta("a_matrix", openvdb::Mat4DMetadata(openvdb::Mat4d::identity()));
     grid->insertMeta("a_vector", openvdb::Vec3DMetadata(openvdb::Vec3d(1, 2, 3)));
     const std::string bytes = bytes_of(folder.write("right.vdb", {grid}));
-    REQUIRE(said_of(folder.write_bytes("copy.vdb", bytes)) == "nothing");
+    REQUIRE(said_of_level_set(folder.write_bytes("copy.vdb", bytes)) == "nothing");
     for (const std::string type : {"float", "mat4d", "vec3d"}) {
         CAPTURE(type);
         std::string wrong = bytes;
@@ -346,9 +312,11 @@ TEST_CASE("a number in a file's metadata has the length of its type") {
         const std::size_t at = wrong.find(stored, wrong.find("a_")) + stored.size();
         REQUIRE(at < wrong.size());
         wrong[at] = static_cast<char>(wrong[at] + 4);
-        CHECK(said_of(folder.write_bytes("wrong.vdb", wrong)) == "it is cut off, or damaged");
+        CHECK(said_of_level_set(folder.write_bytes("wrong.vdb", wrong)) == "it is truncated or damaged");
     }
 }
+
+}  // namespace test_openvdb
 
 #else
 

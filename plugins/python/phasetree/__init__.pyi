@@ -1576,8 +1576,8 @@ def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Fi
 
         max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
 
-    file: The OpenVDB file. Its grid must be a level set of floats or doubles whose voxels lie along the axes; lengths in it are metres. (name of a file)
-    grid: Which of the file's grids; needed if it has several level sets. (text; default "")
+    file: The OpenVDB file. Its grid must be a level set of floats or doubles whose axes lie along those of space, in any order and direction; lengths in it are metres. (name of a file)
+    grid: Which of the file's grids; needed if it has several level sets. If several have the same name, its index follows: "name[0]", "name[1]". (text; default "")
     """
 
 @overload
@@ -2214,13 +2214,13 @@ def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Seq
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the voxels
 
-    file: An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Images are grey, of 8 or 16 bits, are seen from above as height_map's are, and the object stands about the origin. (name of a file)
+    file: An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Images are grey, of integers of up to 32 bits, are seen from above as height_map's are, and the object stands about the origin. (name of a file)
     phases: The phases that there are. (list of phases)
     values: The whole numbers of the phases, in their order: 1, 2, 3 … if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
     empty: The whole numbers of the vacuum, unless they are a phase's; 0 if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
     spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; zero or more; default [0, 0, 0])
     smoothing: σ of the blur: 0 for none, when interfaces show the voxels' steps. (number in voxels; at least 0 and at most 4; default 1)
-    grid: Which of an OpenVDB file's grids; needed if it has several of whole numbers. (text; default "")
+    grid: Which of an OpenVDB file's grids; needed if it has several of whole numbers. If several have the same name, its index follows: "name[0]", "name[1]". (text; default "")
     """
 
 def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Object:
@@ -2818,8 +2818,8 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
 def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
     r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, and negative ones count as 0. Outside of the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then turned, then moved.
 
-    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which # stands for a digit of their numbers, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the stack is centred on the origin. (name of a file)
-    grid: Which of an OpenVDB file's grids; needed if it has several of numbers. (text; default "")
+    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which # stands for a digit of their numbers, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the stack is centred on the origin. (name of a file)
+    grid: Which of an OpenVDB file's grids; needed if it has several of numbers. If several have the same name, its index follows: "density[0]", "density[1]". (text; default "")
     spacing: From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own. ([x, y, z] in m; positive; default none)
     factor: What the numbers are multiplied by. (number; zero or more; default 1)
     scale: What its size is multiplied by. (number; positive; default 1)

@@ -24,7 +24,7 @@ void run_volume(Bytes input) {
     } catch (const std::runtime_error&) {
     }
     try {
-        const VoxelGrid numbers = tracer::read_number_grid(path, "");
+        const VoxelGrid numbers = tracer::read_number_grid(path, "").grid;
         const Bounds box = numbers.extent();
         const glm::vec3 at = box.low + 0.3f * box.extent();
         promised(voxels::linear_at(numbers.table.data(), Vec3<float>{at.x, at.y, at.z}) >= 0.0f,

@@ -103,7 +103,7 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
     // Values of fewer bits than a byte are spread over it.
     const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
-    return {spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits};
+    return {spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits, spec.format.is_signed()};
 }
 
 // A file to be read: its size, its first bytes, all of them from its beginning, and how OpenImageIO opens it.

@@ -22,12 +22,13 @@ struct ImageHeader {
     int channels = 0;
     bool is_floating_point = false;
     int bits = 0;  // of a value in the file
+    bool is_signed = false;
 };
 
 // `begin` gets the header before anything is decoded, once, and returns how many of the channels to read; it throws
 // std::runtime_error for an image that is not wanted. `add` gets the values of some rows at a time, the top ones first;
-// integers of any width are 0 to 1. Whatever is wrong with the file is std::runtime_error "cannot use the <what>
-// "<path>": …".
+// integers are divided by the greatest that their type can hold. Whatever is wrong with the file is std::runtime_error
+// "cannot use the <what> "<path>": …".
 void read_image(const std::filesystem::path& path, const std::string& what,
                 const std::function<int(const ImageHeader&)>& begin,
                 const std::function<void(std::span<const float>)>& add);

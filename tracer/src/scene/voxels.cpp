@@ -1,6 +1,7 @@
 #include "scene/voxels.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "parameters/world_limits.hpp"
 #include "volume/read_volume.hpp"
@@ -16,10 +17,12 @@ void Voxels::prepare() {
     if (!is_openvdb && !grid.empty())
         throw ParameterError("grid", "images have no grids that this could name", ParameterError::Place::key);
     const Placement placement(scale, rotate_z_degrees, translate, y_up);
-    const VoxelPlacement of_voxels{glm::dmat3(placement.linear()), glm::dvec3(translate)};
+    const glm::dmat3 linear(placement.linear());
     try {
-        shares.emplace(is_openvdb ? read_number_grid(file, grid) : read_number_stack(file, glm::dvec3(*spacing)),
-                       of_voxels);
+        PlacedVoxels voxels =
+            is_openvdb ? read_number_grid(file, grid) : PlacedVoxels{read_number_stack(file, glm::dvec3(*spacing))};
+        shares.emplace(std::move(voxels.grid),
+                       VoxelPlacement{linear * voxels.linear, linear * voxels.translation + glm::dvec3(translate)});
     } catch (const std::runtime_error& e) {  // of the file
         throw ParameterError("file", e.what());
     } catch (const std::invalid_argument& e) {  // of its place

@@ -38,12 +38,13 @@ struct Voxels {
         v(&P::file,
           Parameter{
               "file", "",
-              "An OpenVDB file (.vdb) with a grid of floats or doubles, whose voxels lie along the axes and whose "
-              "background is 0; or grey images, one for each layer from the lowest z to the highest: a name in "
-              "which # stands for a digit of their numbers, such as \"layer_###.png\". Integer grey values are "
-              "scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the "
-              "stack is centred on the origin."});
-        v(&P::grid, Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of numbers.",
+              "An OpenVDB file (.vdb) with a grid of floats or doubles, whose background is 0; or grey images, one "
+              "for each layer from the lowest z to the highest: a name in which # stands for a digit of their "
+              "numbers, such as \"layer_###.png\". Integer grey values are scaled to 0 … 1. The top row of an image "
+              "has the greatest y, and its left column the least x; the stack is centred on the origin."});
+        v(&P::grid, Parameter{"grid", "",
+                              "Which of an OpenVDB file's grids; needed if it has several of numbers. If several have "
+                              "the same name, its index follows: \"density[0]\", \"density[1]\".",
                               limits::any, true});
         v(&P::spacing,
           Parameter{"spacing", "m", "From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own.",

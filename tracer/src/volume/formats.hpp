@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 // openvdb.cpp, or no_openvdb.cpp in its place.
 VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::string& grid);
 LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string& grid);
-VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::string& grid);
+PlacedVoxels numbers_of_openvdb(const std::filesystem::path& path, const std::string& grid);
 
 LabelGrid labels_of_images(const std::filesystem::path& pattern);
 // They stand about the origin.

@@ -1,5 +1,5 @@
-// Voxels as images, one for each layer: of a segmented scan grey values of 8 or 16 bits are the voxels' numbers; of
-// what has more or less of something at each place they are how much, from 0 to 1, or floats.
+// Voxels as a stack of grey images, one per layer. In a segmented scan the grey values are labels, which are integers.
+// Otherwise they are quantities: integers are scaled to 0 … 1, and floats are taken as they are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -117,14 +117,22 @@ LabelGrid labels_of_images(const fs::path& path) {
     LabelGrid grid;
     grid.lattice.size[2] = static_cast<int>(layers.size());
     LabelNumbers numbers(grid);
-    float greatest = 255;
+    // The greatest integer of the images' type, by which read_image() divides.
+    double greatest = 255;
     const auto check = [&](const ImageHeader& header) {
-        if (header.is_floating_point || (header.bits != 8 && header.bits != 16))
-            throw std::runtime_error("labels are grey values of 8 or 16 bits");
+        if (header.is_floating_point || header.bits > 32)
+            throw std::runtime_error("labels are integers of at most 32 bits");
         check_is_grey(header, "labels");
-        greatest = header.bits == 8 ? 255.f : 65535.f;
+        greatest = std::exp2(header.is_signed ? header.bits - 1 : header.bits) - 1;
     };
-    const auto label = [&](float v) { return numbers.index_of(static_cast<std::int32_t>(std::lround(v * greatest))); };
+    // Floats tell integers of 32 bits apart as long as they are not greater.
+    constexpr double most = 1 << 20;
+    const auto label = [&](float v) {
+        const double number = std::round(static_cast<double>(v) * greatest);
+        if (!(std::abs(number) <= most))
+            throw std::runtime_error(fmt::format("it has a label beyond {}; renumber its labels", most));
+        return numbers.index_of(static_cast<std::int32_t>(number));
+    };
     for (const fs::path& layer : layers)
         add_layer(layer, layer == layers.front(), grid.lattice.size, grid.voxels, check, label);
     return grid;

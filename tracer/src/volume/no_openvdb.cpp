@@ -21,7 +21,7 @@ VoxelGrid level_set_of_openvdb(const std::filesystem::path&, const std::string&)
 LabelGrid labels_of_openvdb(const std::filesystem::path&, const std::string&) {
     refuse();
 }
-VoxelGrid numbers_of_openvdb(const std::filesystem::path&, const std::string&) {
+PlacedVoxels numbers_of_openvdb(const std::filesystem::path&, const std::string&) {
     refuse();
 }
 bool can_read_openvdb() {

@@ -1,8 +1,8 @@
 // Grids in OpenVDB files (Museth, "VDB: High-Resolution Sparse Volumes with Dynamic Topology", 2013), by the OpenVDB
-// library. Its headers are heavy, and are included here alone.
+// library. Its headers are large, so only this file includes them.
 //
 // A grid's values are in leaves of 8³ voxels and in tiles of one value; blocks of a VoxelGrid are laid on the leaves.
-// OpenVDB believes what a file claims, so vdb_structure.hpp looks at the claims first.
+// OpenVDB trusts files, so vdb_structure.hpp checks them first.
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
 #include <openvdb/math/Maps.h>
@@ -10,13 +10,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <glm/glm.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "phasetree_support/reading.hpp"
 #include "volume/formats.hpp"
 #include "volume/label_numbers.hpp"
 #include "volume/number_grid.hpp"
+#include "volume/vdb_choice.hpp"
+#include "volume/vdb_lattice.hpp"
 #include "volume/vdb_structure.hpp"
 
 namespace phasetree::tracer {
@@ -37,12 +40,8 @@ auto by_openvdb(const Read& read) {
     }
 }
 
-// What one of several kinds of grids is called in sentences.
 std::string kind_of(const GridBase& grid) {
-    const std::string& type = grid.valueType();
-    for (const char* known : {"float", "double", "bool", "int32", "int64", "vec3s", "vec3d", "vec3i", "ptdataidx32"})
-        if (type == known) return fmt::format("a grid of {}", known);
-    return "a grid of another kind";
+    return fmt::format("a grid of {}", grid.valueType());
 }
 
 bool is_level_set(const GridBase& grid) {
@@ -62,9 +61,8 @@ std::string why_no_level_set(const GridBase& grid) {
     if (!grid.isType<openvdb::FloatGrid>() && !grid.isType<openvdb::DoubleGrid>())
         return fmt::format("it is {}, but a level set has floats or doubles", kind_of(grid));
     if (grid.getGridClass() == openvdb::GRID_FOG_VOLUME)
-        return "it is a fog volume, not a level set: the \"density_grid\" of a material takes it as it is, and "
-               "OpenVDB's "
-               "tools make a level set of it with the isovalue that is wanted";
+        return "it is a fog volume, not a level set: use it as the \"density_grid\" of a material, or convert it to a "
+               "level set with OpenVDB's tools";
     return "it is not marked as a level set (its \"class\")";
 }
 std::string why_no_labels(const GridBase& grid) {
@@ -76,13 +74,7 @@ std::string why_no_numbers(const GridBase& grid) {
     return fmt::format("it is {}, but numbers are floats or doubles", kind_of(grid));
 }
 
-// What wanted grids are called in sentences.
-struct GridsCalled {
-    const char* one;
-    const char* several;
-};
-
-// Reads the grid of a name, or the only one that will do.
+// Reads the grid of a name, or the only one that is wanted.
 template <class IsWanted, class WhyNot>
 GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& name, const GridsCalled& called,
                         const IsWanted& is_wanted, const WhyNot& why_not) {
@@ -90,69 +82,28 @@ GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& na
     openvdb::io::File file(path.string());
     file.setCopyMaxBytes(0);
     file.open(false);
-    std::vector<std::string> wanted;
-    std::optional<std::string> refused;
-    std::size_t all = 0;
-    const openvdb::GridPtrVecPtr grids = file.readAllGridMetadata();
-    for (const GridBase::Ptr& grid : *grids) {
-        ++all;
-        if (!name.empty() && grid->getName() != name) continue;
-        if (is_wanted(*grid))
-            wanted.push_back(grid->getName());
-        else if (!refused)
-            refused = why_not(*grid);
-    }
-    if (!name.empty() && wanted.empty())
-        throw std::runtime_error(refused    ? fmt::format("of its grid \"{}\": {}", name, *refused)
-                                 : all == 1 ? fmt::format("its only grid is not called \"{}\"", name)
-                                            : fmt::format("none of its {} grids is called \"{}\"", all, name));
-    if (all == 0) throw std::runtime_error("it has no grids");
-    if (wanted.empty())
-        throw std::runtime_error(all == 1 ? *refused : fmt::format("none of its {} grids is {}", all, called.one));
-    if (wanted.size() > 1)
-        throw std::runtime_error(
-            name.empty() ? fmt::format("{} of its grids are {}: \"grid\" must name one", wanted.size(), called.several)
-                         : fmt::format("{} of its grids are called \"{}\"", wanted.size(), name));
-    GridBase::Ptr grid = file.readGrid(wanted.front());
+    GridBase::Ptr grid = file.readGrid(chosen_grid(grids_of(file), name, called, is_wanted, why_not));
+    // Names in a damaged file may lead to another grid.
+    if (!is_wanted(*grid)) throw std::runtime_error("it is damaged: two of its grids have the same name and index");
     std::error_code ignored;
     support::ReadingPlace().finished(std::filesystem::file_size(path, ignored));
     return grid;
 }
 
-// Where a grid's voxels are; they must lie along the axes. `box` are the voxels that are taken of it.
-VoxelLattice lattice_of(const GridBase& grid, const CoordBBox& box) {
-    const openvdb::math::Transform& map = grid.transform();
-    const openvdb::Vec3d origin = map.indexToWorld(openvdb::Vec3d(0, 0, 0));
-    VoxelLattice lattice;
-    for (int i = 0; i < 3; ++i) {
-        openvdb::Vec3d along(0, 0, 0);
-        along[i] = 1;
-        const openvdb::Vec3d step = map.indexToWorld(along) - origin;
-        for (int j = 0; j < 3; ++j)
-            if (i == j ? !(step[j] > 0) : std::abs(step[j]) > 1e-9 * std::abs(step[i]))
-                throw std::runtime_error(
-                    "its voxels do not lie along the axes: a turned grid must be stored as it was before it was "
-                    "turned, and be turned in the scene");
-        lattice.spacing[i] = step[i];
-        const long long size = static_cast<long long>(box.max()[i]) - box.min()[i] + 1;
-        if (!map.isLinear()) throw std::runtime_error("its voxels are not of one size");
-        if (size > VoxelGrid::most_along_axis)
-            throw std::runtime_error(
-                fmt::format("it has {} voxels along an axis; at most {} can be", size, VoxelGrid::most_along_axis));
-        lattice.size[static_cast<std::size_t>(i)] = static_cast<int>(size);
-        lattice.first[i] = origin[i] + step[i] * box.min()[i];
-    }
-    return lattice;
-}
-
-// The active voxels and some around, from and up to whole leaves.
-CoordBBox active_leaves(const GridBase& grid, int around) {
+// The active voxels and some around them.
+CoordBBox active_voxels(const GridBase& grid, int around) {
     CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) throw std::runtime_error("its grid has no active voxels");
     constexpr int far = 1 << 30;
     for (int i = 0; i < 3; ++i)
         if (box.min()[i] < -far || box.max()[i] > far) throw std::runtime_error("it has voxels too far away");
     box.expand(around);
+    return box;
+}
+
+// The same, extended to whole leaves.
+CoordBBox active_leaves(const GridBase& grid, int around) {
+    CoordBBox box = active_voxels(grid, around);
     for (int i = 0; i < 3; ++i) {
         box.min()[i] &= ~7;
         box.max()[i] |= 7;
@@ -160,18 +111,18 @@ CoordBBox active_leaves(const GridBase& grid, int around) {
     return box;
 }
 
-// The values of the voxels in a box, which all leaves are within, of active_leaves().
+// The values of voxels in the order of a lattice, whose blocks are leaves as those of active_leaves() are.
 template <class Grid, class Value>
-VoxelGrid voxels_of(const Grid& grid, const CoordBBox& box, const VoxelLattice& lattice, const char* who,
-                    const Value& value) {
+VoxelGrid voxels_of(const Grid& grid, const OrderedLattice& voxels, const char* who, const Value& value) {
     const auto at = grid.getConstAccessor();
-    return VoxelGrid::make(who, lattice, [&](const std::array<int, 3>& before, std::span<float, 1000> values) {
-        const openvdb::Coord corner = box.min().offsetBy(before[0], before[1], before[2]);
-        const float first = value(at.getValue(corner.offsetBy(1)));
+    return VoxelGrid::make(who, voxels.lattice, [&](const std::array<int, 3>& before, std::span<float, 1000> values) {
+        const auto voxel = [&](int x, int y, int z) {
+            return voxels.order(before[0] + x, before[1] + y, before[2] + z);
+        };
+        const float first = value(at.getValue(voxel(1, 1, 1)));
         bool is_flat = true;
         for (int i = 0; i < 27 && is_flat; ++i) {
-            const openvdb::Coord there =
-                corner.offsetBy(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
+            const openvdb::Coord there = voxel(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
             is_flat = !at.probeConstLeaf(there) && value(at.getValue(there)) == first;
         }
         if (is_flat) {
@@ -181,7 +132,7 @@ VoxelGrid voxels_of(const Grid& grid, const CoordBBox& box, const VoxelLattice& 
         float* to = values.data();
         for (int z = 0; z < 10; ++z)
             for (int y = 0; y < 10; ++y)
-                for (int x = 0; x < 10; ++x) *to++ = value(at.getValue(corner.offsetBy(x, y, z)));
+                for (int x = 0; x < 10; ++x) *to++ = value(at.getValue(voxel(x, y, z)));
     });
 }
 
@@ -189,43 +140,55 @@ template <class Grid>
 VoxelGrid level_set_of(const Grid& grid) {
     // The background is all around.
     const CoordBBox box = active_leaves(grid, 1);
-    const VoxelLattice lattice = lattice_of(grid, box);
-    const glm::dvec3& h = lattice.spacing;
-    if (std::abs(h.x - h.y) > 1e-6 * h.x || std::abs(h.x - h.z) > 1e-6 * h.x)
-        throw std::runtime_error("its voxels are no cubes");
     if (!(static_cast<double>(grid.background()) > 0))
         throw std::runtime_error("its background is not positive, so that it has no outside");
     // What is next to the box is the background.
-    return voxels_of(grid, box, lattice, "volume", [](auto v) { return static_cast<float>(v); });
+    return voxels_of(grid, lattice_of(grid, box), "volume", [](auto v) { return static_cast<float>(v); });
+}
+
+// Numbers may be in a rotated or sheared grid. Its own space then has axes along those of the index space, with the
+// same unit of length as the world.
+OrderedLattice lattice_of_own_space(const GridBase& grid, const CoordBBox& box, PlacedVoxels& placed) {
+    if (auto found = lattice_along_axes(grid, box)) return *std::move(found);
+    OrderedLattice own{{.size = size_of(box)}, VoxelOrder(box)};
+    placed.linear = steps_of(grid);
+    for (int i = 0; i < 3; ++i) {
+        own.lattice.spacing[i] = glm::length(placed.linear[i]);
+        placed.linear[i] /= own.lattice.spacing[i];
+    }
+    placed.translation = centre_of(grid, box.min());
+    return own;
 }
 
 template <class Grid>
-VoxelGrid numbers_of(const Grid& grid) {
+PlacedVoxels numbers_of(const Grid& grid) {
+    PlacedVoxels placed;
     // A frame of a simulation may have nothing yet.
-    if (grid.evalActiveVoxelBoundingBox().empty()) return number_grid({.size = {1, 1, 1}}, {0.0f});
+    if (grid.evalActiveVoxelBoundingBox().empty()) {
+        placed.grid = number_grid({.size = {1, 1, 1}}, {0.0f});
+        return placed;
+    }
     if (static_cast<double>(grid.background()) != 0)
         throw std::runtime_error("its background is not 0, so that it is without end");
-    const CoordBBox box = active_leaves(grid, 1);
-    return voxels_of(grid, box, lattice_of(grid, box), "voxels",
-                     [](auto v) { return number_at_voxel(static_cast<float>(v)); });
+    const OrderedLattice lattice = lattice_of_own_space(grid, active_leaves(grid, 1), placed);
+    placed.grid = voxels_of(grid, lattice, "voxels", [](auto v) { return number_at_voxel(static_cast<float>(v)); });
+    return placed;
 }
 
 template <class Grid>
 LabelGrid labels_of(const Grid& grid) {
-    CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    if (box.empty()) throw std::runtime_error("its grid has no active voxels");
-    // What is around is the background, so that what is next to it has a surface.
-    box.expand(2);
+    // The background around them gives the outermost voxels a surface.
+    const auto [lattice, order] = lattice_of(grid, active_voxels(grid, 2));
     LabelGrid found;
-    found.lattice = lattice_of(grid, box);
+    found.lattice = lattice;
     found.has_spacing = true;
-    found.voxels.reserve(checked_count(found.lattice.size));
+    found.voxels.reserve(checked_count(lattice.size));
     LabelNumbers numbers(found);
     const auto at = grid.getConstAccessor();
-    for (int z = box.min().z(); z <= box.max().z(); ++z)
-        for (int y = box.min().y(); y <= box.max().y(); ++y)
-            for (int x = box.min().x(); x <= box.max().x(); ++x) {
-                const auto number = static_cast<std::int64_t>(at.getValue({x, y, z}));
+    for (int z = 0; z < lattice.size[2]; ++z)
+        for (int y = 0; y < lattice.size[1]; ++y)
+            for (int x = 0; x < lattice.size[0]; ++x) {
+                const auto number = static_cast<std::int64_t>(at.getValue(order(x, y, z)));
                 if (number != static_cast<std::int32_t>(number))
                     throw std::runtime_error("it has a number that does not fit into 32 bits");
                 found.voxels.push_back(numbers.index_of(static_cast<std::int32_t>(number)));
@@ -246,15 +209,16 @@ VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::str
 LabelGrid labels_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
         const GridBase::Ptr grid =
-            read_grid(path, name, {"one of whole numbers", "of whole numbers"}, has_whole_numbers, why_no_labels);
+            read_grid(path, name, {"a grid of integers", "grids of integers"}, has_whole_numbers, why_no_labels);
         if (const auto ints = openvdb::gridConstPtrCast<openvdb::Int32Grid>(grid)) return labels_of(*ints);
         return labels_of(*openvdb::gridConstPtrCast<openvdb::Int64Grid>(grid));
     });
 }
 
-VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::string& name) {
+PlacedVoxels numbers_of_openvdb(const std::filesystem::path& path, const std::string& name) {
     return by_openvdb([&] {
-        const GridBase::Ptr grid = read_grid(path, name, {"one of numbers", "of numbers"}, has_numbers, why_no_numbers);
+        const GridBase::Ptr grid =
+            read_grid(path, name, {"a grid of numbers", "grids of numbers"}, has_numbers, why_no_numbers);
         if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return numbers_of(*floats);
         return numbers_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
     });

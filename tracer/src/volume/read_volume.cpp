@@ -47,7 +47,7 @@ LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& 
     });
 }
 
-VoxelGrid read_number_grid(const std::filesystem::path& path, const std::string& grid) {
+PlacedVoxels read_number_grid(const std::filesystem::path& path, const std::string& grid) {
     return named(path, "voxels", [&] { return numbers_of_openvdb(path, grid); });
 }
 

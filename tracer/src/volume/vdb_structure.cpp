@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -66,7 +68,7 @@ class Bytes {
         read(text.data(), length);
         return text;
     }
-    [[noreturn]] static void cut_off() { throw std::runtime_error("it is cut off, or damaged"); }
+    [[noreturn]] static void cut_off() { throw std::runtime_error("it is truncated or damaged"); }
 
   private:
     void read(void* to, std::uint64_t count) {
@@ -93,32 +95,40 @@ std::optional<std::uint32_t> metadata_bytes(const std::string& type) {
     return std::nullopt;
 }
 
-// So many values as they are, or, behind a length that is not 0, packed by Blosc: a head of sixteen bytes, which has
-// the unpacked and the packed length at its bytes 4 and 12, and the rest. Returns the bytes that were skipped.
-std::uint64_t skip_packed(Bytes& file, std::uint32_t packed, std::uint64_t unpacked) {
-    if (packed == 0) {
-        file.skip(unpacked);
-        return unpacked;
-    }
+// Skips `packed` bytes that Blosc compressed: a header of 16 bytes, with the unpacked length at byte 4 and the packed
+// one at byte 12, and the data. Blosc believes its header, so neither length may be more than there is room for.
+void skip_blosc(Bytes& file, std::uint64_t packed, std::initializer_list<std::uint64_t> allowed_unpacked) {
     if (packed < 16) Bytes::cut_off();
     file.skip(4);
-    if (file.number<std::uint32_t>() != unpacked) Bytes::cut_off();
+    const std::uint64_t unpacked = file.number<std::uint32_t>();
     file.skip(4);
-    if (file.number<std::uint32_t>() != packed) Bytes::cut_off();
+    if (file.number<std::uint32_t>() > packed || std::ranges::count(allowed_unpacked, unpacked) == 0) Bytes::cut_off();
     file.skip(packed - 16);
-    return packed;
 }
 
-// What helps OpenVDB to read leaves later: of each a byte and, unless the length is the largest number, eight bytes.
+// Skips an array of the metadata below and returns its length in the file. `packed` is its length if it is compressed,
+// else 0. Arrays of less than 128 bytes are padded to 128 before they are compressed.
+std::uint64_t skip_array(Bytes& file, std::uint32_t packed, std::uint64_t bytes) {
+    constexpr std::uint64_t padded = 128;
+    if (packed == 0)
+        file.skip(bytes);
+    else
+        skip_blosc(file, packed, {bytes, bytes < padded ? padded : bytes});
+    return packed == 0 ? bytes : packed;
+}
+
+// Skips the metadata with which OpenVDB can load leaves when they are needed: one byte per leaf and, unless the second
+// length is the largest number, eight more. A later version may append to it.
 void skip_delayed_load(Bytes& file, std::uint32_t bytes) {
     if (bytes == 0) return;
     const auto leaves = file.number<std::uint32_t>();
-    // Each leaf takes 64 bytes of the file at least.
+    // Each leaf takes at least 64 bytes of the file.
     if (leaves > file.size() / 64) Bytes::cut_off();
-    std::uint64_t read = 12 + skip_packed(file, file.number<std::uint32_t>(), leaves);
+    std::uint64_t read = 12 + skip_array(file, file.number<std::uint32_t>(), leaves);
     if (const auto packed = file.number<std::uint32_t>(); packed != 0xFFFFFFFF)
-        read += skip_packed(file, packed, std::uint64_t{leaves} * 8);
-    if (read != bytes) Bytes::cut_off();
+        read += skip_array(file, packed, std::uint64_t{leaves} * 8);
+    if (read > bytes) Bytes::cut_off();
+    file.skip(bytes - read);
 }
 
 // A list of names, types and values.
@@ -160,7 +170,7 @@ void skip_transform(Bytes& file) {
         type = file.text();
     }
     const auto doubles = doubles_of_linear_transform(type);
-    if (!doubles) throw std::runtime_error("its voxels are not of one size");
+    if (!doubles) throw std::runtime_error("it has a grid with a transform of an unknown kind");
     file.skip(8 * *doubles);
 }
 
@@ -176,11 +186,33 @@ struct Mask {
     }
 };
 
+struct ValueBytes {
+    unsigned in_memory, in_file;
+};
+
+// The size of a value in a tree of this type; nothing if grids of the type are not read. OpenVDB can store
+// floating-point numbers as halves. It gives the type of such a grid a suffix, even if its values are integers, which
+// it stores as they are.
+std::optional<ValueBytes> value_bytes_of(const std::string& type) {
+    for (const auto& [name, bytes] : {std::pair{"float", 4u}, std::pair{"double", 8u}}) {
+        if (type == fmt::format("Tree_{}_5_4_3", name)) return ValueBytes{bytes, bytes};
+        if (type == fmt::format("Tree_{}_5_4_3_HalfFloat", name)) return ValueBytes{bytes, 2};
+    }
+    for (const auto& [name, bytes] : {std::pair{"int32", 4u}, std::pair{"int64", 8u}})
+        if (type == fmt::format("Tree_{}_5_4_3", name) || type == fmt::format("Tree_{}_5_4_3_HalfFloat", name))
+            return ValueBytes{bytes, bytes};
+    return std::nullopt;
+}
+
 // One grid's tree: a root, nodes of 32³ and of 16³ places, and leaves of 8³.
 class TreeWalk {
   public:
-    TreeWalk(Bytes& file, std::uint32_t compression, unsigned value_bytes, unsigned stored_bytes)
-        : file_(file), compression_(compression), value_bytes_(value_bytes), stored_bytes_(stored_bytes) {}
+    TreeWalk(Bytes& file, std::uint32_t compression, const ValueBytes& bytes)
+        : file_(file),
+          compression_(compression),
+          value_bytes_(bytes.in_memory),
+          stored_bytes_(bytes.in_file),
+          has_halves_(bytes.in_file != bytes.in_memory) {}
 
     void operator()() {
         file_.skip(4);             // the number of buffers, once
@@ -220,12 +252,14 @@ class TreeWalk {
         if (how >= 3 && how <= 5) file_.skip(places / 8);
         const bool is_short = (compression_ & active_mask) != 0 && how != 6;
         const std::uint64_t bytes = (is_short ? is_active.count() : places) * stored_bytes_;
-        // Of halves none are read if there are none.
-        if (bytes == 0 && stored_bytes_ != value_bytes_) return;
+        // An empty array of halves has not even a length.
+        if (bytes == 0 && has_halves_) return;
         if ((compression_ & (zip | blosc)) == 0) return file_.skip(bytes);
         const auto packed = file_.number<std::int64_t>();
+        if (packed > 0 && (compression_ & blosc) != 0)
+            return skip_blosc(file_, static_cast<std::uint64_t>(packed), {bytes});
         if (packed > 0) return file_.skip(static_cast<std::uint64_t>(packed));
-        // A number that is not above zero says that the bytes are there as they are, and minus how many.
+        // Uncompressed values follow minus their length.
         if (0 - static_cast<std::uint64_t>(packed) != bytes) Bytes::cut_off();
         file_.skip(bytes);
     }
@@ -238,26 +272,16 @@ class TreeWalk {
     Bytes& file_;
     std::uint32_t compression_;
     unsigned value_bytes_, stored_bytes_;
+    bool has_halves_;
     std::uint64_t leaves_ = 0, paid_ = 0;
 };
 
-// How many bytes a value of a grid of this type has; nothing if the type is none that is read.
-std::optional<unsigned> value_bytes_of(const std::string& type) {
-    for (const auto& [name, bytes] :
-         {std::pair{"float", 4u}, std::pair{"double", 8u}, std::pair{"int32", 4u}, std::pair{"int64", 8u}})
-        if (type == fmt::format("Tree_{}_5_4_3", name)) return bytes;
-    return std::nullopt;
-}
-
-void check_grid(Bytes& file, std::string type, bool is_instance) {
-    const std::string half = "_HalfFloat";
-    const bool is_half = type.ends_with(half);
-    if (is_half) type.resize(type.size() - half.size());
+void check_grid(Bytes& file, const std::string& type, bool is_instance) {
     const auto compression = file.number<std::uint32_t>();
     skip_metadata(file);
     skip_transform(file);
-    const std::optional<unsigned> bytes = value_bytes_of(type);
-    if (bytes && !is_instance) TreeWalk(file, compression, *bytes, is_half ? 2 : *bytes)();
+    const std::optional<ValueBytes> bytes = value_bytes_of(type);
+    if (bytes && !is_instance) TreeWalk(file, compression, *bytes)();
 }
 
 }  // namespace

@@ -48,10 +48,13 @@ struct Volume {
     template <class V>
     static void parameters(V&& v) {
         v(&Volume::file, Parameter{"file", "",
-                                   "The OpenVDB file. Its grid must be a level set of floats or doubles whose voxels "
-                                   "lie along the axes; lengths in it are metres."});
+                                   "The OpenVDB file. Its grid must be a level set of floats or doubles whose axes lie "
+                                   "along those of space, in any order and direction; lengths in it are metres."});
         v(&Volume::grid,
-          Parameter{"grid", "", "Which of the file's grids; needed if it has several level sets.", limits::any, true});
+          Parameter{"grid", "",
+                    "Which of the file's grids; needed if it has several level sets. If several have the same name, "
+                    "its index follows: \"name[0]\", \"name[1]\".",
+                    limits::any, true});
     }
     /// Which part of the file is read.
     std::string part_of_file() const { return grid; }

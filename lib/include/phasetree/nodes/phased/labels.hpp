@@ -78,7 +78,8 @@ struct Labels {
               "file", "",
               "An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the "
               "highest: a name in which #### stands for their numbers, such as \"layer_###.png\". Images are grey, "
-              "of 8 or 16 bits, are seen from above as height_map's are, and the object stands about the origin."});
+              "of integers of up to 32 bits, are seen from above as height_map's are, and the object stands about the "
+              "origin."});
         v(&Labels::of_phases, Parameter{"phases", "", "The phases that there are."});
         v(&Labels::values,
           Parameter{"values", "", "The whole numbers of the phases, in their order: 1, 2, 3 … if left out.",
@@ -93,7 +94,9 @@ struct Labels {
           Parameter{"smoothing", "voxels", "σ of the blur: 0 for none, when interfaces show the voxels' steps.",
                     Limits{.low = 0, .high = 4}, true});
         v(&Labels::grid,
-          Parameter{"grid", "", "Which of an OpenVDB file's grids; needed if it has several of whole numbers.",
+          Parameter{"grid", "",
+                    "Which of an OpenVDB file's grids; needed if it has several of whole numbers. If several have the "
+                    "same name, its index follows: \"name[0]\", \"name[1]\".",
                     limits::any, true});
     }
     /// Which part of the file is read.
