@@ -12,6 +12,7 @@
 
 #include "io/ply.hpp"
 #include "io/read_file.hpp"
+#include "io/utf8.hpp"
 #include "io/words.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree_support/reading.hpp"
@@ -93,16 +94,16 @@ BallList read_ball_ply(const std::filesystem::path& path, std::string_view conte
 }
 
 BallList read_ball_csv(const std::filesystem::path& path, std::string_view content) {
-    std::size_t number = 0, at = 0;
+    std::size_t number = 0, at = content.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     const auto fail = [&](std::string_view what) {
         return SceneError(path.string(), fmt::format("{} (line {})", what, number));
     };
-    // The next line that has anything; nothing at the end.
+    // The next line that has anything; nothing at the end. Lines end with a line feed, a carriage return, or both.
     const auto next_line = [&]() -> std::optional<std::string_view> {
         while (at < content.size()) {
-            const std::size_t end = std::min(content.find('\n', at), content.size());
+            const std::size_t end = std::min(content.find_first_of("\r\n", at), content.size());
             const std::string_view line = without_blanks(content.substr(at, end - at));
-            at = end + 1;
+            at = end + (content.substr(end).starts_with("\r\n") ? 2 : 1);
             ++number;
             if (!line.empty() && line.front() != '#') return line;
         }
@@ -110,7 +111,6 @@ BallList read_ball_csv(const std::filesystem::path& path, std::string_view conte
     };
     std::optional<std::string_view> line = next_line();
     if (!line) throw SceneError(path.string(), "has no lines");
-    if (line->starts_with("\xef\xbb\xbf")) line->remove_prefix(3);  // a byte order mark
     ColumnIndices indices;
     std::size_t columns = 0;
     for (; !line->empty(); ++columns) {

@@ -19,12 +19,18 @@ namespace phasetree::io {
 
 namespace {
 
-// The index that a corner of a face names: a number from 1, or one that counts back from the last so far.
-std::optional<std::uint32_t> index_of(std::string_view word, std::size_t size) {
+// The index that a corner of a face names: a number from 1, or one that counts back from the last before the face.
+std::optional<std::uint32_t> index_of(std::string_view word, std::size_t size, std::size_t before) {
     const auto number = number_of<std::int64_t>(word);
-    const auto count = static_cast<std::int64_t>(size);
-    if (!number || *number == 0 || *number > count || *number < -count) return std::nullopt;
-    return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : count + *number);
+    const auto all = static_cast<std::int64_t>(size), back = static_cast<std::int64_t>(before);
+    if (!number || *number == 0 || *number > all || *number < -back) return std::nullopt;
+    return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : back + *number);
+}
+
+// Whether a corner names what is not among so many.
+bool is_beyond(std::string_view word, std::size_t size) {
+    const auto number = number_of<std::int64_t>(word);
+    return number && *number > 0 && static_cast<std::uint64_t>(*number) > size;
 }
 
 // The parts of a corner "vertex/texture/normal", of which the last two may be empty or missing.
@@ -50,20 +56,21 @@ class ObjReader {
         : path_(path), words_(content, Words::Rules::obj), most_triangles_(most_triangles) {}
 
     MeshFile read() {
-        support::ReadingPlace place;
         while (words_.next_line()) {
-            place.reached(words_.offset());
+            place_.reached(words_.offset());
             const std::string_view kind = words_.word();
-            if (kind == "v")
-                add_vertex();
-            else if (kind == "vt")
-                file_.texture.values.push_back(numbers_or_zero<2>(1, "a vt line needs a number"));
-            else if (kind == "vn")
-                file_.normals.values.push_back(numbers_or_zero<3>(3, "a vn line needs three numbers"));
-            else if (kind == "f")
-                add_face();
+            if (kind != "f") {
+                if (!is_ahead_) add_values(kind);
+                count(kind);
+                continue;
+            }
+            const Words at_face = words_;
+            if (add_face() || is_ahead_) continue;
+            read_ahead();
+            words_ = at_face;
+            (void)add_face();
         }
-        place.finished(words_.offset());
+        place_.finished(words_.offset());
         absent_.place(file_.mesh);
         drop_unless_complete(file_.texture, file_.mesh);
         fill_normals();
@@ -74,6 +81,27 @@ class ObjReader {
   private:
     [[noreturn]] void fail(std::string_view what) const {
         throw SceneError(path_.string(), fmt::format("{} (line {})", what, words_.number()));
+    }
+
+    void add_values(std::string_view kind) {
+        if (kind == "v")
+            add_vertex();
+        else if (kind == "vt")
+            file_.texture.values.push_back(numbers_or_zero<2>(1, "a vt line needs a number"));
+        else if (kind == "vn")
+            file_.normals.values.push_back(numbers_or_zero<3>(3, "a vn line needs three numbers"));
+    }
+    void count(std::string_view kind) {
+        for (std::size_t i = 0; i < kinds.size(); ++i) before_[i] += kind == kinds[i] ? 1u : 0u;
+    }
+
+    // Reads all vertices and their values, up to the end of the file, because a face names one that follows it.
+    void read_ahead() {
+        while (words_.next_line()) {
+            place_.reached(words_.offset());
+            add_values(words_.word());
+        }
+        is_ahead_ = true;
     }
 
     // Programs write normals that are no numbers where faces have no area, and coordinates of one number. But so many
@@ -136,27 +164,34 @@ class ObjReader {
                 colors, [](const glm::vec3& c) { return std::isnan(c.x); }, glm::vec3(0));
     }
 
-    // Reads the corners of a face; false if there are too few for a triangle. Programs write such, of loose edges.
-    bool read_corners() {
+    enum class Corners { complete, too_few, named_later };
+
+    // Reads the corners of a face. Programs write faces of too few for a triangle, of loose edges.
+    Corners read_corners() {
         vertices_.clear(), textures_.clear(), normals_.clear(), places_.clear();
         for (std::string_view word; !(word = words_.word()).empty();) {
             if (vertices_.size() == most_corners_of_face) fail("a face has more than a million corners");
             const auto [vertex, texture, normal] = parts_of(word);
-            const auto index = index_of(vertex, file_.mesh.vertices.size());
+            const std::size_t of_texture = file_.texture.values.size(), of_normals = file_.normals.values.size();
+            if (!is_ahead_ && (is_beyond(vertex, file_.mesh.vertices.size()) || is_beyond(texture, of_texture) ||
+                               is_beyond(normal, of_normals)))
+                return Corners::named_later;
+            const auto index = index_of(vertex, file_.mesh.vertices.size(), before_[0]);
             if (!index) fail("a face names a vertex that does not exist");
             vertices_.push_back(*index);
             places_.push_back(file_.mesh.vertices[*index]);
-            if (const auto t = index_of(texture, file_.texture.values.size())) textures_.push_back(*t);
-            if (const auto n = index_of(normal, file_.normals.values.size())) normals_.push_back(*n);
+            if (const auto t = index_of(texture, of_texture, before_[1])) textures_.push_back(*t);
+            if (const auto n = index_of(normal, of_normals, before_[2])) normals_.push_back(*n);
         }
-        if (vertices_.size() < 3) return false;
+        if (vertices_.size() < 3) return Corners::too_few;
         if (std::ranges::any_of(vertices_, [&](std::uint32_t v) { return absent_.contain(v); }))
             fail(AbsentVertices::used);
-        return true;
+        return Corners::complete;
     }
 
-    void add_face() {
-        if (!read_corners()) return;
+    // Returns false if the face names what may follow it in the file.
+    bool add_face() {
+        if (const Corners corners = read_corners(); corners != Corners::complete) return corners == Corners::too_few;
         const auto add = [](std::vector<glm::uvec3>& to, const glm::uvec3& corners,
                             const std::vector<std::uint32_t>& from) {
             to.emplace_back(from[corners.x], from[corners.y], from[corners.z]);
@@ -171,14 +206,20 @@ class ObjReader {
             if (has_normals) add(file_.normals.triangles, corners, normals_);
         }
         check_triangles(path_, file_.mesh, most_triangles_);
+        return true;
     }
+
+    static constexpr std::array<std::string_view, 3> kinds{"v", "vt", "vn"};
 
     const std::filesystem::path& path_;
     Words words_;
     std::size_t most_triangles_;
+    support::ReadingPlace place_;
     MeshFile file_;
     AbsentVertices absent_;
     FaceDivider divider_;
+    std::array<std::size_t, 3> before_{};  // how many lines of each kind precede this one
+    bool is_ahead_ = false;                // whether all of them have been read
     // Of the corners of a face.
     std::vector<std::uint32_t> vertices_, textures_, normals_;
     std::vector<glm::vec3> places_;

@@ -90,9 +90,10 @@ void Ply::fail(std::string_view what) const {
 }
 void Ply::fail(const Element& element, std::string_view what) const {
     throw SceneError(path_.string(), fmt::format("{} (row {} of its {})", what, row_,
-                                                 element.name == "face"     ? "faces"
-                                                 : element.name == "vertex" ? "vertices"
-                                                                            : "elements"));
+                                                 element.name == "face"        ? "faces"
+                                                 : element.name == "tristrips" ? "triangle strips"
+                                                 : element.name == "vertex"    ? "vertices"
+                                                                               : "elements"));
 }
 
 void Ply::read_header() {

@@ -44,8 +44,14 @@ class Ply {
         for (row_ = 1; row_ <= element.rows; ++row_) {
             read_row(element, row);
             f(static_cast<const Row&>(row));
-            place_.reached(offset());
+            if (!is_second_) place_.reached(offset());
         }
+    }
+    /// A reader of the elements from here on, for those that are needed only after others. It reports no progress.
+    Ply second_reader() const {
+        Ply second = *this;
+        second.is_second_ = true;
+        return second;
     }
     /// To be called when all elements that are wanted have been asked for.
     void finish() { place_.finished(content_.size()); }
@@ -72,6 +78,7 @@ class Ply {
     Format format_{};
     std::vector<Element> elements_;
     std::uint64_t row_ = 0;
+    bool is_second_ = false;
     support::ReadingPlace place_;
 };
 

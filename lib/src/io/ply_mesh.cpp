@@ -49,27 +49,45 @@ class PlyReader {
         : path_(path), ply_(path, content), most_triangles_(most_triangles) {}
 
     MeshFile read() {
+        bool has_vertices = std::ranges::none_of(ply_.elements(), is_of_vertices);
+        std::vector<Later> later;
         for (const Ply::Element& element : ply_.elements()) {
-            if (element.name == "vertex" || element.name == "face") refuse_second(element);
-            if (element.name == "vertex")
-                read_vertices(element);
-            else if (element.name == "face")
-                read_faces(element);
-            else
+            const bool is_of_triangles = element.name == "face" || element.name == "tristrips";
+            if (is_of_triangles || is_of_vertices(element)) refuse_second(element);
+            if (is_of_triangles && has_vertices) {
+                read_triangles(ply_, element);
+                continue;
+            }
+            if (is_of_triangles) later.push_back({ply_.second_reader(), element});
+            if (!is_of_vertices(element)) {
                 ply_.for_each_row(element, [](const Ply::Row&) {});
+                continue;
+            }
+            read_vertices(element);
+            has_vertices = true;
+            for (Later& before : later) read_triangles(before.ply, before.element);
         }
         ply_.finish();
         absent_.place(file_.mesh);
+        if (!file_.texture.triangles.empty()) drop_unless_complete(file_.texture, file_.mesh);
         return std::move(file_);
     }
 
   private:
+    // Triangles that precede the vertices, and a reader that stands before them.
+    struct Later {
+        Ply ply;
+        const Ply::Element& element;
+    };
+
+    static bool is_of_vertices(const Ply::Element& element) { return element.name == "vertex"; }
+
     template <std::size_t count>
     glm::vec<static_cast<int>(count), float> numbers(const Ply::Element& element, const Ply::Row& row,
                                                      const Columns<count>& columns) const {
         glm::vec<static_cast<int>(count), float> p;
         for (std::size_t i = 0; i < count; ++i)
-            p[static_cast<int>(i)] = as_float(element, ply_.number(element, row, columns[i]));
+            p[static_cast<int>(i)] = as_float(ply_, element, ply_.number(element, row, columns[i]));
         return p;
     }
 
@@ -96,9 +114,9 @@ class PlyReader {
         return n;
     }
 
-    float as_float(const Ply::Element& element, double value) const {
+    static float as_float(const Ply& ply, const Ply::Element& element, double value) {
         if (!(std::abs(value) <= std::numeric_limits<float>::max()))
-            ply_.fail(element, "a number is missing, or is too large");
+            ply.fail(element, "a number is missing, or is too large");
         return static_cast<float>(value);
     }
 
@@ -126,27 +144,37 @@ class PlyReader {
         });
     }
 
-    void read_faces(const Ply::Element& element) {
+    void read_triangles(Ply& ply, const Ply::Element& element) {
         const auto list =
             element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
+        const bool are_strips = element.name == "tristrips";
+        if (!list)
+            throw SceneError(path_.string(),
+                             fmt::format("its {} have no vertex_indices", are_strips ? "triangle strips" : "faces"));
+        if (are_strips)
+            ply.for_each_row(element, [&](const Ply::Row& row) { read_strip(ply, element, row[*list]); });
+        else
+            read_faces(ply, element, *list);
+    }
+
+    void read_faces(Ply& ply, const Ply::Element& element, std::size_t list) {
         const auto texture = element.find("texcoord");
-        if (!list) throw SceneError(path_.string(), "its faces have no vertex_indices");
         // Those of the faces' corners are finer than those of the vertices, which count if no face has a list.
         AtCorners<glm::vec2> of_vertices;
         if (texture) of_vertices = std::exchange(file_.texture, {});
         std::vector<glm::vec3> places;
-        ply_.for_each_row(element, [&](const Ply::Row& row) {
-            const std::vector<double>& corners = row[*list];
+        ply.for_each_row(element, [&](const Ply::Row& row) {
+            const std::vector<double>& corners = row[list];
             if (corners.size() < 3) return;  // a loose vertex or edge
-            read_places(element, corners, places);
+            read_places(ply, element, corners, places);
             const auto first = static_cast<std::uint32_t>(file_.texture.values.size());
             const bool has_texture = texture && row[*texture].size() == 2 * corners.size();
             if (has_texture)
                 for (std::size_t i = 0; i < corners.size(); ++i)
-                    file_.texture.values.emplace_back(as_float(element, row[*texture][2 * i]),
-                                                      as_float(element, row[*texture][2 * i + 1]));
+                    file_.texture.values.emplace_back(as_float(ply, element, row[*texture][2 * i]),
+                                                      as_float(ply, element, row[*texture][2 * i + 1]));
             const auto triangles = divider_.triangles(places);
-            if (!triangles) ply_.fail(element, FaceDivider::takes_too_long);
+            if (!triangles) ply.fail(element, FaceDivider::takes_too_long);
             const auto at = [&](std::uint32_t i) { return static_cast<std::uint32_t>(corners[i]); };
             for (const glm::uvec3& t : *triangles) {
                 file_.mesh.triangles.emplace_back(at(t.x), at(t.y), at(t.z));
@@ -162,15 +190,42 @@ class PlyReader {
     }
 
     // Where the corners of a face are.
-    void read_places(const Ply::Element& element, const std::vector<double>& corners,
+    void read_places(const Ply& ply, const Ply::Element& element, const std::vector<double>& corners,
                      std::vector<glm::vec3>& places) const {
-        if (corners.size() > most_corners_of_face) ply_.fail(element, "a face has more than a million corners");
+        if (corners.size() > most_corners_of_face) ply.fail(element, "a face has more than a million corners");
         places.clear();
         for (const double c : corners) {
-            if (!(c >= 0 && c < static_cast<double>(file_.mesh.vertices.size())))
-                ply_.fail(element, "a face names a vertex that does not exist");
-            if (absent_.contain(static_cast<std::uint32_t>(c))) ply_.fail(element, AbsentVertices::used);
-            places.push_back(file_.mesh.vertices[static_cast<std::size_t>(c)]);
+            const std::uint32_t vertex = vertex_of(ply, element, c, "a face names a vertex that does not exist");
+            if (absent_.contain(vertex)) ply.fail(element, AbsentVertices::used);
+            places.push_back(file_.mesh.vertices[vertex]);
+        }
+    }
+
+    std::uint32_t vertex_of(const Ply& ply, const Ply::Element& element, double index,
+                            std::string_view otherwise) const {
+        if (!(index >= 0 && index < static_cast<double>(file_.mesh.vertices.size()))) ply.fail(element, otherwise);
+        return static_cast<std::uint32_t>(index);
+    }
+
+    // Each corner from the third on makes a triangle with the two before it, and every other triangle of a strip is
+    // turned over. A corner −1 begins the next strip. Programs repeat corners to go on elsewhere, and those triangles
+    // have no area.
+    void read_strip(const Ply& ply, const Ply::Element& element, const std::vector<double>& corners) {
+        glm::uvec3 last{};
+        std::size_t count = 0;
+        for (const double corner : corners) {
+            if (corner == -1) {
+                count = 0;
+                continue;
+            }
+            const std::uint32_t vertex =
+                vertex_of(ply, element, corner, "a triangle strip names a vertex that does not exist");
+            last = {last.y, last.z, vertex};
+            if (++count < 3 || last.x == last.y || last.y == last.z || last.z == last.x) continue;
+            for (int i = 0; i < 3; ++i)
+                if (absent_.contain(last[i])) ply.fail(element, AbsentVertices::used);
+            file_.mesh.triangles.push_back(count % 2 == 1 ? last : glm::uvec3(last.y, last.x, last.z));
+            check_triangles(path_, file_.mesh, most_triangles_);
         }
     }
 
