@@ -72,7 +72,7 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, con
 /* Tells a phase's material: that member of the scene's "phases", from brace to brace as it is written there but without
  * comments, so that any reader of JSON takes it. NULL for the vacuum, where the scene has something else than an object
  * in its place, and for trees that were built in C++. The library itself does not look at materials: what is in them is
- * between the scene's author and the application (the path tracer's are described in the project's README.md). Belongs
+ * between the scene's author and the application (the path tracer's are in scenes/nodes.md). Belongs
  * to the tree and lives as long; an edit may change it, as anything in the text ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
