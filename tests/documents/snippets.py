@@ -38,6 +38,12 @@ ALL = [block for document in DOCUMENTS for block in blocks(document)]
 # Blocks that no test runs. Raise this only for something that cannot be run at all.
 MOST_UNTESTED = 6
 
+# The comments that may stand above a block of each language; "" is none. Any block may be an excerpt, or untested.
+FORMS: dict[str, tuple[str, ...]] = {
+    "json": ("", "phases", "step"), "jsonc": ("", "phases", "step"), "sh": ("",), "console": ("",), "python": ("",),
+    "c": ("main",), "cpp": (), "cmake": (), "rooms": ("",), "text": ("", "output"),
+}
+
 PLAIN = {
     "version": 1,
     "phases": {"paper": {"diffuse": {"color": [0.5, 0.5, 0.5]}}},
@@ -85,7 +91,10 @@ def completed(members: dict) -> dict:
 
 class Snippets(unittest.TestCase):
     def of(self, *languages: str, directive: str | None = None) -> list[Block]:
-        return [b for b in ALL if b.language in languages and (directive is None or b.directive == directive)]
+        """The blocks in these languages, of which there must be some."""
+        found = [b for b in ALL if b.language in languages and (directive is None or b.directive == directive)]
+        self.assertTrue(found)
+        return found
 
     def run_scene(self, block: Block, scene: dict, render: bool) -> None:
         arguments = ["render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o", os.devnull + ".png"]
@@ -97,12 +106,12 @@ class Snippets(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}{done.stdout}")
 
     def test_languages_are_known(self):
-        known = {"json", "jsonc", "sh", "console", "python", "c", "cpp", "cmake", "rooms", "text"}
+        """A misspelt language or comment would leave a block untested."""
         self.assertGreater(len(ALL), 50)
         for block in ALL:
-            self.assertIn(block.language, known, block)
-            if block.language in ("cpp", "cmake"):
-                self.assertTrue(block.directive, f"{block}: say how it is tested")
+            self.assertIn(block.language, FORMS, block)
+            form = re.split(r" = |[ ,]", block.directive)[0]
+            self.assertIn(form, ("excerpt", "none", *FORMS[block.language]), block)
 
     def test_few_blocks_are_untested(self):
         untested = [b for b in ALL if b.directive.startswith("none")]
@@ -145,7 +154,7 @@ class Snippets(unittest.TestCase):
         for block in self.of("sh", directive=""):
             with self.subTest(str(block)), tempfile.TemporaryDirectory() as folder:
                 done = subprocess.run(["/bin/bash", "-eo", "pipefail", "-c", block.text], cwd=folder,
-                                      env=sandbox(folder), capture_output=True, text=True, timeout=120)
+                                      env=sandbox(folder), capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stdout}{done.stderr}")
 
     def test_consoles(self):
@@ -168,7 +177,7 @@ class Snippets(unittest.TestCase):
                 prelude = "import sys; sys.path.insert(0, %r); import small_pictures\n" % str(STUBS)
                 script = prelude + "".join(f"# {b}\n{b.text}" for b in parts)
                 done = subprocess.run([sys.executable, "-c", script], cwd=folder, env=sandbox(folder),
-                                      capture_output=True, text=True, timeout=300)
+                                      capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 0, f"{document}\n{done.stderr}")
                 for block in blocks(document):
                     if block.directive == "output":
