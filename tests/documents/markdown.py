@@ -3,10 +3,11 @@
 import dataclasses
 import pathlib
 import re
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-FENCE = re.compile(r"^```([\w+-]*)[^\n]*\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^ *```([\w+-]*)[^\n]*\n(.*?)^ *```$", re.M | re.S)
 DIRECTIVE = re.compile(r"<!-- test: ([^\n]*?) -->\n\Z")
 
 
@@ -48,7 +49,7 @@ def blocks(path: pathlib.Path) -> list[Block]:
     for match in FENCE.finditer(text):
         before = text[: match.start()]
         directive = DIRECTIVE.search(before)
-        found.append(Block(path, before.count("\n") + 1, match.group(1), match.group(2),
+        found.append(Block(path, before.count("\n") + 1, match.group(1), textwrap.dedent(match.group(2)),
                            directive.group(1) if directive else ""))
     return found
 
