@@ -6,7 +6,7 @@ What is done follows from the block's language, and from a comment `<!-- test: â
                 `phases`: the block has members of "phases". `step`: its members replace those of the scene before it in
                 the same document, and the result is checked and rendered. `step = FILE`: it is also what is in that file.
   sh            Run by bash in a folder of its own, where pictures are small and cmake, sbatch and the like are stubs
-                that check their arguments (stubs/).
+                that check their arguments (stubs/). `with FILE`: the scene above is in that file.
   console       Lines that begin with `$ ` are run; what follows them must be their output.
   python        All blocks of a document are run, one after the other, with small pictures.
   text          `output`: part of what the document's Python blocks print.
@@ -36,11 +36,11 @@ DOCUMENTS = sorted([ROOT / "README.md", ROOT / "scenes/README.md", ROOT / "plugi
                     ROOT / "plugins/python/README.md", *(ROOT / "tracer/manual").rglob("*.md")])
 ALL = [block for document in DOCUMENTS for block in blocks(document)]
 # Blocks that no test runs. Raise this only for something that cannot be run at all.
-MOST_UNTESTED = 6
+MOST_UNTESTED = 5
 
 # The comments that may stand above a block of each language; "" is none. Any block may be an excerpt, or untested.
 FORMS: dict[str, tuple[str, ...]] = {
-    "json": ("", "phases", "step"), "jsonc": ("", "phases", "step"), "sh": ("",), "console": ("",), "python": ("",),
+    "json": ("", "phases", "step"), "jsonc": ("", "phases", "step"), "sh": ("", "with"), "console": ("",), "python": ("",),
     "c": ("main",), "cpp": (), "cmake": (), "rooms": ("",), "text": ("", "output"),
 }
 
@@ -151,8 +151,14 @@ class Snippets(unittest.TestCase):
                 self.run_scene(block, scene, "version" in members or is_step == "step")
 
     def test_shell(self):
-        for block in self.of("sh", directive=""):
+        for block in self.of("sh"):
+            form, _, name = block.directive.partition(" ")
+            if form not in ("", "with"):
+                continue
             with self.subTest(str(block)), tempfile.TemporaryDirectory() as folder:
+                if form == "with":
+                    scene = [b for b in self.of("json") if b.path == block.path and b.line < block.line][-1]
+                    (pathlib.Path(folder) / name).write_text(scene.text, encoding="utf-8")
                 done = subprocess.run(["/bin/bash", "-eo", "pipefail", "-c", block.text], cwd=folder,
                                       env=sandbox(folder), capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stdout}{done.stderr}")
@@ -214,7 +220,7 @@ class CommandLine(unittest.TestCase):
             section = re.search(rf"^## {command}\n(.*?)(?=^## |\Z)", page, re.M | re.S)
             self.assertIsNotNone(section, f"{command} has no section")
             text = subprocess.run([COMMAND, command, "--help"], capture_output=True, text=True, check=True).stdout
-            for option in sorted(set(re.findall(r"^ +(?:-\w,)?(--[a-z][a-z-]+)", text, re.M)) - {"--help"}):
+            for option in sorted(set(re.findall(r"^ +(?:-\w, *)?(--[a-z][a-z-]+)", text, re.M)) - {"--help"}):
                 with self.subTest(f"{command} {option}"):
                     self.assertRegex(section.group(1) + common, rf"`[^`]*{option}\b(?!-)")
 

@@ -32,7 +32,7 @@ def main() -> int:
         return view(arguments)
     if arguments[:1] == ["render"]:
         if "--time" in arguments:
-            arguments = [*without(arguments, "--time"), "--time", "1s"]
+            arguments = [*without(arguments, "--time"), "--time", "0.3s"]
         if "--samples" not in arguments:
             enough = "8" if any(a.startswith("--denoise") for a in arguments) else "1"
             arguments = [*without(arguments, "--spp"), "--spp", enough]
