@@ -8,7 +8,7 @@ import textwrap
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 FENCE = re.compile(r"^ *```([\w+-]*)[^\n]*\n(.*?)^ *```$", re.M | re.S)
-DIRECTIVE = re.compile(r"<!-- test: ([^\n]*?) -->\n\Z")
+DIRECTIVE = re.compile(r"<!-- test: ([^\n]*?) -->\n *\Z")
 
 
 def markdown_files() -> list[pathlib.Path]:
