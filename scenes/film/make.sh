@@ -2,7 +2,7 @@
 # Makes a film of 40 frames, one after the other, and joins them to hourglass.webp, which loops. Frames that are there
 # are kept, so it may be stopped and started again. Needs img2webp (Debian: webp).
 #     scenes/film/make.sh build/release/tracer/phasetree FOLDER [options of render]
-# The one of the README was made with --size 256x288 --spp 48.
+# The one in the manual was made with --size 256x288 --spp 48.
 set -euo pipefail
 phasetree=$1 folder=$2
 shift 2

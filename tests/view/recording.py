@@ -1,4 +1,4 @@
-"""Makes the recording of the live view that the README shows: the page in Chromium, turned, asked, edited and cut.
+"""Makes the recording of the live view that the manual shows: the page in Chromium, turned, asked, edited and cut.
 
     PHASETREE_COMMAND=build/release/tracer/phasetree python3 tests/view/recording.py scenes/film/live_view.webp
 

@@ -1,0 +1,46 @@
+"""phasetree for the documents' shell blocks: renders small pictures of few samples, and ends `view` once it serves."""
+
+import os
+import subprocess
+import sys
+
+COMMAND = os.environ["PHASETREE_COMMAND"]
+
+
+def without(arguments: list[str], option: str) -> list[str]:
+    """The arguments without an option and its value."""
+    kept, skip = [], False
+    for argument in arguments:
+        if not skip and argument != option:
+            kept.append(argument)
+        skip = argument == option
+    return kept
+
+
+def view(arguments: list[str]) -> int:
+    """Serves the page until it has an address."""
+    words = [a for a in arguments if a != "--open"]
+    with subprocess.Popen([COMMAND, *words, "--width", "24"], stdout=subprocess.PIPE, text=True) as process:
+        address = process.stdout.readline()
+        process.terminate()
+    return 0 if "http://127.0.0.1" in address else 1
+
+
+def main() -> int:
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["view"]:
+        return view(arguments)
+    if arguments[:1] == ["render"]:
+        if "--time" in arguments:
+            arguments = [*without(arguments, "--time"), "--time", "0.3s"]
+        if "--samples" not in arguments:
+            enough = "8" if any(a.startswith("--denoise") for a in arguments) else "1"
+            arguments = [*without(arguments, "--spp"), "--spp", enough]
+        arguments = [*without(arguments, "--size"), "--size", "24x18"]
+    if arguments[:1] == ["export"] and "--spacing" not in arguments:
+        if not any(a.endswith((".html", ".glsl")) for a in arguments):
+            arguments += ["--spacing", "0.05"]
+    return subprocess.run([COMMAND, *arguments]).returncode
+
+
+sys.exit(main())
