@@ -27,12 +27,12 @@ struct CellOptions {
     /// searched at each sample may be divided three times more, unless this is less than the default.
     int deepest = 14;
     BuildQuality quality = BuildQuality::medium;
-    /// Phases that no ray is ever in, because they are opaque. Where two of them meet no interface is looked for and no
-    /// cells are made. What is found for a ray that is in one of them all the same means nothing.
+    /// Phases that rays never enter, because they are opaque. Interfaces between two of them are not searched for and
+    /// have no cells. Results for a ray inside one of these phases are meaningless.
     PhaseSet opaque{};
-    std::function<bool()> cancelled{};  ///< called now and then, by any thread; true ends the build
-    /// Called now and then with the share of the build that is done, in (0, 1], by any of the threads that build, but
-    /// by one at a time. Each share is more than the one before; 1 is the last. The build waits for it.
+    std::function<bool()> cancelled{};  ///< polled from any thread; return true to cancel the build
+    /// Receives the fraction of the build that is done, in (0, 1], strictly increasing up to 1. Called from any
+    /// building thread, one at a time; the build waits for it.
     std::function<void(float)> progress{};
     /// About how many bytes the cells may take while they are built and later, Embree's tree over them included; 0 for
     /// default_cell_bytes(). If they would take more, boxes whose division saves little are not divided, and rays find

@@ -27,7 +27,7 @@ struct CarveOptions {
     /// The most evaluations, each of eight points. What is then not reached is larger than it need be, and certain all
     /// the same.
     std::size_t most_evaluations = 50'000;
-    std::function<bool()> cancelled{};  ///< called now and then; true ends the work
+    std::function<bool()> cancelled{};  ///< polled; return true to cancel
 };
 
 /// A convex volume that certainly contains all of a solid.

@@ -35,9 +35,9 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 /// Reads the cells of an object. They are to the last bit those that InterfaceCells(object, options) would build; the
 /// functions of the options are not called. The file says of which object it is (by its recorded program: names and
 /// materials do not matter), with which resolution, quality, divisions, limit of memory and opaque phases it was built,
-/// by which version of the library and for which kind of machine; it is refused if any of these differs. A file whose
-/// size or checksums are wrong is refused before anything of its size is allocated, and so is one with an index that is
-/// out of range.
+/// by which version of the library and for which kind of machine; it is rejected if any of these differs. A file whose
+/// size or checksums are wrong is rejected before anything of its size is allocated, and so is one with an index that
+/// is out of range.
 ///
 /// The checksums find accidents. Who forges them can make cells that are wrong, but no ray reads memory outside of
 /// them, because every index of the file is checked.
@@ -46,8 +46,8 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 std::shared_ptr<const InterfaceCells> read_cells(const std::filesystem::path&, const Phased& object,
                                                  const CellOptions& options = {});
 
-/// Whether cells are those that InterfaceCells(object, options) would build, so that they need not be built again. It
-/// is told from what a file of them says, as read_cells() does, in about the time that recording the object takes.
+/// Whether cells are those that InterfaceCells(object, options) would build, so that they need not be built again.
+/// Compares the same data as read_cells(), in about the time it takes to record the object.
 /// Throws ModelError as InterfaceCells does.
 bool are_cells_of(const InterfaceCells&, const Phased& object, const CellOptions& options = {});
 

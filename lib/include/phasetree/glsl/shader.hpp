@@ -28,15 +28,15 @@ struct GlslOptions {
     std::span<const std::string> phase_names{};
     /// More numbers than this become a texture.
     std::size_t most_numbers_in_text = 1024;
-    /// Up to so many instructions are written as calls. More are a table, which a loop runs: compilers of shaders take
-    /// far longer for a long text than in proportion to it.
+    /// Programs of at most this many instructions are written as calls, longer ones as a table that a loop runs: the
+    /// time of shader compilers grows much faster than the length of the text.
     std::size_t most_calls = 128;
     /// The boxes along the longest side of the bounds in which the program is pruned, so that rays through large
     /// objects evaluate only what is near them; 0 for none.
     int grid = 0;
     /// The most samples along a ray between two interfaces.
     int steps = 512;
-    /// Asked now and then; where it says so the work ends, with BuildCancelled.
+    /// Polled; return true to stop with BuildCancelled.
     std::function<bool()> cancelled{};
 };
 
@@ -45,7 +45,7 @@ struct GlslOptions {
 /// bounds' diagonal at least). Throws ModelError if the program is too long for a shader.
 GlslShader make_glsl(const Program&, const Bounds&, float resolution, const GlslOptions& = {});
 
-/// Programs of more instructions are refused, because their numbers would be more than a page or a driver takes.
+/// Longer programs are rejected, because their numbers would exceed what a page or a driver accepts.
 inline constexpr std::size_t longest_glsl_program = 100'000;
 
 }  // namespace phasetree

@@ -127,8 +127,8 @@ class Document {
     /// Another document, whose file a string of the text names, at the same time. Its own files must lie in the same
     /// folder, if any.
     Document beside(Value named) const;
-    /// The same text, whose files must lie in this folder or below it, symbolic links followed: for who reads the
-    /// scenes of strangers. SceneError if there is no such folder.
+    /// The same text, whose files must lie in this folder or below it after following symbolic links. Use it to read
+    /// untrusted scenes. SceneError if there is no such folder.
     Document with_files_within(const std::filesystem::path& folder) const;
 
     /// The time, in seconds, at which what changes with time is read (io/keys.hpp); 0 unless it was set.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a program tells what its scene files may say beside the tree. A kind of thing, such as a sphere light, is a
-/// plain struct of what the file gives of it, written {"sphere": {…}}:
+/// How a program declares what its scene files may contain beside the tree. A kind of thing, such as a sphere light, is
+/// a plain struct of what the file gives of it, written {"sphere": {…}}:
 ///
 ///     struct SphereLightParameters {
 ///         static constexpr KindInfo info{"sphere", "A ball that shines."};

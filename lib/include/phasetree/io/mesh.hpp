@@ -35,8 +35,8 @@ struct MeshFile {
     AtCorners<glm::vec3> colors;   ///< red, green and blue from 0 to 1, encoded as sRGB
 };
 
-/// Reads an OBJ, PLY or STL file, which the ending of its name tells. Faces of more than three corners are divided into
-/// triangles of these corners, and those of fewer are passed over. Vertices that are no numbers are refused only where
+/// Reads an OBJ, PLY or STL file, chosen by its file name extension. Faces of more than three corners are divided into
+/// triangles of these corners, and those of fewer are passed over. Vertices that are no numbers are rejected only where
 /// a face has them. `content` is all of the file, `path` its name. Throws SceneError, which quotes nothing of the file,
 /// for what is none of these, and for more than so many triangles.
 ///

@@ -21,7 +21,7 @@ struct ValueType {
 /// functions
 ///     T read(const Document&, Value, std::string_view what, const P&);  // SceneError where it is wrong
 ///     ValueType describe(const P&);
-///     std::string written(const T&);  // as a file would say it: JSON, or a word in its place
+///     std::string written(const T&);  // as in a file: JSON, or a word instead
 /// A program specialises it for types of its own; a list with a member of any other type does not compile.
 template <class T, class P = Parameter>
 struct ParameterType;

@@ -23,7 +23,7 @@ void with_kind(TypeList<Kinds...>, const Document& document, Value value, std::s
 }
 
 /// Reads the parameters that T lists into the members that it lists them for. What is optional and missing stays as
-/// it is. Which other keys there are is not looked at: that does reader.finish().
+/// it is. Other keys are not checked here; reader.finish() does that.
 template <class T>
 void read_parameters(ObjectReader& reader, T& target) {
     // All are named first, so that none of them is taken for a misspelling of one that is missing.
@@ -36,7 +36,7 @@ void read_parameters(ObjectReader& reader, T& target) {
     });
 }
 
-/// The error of what `reader` has read: at the parameter that it tells of.
+/// Locates an error at its parameter in what `reader` has read.
 SceneError located(ObjectReader& reader, const ParameterError&);
 
 /// Calls make(), which makes something of what `reader` has read. A ParameterError becomes one at the parameter, a

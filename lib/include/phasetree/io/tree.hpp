@@ -51,16 +51,16 @@ struct FileReaders {
 /// quotes nothing of the file.
 SirenNetwork read_siren(const std::filesystem::path&);
 
-/// Reads the model of a scene document; the rest of the file is not looked at.
+/// Reads the model of a scene document; the rest of the file is ignored.
 ///
 ///     "phases": {"glass": …, "water": …},
 ///     "shapes": {"bulb": {"sphere": {"radius": 1}}},
 ///     "tree":   {"under": [{"set": {"phase": "glass", "of": "bulb"}}, …]}
 ///
 /// A node is an object of one member: the node's name, and its parameters; a node whose one required parameter is a
-/// list of children takes the list in place of the parameters, as does one whose required parameter is a text. A string
+/// list of children takes the list instead of the parameters, as does one whose required parameter is a text. A string
 /// is a named shape. Names of phases are strings, sets of phases lists of them. Throws SceneError, at the place in the
-/// text. Files are sought from the scene file's folder. `places` is told of every node.
+/// text. Files are sought from the scene file's folder. `places` receives every node.
 SceneTree read_tree(const Document&, const FileReaders& = {}, NodePlaces* places = nullptr);
 
 /// The names of a document's "phases". A document without any has the vacuum alone.

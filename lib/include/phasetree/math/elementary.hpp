@@ -14,12 +14,12 @@ T power_of_two(const T& k) {
     float factor = 2;
     for (int digit = 0; digit < 7; ++digit) {
         const T half = floor(rest * 0.5f);
-        // The digit is 0 or 1. From 2³² on the 1 is lost in rounding, and the factor is exact all the same.
+        // The digit is 0 or 1. From 2³² on the 1 is lost in rounding, but the factor is still exact.
         result = result * ((rest - half * 2.f) * (factor - 1.f) + 1.f);
         rest = half;
         factor *= factor;
     }
-    // The last digit tells whether k is negative; 2⁻¹²⁸ would be subnormal.
+    // The last digit says whether k is negative; 2⁻¹²⁸ would be subnormal.
     const T share = rest * (1.f - 5.42101086e-20f) + 5.42101086e-20f;
     return result * share * share;
 }

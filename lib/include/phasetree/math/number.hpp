@@ -149,7 +149,7 @@ template <class Yes, class No>
 
 /// Returns f. `other` knows a second expression that equals f where certain comparisons are true. A number type that
 /// bounds values in a box (Enclosure) returns that expression instead if they are true all over the box. `other` is
-/// called with a function `certainly`, which tells whether a comparison is, and returns a pair: whether all are, and
+/// called with a function `certainly`, which says whether a comparison is, and returns a pair: whether all are, and
 /// the expression.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {

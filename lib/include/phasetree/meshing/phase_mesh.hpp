@@ -19,7 +19,7 @@ namespace phasetree {
 /// Thrown by a meshing that MeshOptions::cancelled has stopped.
 class MeshingCancelled : public std::runtime_error {
   public:
-    MeshingCancelled() : std::runtime_error("the making of a mesh was cancelled") {}
+    MeshingCancelled() : std::runtime_error("meshing was cancelled") {}
 };
 
 /// A change of phase along a line.
@@ -40,9 +40,9 @@ LineTracer line_tracer(const InterfaceTracer&);
 struct MeshOptions {
     /// The side of the cubes of the grid, in the scene's unit of length; 0 takes a 256th of the bounds' longest side.
     float spacing = 0;
-    std::function<bool()> cancelled{};  ///< called now and then, by any thread; true ends the work
-    /// Called now and then with the share of the work that is done, in (0, 1], by one thread at a time. Each share is
-    /// more than the one before; 1 is the last.
+    std::function<bool()> cancelled{};  ///< polled from any thread; return true to cancel
+    /// Receives the fraction of the work that is done, in (0, 1], strictly increasing up to 1. Called by one thread at
+    /// a time.
     std::function<void(float)> progress{};
 };
 

@@ -99,8 +99,8 @@ class BoundsQuery {
     struct Memory;
 
     static constexpr Directions along_axes{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    /// At most so many subtrees of one root are asked by directions; the others are asked by boxes. A shape that is
-    /// used in many places is asked along other directions in each, which would be long.
+    /// At most this many subtrees of a root are bounded along directions; the others are bounded by boxes. A shape used
+    /// in many places needs other directions in each, which would be slow.
     static constexpr std::size_t most_asked = 20'000;
 
     static Bounds gathered(const Supports&);

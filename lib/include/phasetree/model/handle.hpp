@@ -76,7 +76,7 @@ Bounds bounds(const Field&);
 /// A box around all that is not vacuum.
 Bounds bounds(const Phased&);
 
-/// The phases that the object may have anywhere; bit 0 tells whether vacuum is one of them.
+/// The phases that the object may have anywhere; bit 0 is set if vacuum is one of them.
 PhaseSet phases(const Phased&);
 
 /// The values at a point, by walking the tree with arrays of phases as the paper does. This is slow, and the definition
@@ -95,7 +95,7 @@ struct TreeStatistics {
 TreeStatistics statistics(const Field&);
 TreeStatistics statistics(const Phased&);
 
-/// Deeper trees are refused with a ModelError, because everything that walks a tree recurses.
+/// Deeper trees are rejected with a ModelError, because functions that walk a tree recurse.
 inline constexpr std::size_t max_tree_depth = 400;
 
 }  // namespace phasetree

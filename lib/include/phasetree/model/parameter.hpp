@@ -44,7 +44,7 @@ struct Parameter {
     std::string_view description;
     Limits limits = limits::any;
     bool optional = false;  ///< if it is absent the member keeps its default
-    /// For a list of numbers: a single number may be written in its place and is a list of one. The node and the
+    /// For a list of numbers: a single number may be written instead, and is a list of one. The node and the
     /// description say what that means.
     bool one_for_all = false;
 };

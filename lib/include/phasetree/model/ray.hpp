@@ -21,7 +21,7 @@ struct TracedRay {
 /// meeting another interface.
 struct LeavingHint {
     /// The derivative of the distance from the interface along the ray, in [−1, 1]; 0 if it is not known. A value near
-    /// 0 or below it tells only that the ray starts on an interface of this cell.
+    /// 0 or below it means only that the ray starts on an interface of this cell.
     float rise = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace phasetree {
 
-/// Is told of each node that is made anew: the address of the one before, and the one that stands in its place.
+/// Called for each node that is recreated, with the address of the original and the new node.
 using NodeCopied = std::function<void(const void* of, const std::variant<Field, Phased>& copy)>;
 
 /// The same object with other indices for its phases: phase i becomes numbers[i]. The vacuum stays 0. Subtrees that

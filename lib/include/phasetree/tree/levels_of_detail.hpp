@@ -7,7 +7,8 @@ namespace phasetree {
 /// From where levels of detail are chosen.
 struct DetailView {
     glm::vec3 position{0};  ///< the camera's, in the object's space
-    /// How large an error may look, as a share of its distance: so many pixels times what a pixel covers at distance 1.
+    /// How large an error may look, as a share of its distance: the number of pixels times the size of a pixel at
+    /// distance 1.
     float angle = 1e-3f;
 };
 

@@ -18,7 +18,7 @@ struct NodeOnPath {
 /// one. The path is empty if no primitive does, as where the component is absent.
 ///
 /// The tree is walked as by distances(), which is slow. Throws ModelError for a tree in which shared shapes stand for
-/// so many nodes that the walk would take seconds.
+/// more nodes than can be walked within seconds.
 std::vector<NodeOnPath> value_source(const Phased&, const glm::vec3& p, Phase component);
 
 }  // namespace phasetree

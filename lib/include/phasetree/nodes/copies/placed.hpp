@@ -56,7 +56,7 @@ struct Placement {
         if (!std::isfinite(result.map.inverse)) throw ModelError("a copy's scale is too small");
         return result;
     }
-    /// A placement whose z axis is along a unit vector, turned about that by so many degrees.
+    /// A placement whose z axis is along a unit vector, rotated about it by `turn` degrees.
     static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale);
     StandingMap standing_map() const {
         const glm::mat3& r = *frame;

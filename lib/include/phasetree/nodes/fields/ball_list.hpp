@@ -10,7 +10,8 @@ namespace phasetree {
 /// Balls as files give them. Radii and phases are empty, or have an entry for each centre; a phase is the number of an
 /// entry in a list that the file does not hold.
 struct BallList {
-    /// Readers and nodes take no more: the hierarchy over them counts its nodes in floats, which are exact up to 2²⁴.
+    /// Readers and nodes accept at most this many: the hierarchy over them counts its nodes in floats, which are exact
+    /// up to 2²⁴.
     static constexpr std::size_t most_balls = 16'000'000;
 
     std::vector<glm::vec3> centres;

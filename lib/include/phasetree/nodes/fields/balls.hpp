@@ -12,7 +12,7 @@ namespace detail {
 inline constexpr Parameter file_of_balls{
     "file", "",
     "The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those "
-    "names first; in metres, in place of centres.",
+    "names first; in metres, instead of centres.",
     limits::any, true};
 /// The centres and radii of balls, from one of the two places that they may come from. Throws ModelError.
 std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
@@ -29,7 +29,7 @@ struct Balls {
                                    "Up to sixteen million balls, united: grains, drops, atoms. Exact outside."};
     /// More balls than that are not listed for a box.
     static constexpr std::size_t most_in_box = 96;
-    /// A shader, which has no search, takes no more.
+    /// The limit of shaders, which have no search.
     static constexpr std::size_t most_of_shader = 2000;
 
     std::vector<glm::vec3> centres{};

@@ -5,7 +5,7 @@
 
 namespace phasetree {
 
-/// The coordinate planes are mirrors, so |p| is looked at. Measured from the inner edges, (x, y, z) = |p| − s/2 + t,
+/// The coordinate planes are mirrors, so |p| is considered. Measured from the inner edges, (x, y, z) = |p| − s/2 + t,
 /// the bar along x is x ≤ t, y and z in [0, t]; likewise the others. Outside, the nearest of the three is nearest. Let
 /// a ≥ b ≥ c be the coordinates in order: the solid is b ≥ 0, a ≤ t. From there the outer faces are t − a away. To
 /// leave towards the hollow two coordinates must become negative, and b and c need the shortest way, √(b² + max(c,

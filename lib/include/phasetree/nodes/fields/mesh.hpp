@@ -32,7 +32,7 @@ struct Mesh {
         v(&Mesh::file, Parameter{"file", "",
                                  "The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and "
                                  "counter-clockwise seen from outside. Corners at the same place are one; materials, "
-                                 "normals and the like are not looked at. Walls and gaps that are thinner than a "
+                                 "normals and the like are ignored. Walls and gaps that are thinner than a "
                                  "millionth of the mesh's size may be taken for each other."});
     }
     /// Throws ModelError, which says where the surface is wrong.

@@ -17,7 +17,7 @@ namespace phasetree::mesh {
 enum class PieceKind : std::uint8_t { face, edge, vertex };
 inline constexpr std::size_t piece_kinds = 3;
 
-/// What a piece tells of a point: the squared distance, or `nowhere` if the point is not in its region; and a number
+/// What a piece says about a point: the squared distance, or `nowhere` if the point is not in its region; and a number
 /// with the sign of the distance, which for a face is the distance itself.
 template <class T>
 struct Told {

@@ -89,7 +89,7 @@ struct Siren {
           Parameter{"samples",
                     "",
                     "0: λ is the product of the layers' spectral norms, which is proven. More: λ is the "
-                    "steepest slope at so many points and a tenth, tighter and faster, but without "
+                    "steepest slope at this many points, plus a tenth: tighter and faster, but without "
                     "proof.",
                     {.low = 0, .high = 10'000'000},
                     true});

@@ -24,7 +24,7 @@ struct SirenNetwork {
     /// Π ‖Wᵢ‖₂, rounded upward: a bound of the slope, because the sine's slope is at most 1. (The printed 9.4 has wᵢ
     /// for the norm.)
     double spectral_bound() const;
-    /// The length of the steepest gradient at so many points of the ball, and a tenth more. *Not a bound*: between the
+    /// The length of the steepest gradient at this many points of the ball, plus a tenth. *Not a bound*: between the
     /// points it may be steeper.
     double sampled_slope(int points) const;
     std::size_t bytes() const {

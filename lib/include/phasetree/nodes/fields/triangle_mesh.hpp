@@ -9,7 +9,7 @@ namespace phasetree {
 /// Triangles in space, as files give them. The corners of each are indices of vertices, counter-clockwise seen from
 /// outside.
 struct TriangleMesh {
-    /// Readers and nodes take no more.
+    /// The limit of readers and nodes.
     static constexpr std::size_t most_triangles = 2'000'000;
 
     std::vector<glm::vec3> vertices;

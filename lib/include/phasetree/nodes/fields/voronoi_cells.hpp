@@ -12,7 +12,7 @@ namespace phasetree {
 /// bₜ are (v + c)⁹/(bₜ + c)⁹, positive and together at most 1. On a cell's faces v ≤ 0, so g/2 − max(v, 0) is
 /// continuous from cell to cell whatever v does there.
 ///
-/// Sites that are not looked at (voronoi_sites.hpp) have bisectors that are at least half of (their distance − the
+/// Sites that are not visited (voronoi_sites.hpp) have bisectors that are at least half of (their distance − the
 /// nearest one's) away. All bₜ are cut off there, so nothing jumps when the point moves on and other sites are looked
 /// at.
 ///
@@ -73,7 +73,7 @@ struct VoronoiCells {
             const T x = max(distance + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
             return T(1.f) / (x4 * x4);
         };
-        // Every site whose bisector is cut off counts the same, so that it does not matter which of them are looked at.
+        // Every site whose bisector is cut off counts the same, so that it does not matter which of them are visited.
         T v = far, sum(0.f), others(static_cast<float>(VoronoiSites::neighbours));
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3<T> between = to[i] - nearest;
@@ -105,7 +105,7 @@ struct VoronoiCells {
 
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
-    /// A lower bound of the distance, in cubes, to the bisector of any site that is not looked at.
+    /// A lower bound of the distance, in cubes, to the bisector of any site that is not visited.
     float seen() const {
         const VoronoiSites sites{jitter, seed};
         return 0.5f * (sites.unseen() - sites.nearest()) * 0.999f;

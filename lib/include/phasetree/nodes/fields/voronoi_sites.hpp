@@ -15,7 +15,7 @@ namespace phasetree {
 /// One site for each cube of a lattice, moved from the cube's middle by up to half the jitter along each axis. Points
 /// are measured in cubes. The hash repeats after 289 cubes.
 ///
-/// The sites of the 5³ cubes about a point's own are looked at. Its own cube's site is within √3 (1 + j)/2 of it; a
+/// The sites of the 5³ cubes about a point's own are visited. Its own cube's site is within √3 (1 + j)/2 of it; a
 /// site of any other cube is at least (5 − j)/2 away, which is more, for all j ≤ 1. So the nearest site is always
 /// found.
 struct VoronoiSites {
@@ -24,7 +24,7 @@ struct VoronoiSites {
 
     static constexpr int neighbours = 125;
 
-    /// A lower bound of the distance, in cubes, to every site that is not looked at.
+    /// A lower bound of the distance, in cubes, to every site that is not visited.
     float unseen() const { return 0.5f * (5 - jitter); }
     /// An upper bound of the distance, in cubes, to the nearest site.
     float nearest() const { return 0.8660255f * (1 + jitter); }
@@ -83,7 +83,7 @@ struct VoronoiSites {
         std::array<double, 3> position;  ///< in cubes
         double distance;                 ///< from the centre of the search
     };
-    /// Tells which sites are sought about a point: those that are no farther than `most`, that are at most `beyond`
+    /// Selects the sites sought around a point: those that are no farther than `most`, that are at most `beyond`
     /// farther than the nearest of them, and whose hash is in [low, high).
     struct Search {
         std::array<double, 3> centre{};
@@ -97,7 +97,7 @@ struct VoronoiSites {
     static constexpr unsigned site_floats = 7;
 };
 
-/// A list of sites in place of the whole lattice. Where no other site matters it gives the values of VoronoiSites to
+/// A list of sites instead of the whole lattice. Where no other site matters it gives the values of VoronoiSites to
 /// the last bit.
 struct VoronoiSiteList {
     VoronoiSites all;

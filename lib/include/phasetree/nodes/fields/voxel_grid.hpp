@@ -38,7 +38,7 @@ struct VoxelLattice {
 struct VoxelGrid {
     static constexpr int block_side = 8, kept_side = 10;
     static constexpr std::size_t kept_values = 1000;
-    /// Readers and nodes take no more: of values that are kept, which is half a gigabyte, and of voxels along an axis.
+    /// The limits of readers and nodes: stored values, half a gigabyte, and voxels along an axis.
     static constexpr std::size_t most_values = 120'000'000;
     static constexpr int most_along_axis = 8192;
 

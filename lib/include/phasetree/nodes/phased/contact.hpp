@@ -10,7 +10,7 @@ namespace detail {
 ///
 ///     f = α a_K − (1 − α) b_L,    a_K < 0 within A_K,  b_L < 0 within B_L,  b_L ≤ bⱼ for j in L.
 ///
-/// That is A ∪₋ B with b'ⱼ = max(bⱼ, −f) in place of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides; in B_L outside A_K both
+/// That is A ∪₋ B with b'ⱼ = max(bⱼ, −f) instead of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides; in B_L outside A_K both
 /// terms of −f are negative, so that B keeps it; outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀): what B loses is within A.
 /// I1: f is a convex combination. I2: b' ≥ b keeps the proof for ∪₋, also with φ₀, since φ₀ ≥ b₀.
 ///

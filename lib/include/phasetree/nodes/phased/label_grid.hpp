@@ -8,9 +8,9 @@
 
 namespace phasetree {
 
-/// Whole numbers at voxels, as a segmented scan has them: which number is whose is told by whoever uses it.
+/// Whole numbers at voxels, as in a segmented scan. The user of the grid maps numbers to phases.
 struct LabelGrid {
-    /// Readers and nodes take no more: 512³, and as many different numbers as the table has indices for.
+    /// The limits of readers and nodes: 512³, and as many different numbers as the table has indices for.
     static constexpr std::size_t most_voxels = std::size_t{1} << 27, most_numbers = 256;
 
     VoxelLattice lattice{};

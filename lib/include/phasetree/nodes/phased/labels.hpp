@@ -37,7 +37,7 @@ struct Labels {
         "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the "
         "voxels",
         "A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's "
-        "centre is of the phase of its number, and interfaces between are smooth. Distances are told up to about two "
+        "centre is of the phase of its number, and interfaces between are smooth. Distances are known up to about two "
         "voxels, and do not grow beyond."};
 
     /// The primitive Dₖ.

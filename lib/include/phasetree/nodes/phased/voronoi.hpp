@@ -33,7 +33,7 @@ struct Voronoi {
         }
         template <class T, class Sites>
         T distance(const Vec3<T>& p, const Sites& sites) const {
-            // The bound is a little smaller, so that rounding lets no site count that is not looked at.
+            // The bound is a little smaller, so that rounding lets no unvisited site count.
             const float unseen = VoronoiSites{jitter, seed}.unseen() * (1 - 1e-6f);
             T least(unseen * unseen);
             const T low(first_hash()), high(end_hash());

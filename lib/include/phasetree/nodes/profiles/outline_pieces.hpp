@@ -188,7 +188,7 @@ class OutlinePieces {
             table.push_back(static_cast<float>(v));
     }
     /// The same piece, with its ends exchanged if it is slower at the second one. Pieces are cut where the speed has
-    /// doubled; if it grows by a factor above √5 all the same, the piece starts where the curve turns back on itself,
+    /// doubled; if it still grows by a factor above √5, the piece starts where the curve turns back on itself,
     /// or the growth is due to rounding. Such a piece is straight, and is given a constant speed.
     static QuadraticCurve towards_faster(QuadraticCurve piece) {
         const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };

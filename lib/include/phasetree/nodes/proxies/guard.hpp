@@ -1,4 +1,4 @@
-// A simpler volume that stands in for a field or an object away from it (paper, Sections 4.1 and 7.3; Hubert-Brierre et
+// A simpler volume that replaces a field or an object away from it (paper, Sections 4.1 and 7.3; Hubert-Brierre et
 // al., "Accelerating Signed Distance Functions", 2025). A bounding node that switches, "b > m ? b : f", jumps, and what
 // is built on top of it is no longer 1-Lipschitz. This one does not (see "Fields above a discontinuity" in
 // lib/README.md):

@@ -11,7 +11,7 @@ template <class Child>
 struct Proxy {
     static constexpr NodeInfo info{
         "proxy", "4.1, 7.3", "min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e",
-        "A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside "
+        "A field or an object, and a simpler field g near it, which replaces it away from the surface, outside "
         "and "
         "inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled."};
     Child of{};
