@@ -83,8 +83,9 @@ Report simd(const Settings& settings) {
     double least_wall = 1e30, least_processor = 1e30;
     bool same = true;
     for (const Scene& scene : scenes) {
-        for (const auto& [name, rays] : {std::pair<std::string, const Rays&>{"primary", scene.primary},
-                                         std::pair<std::string, const Rays&>{"random", scene.random}}) {
+        for (const auto& [name, traced] : {std::pair<std::string, const Rays&>{"primary", scene.primary},
+                                           std::pair<std::string, const Rays&>{"random", scene.random}}) {
+            const Rays& rays = traced;  // Clang 14 cannot capture a binding
             std::vector<Contestant> of_targets;
             for (const std::string& target : targets)
                 of_targets.push_back(

@@ -368,7 +368,8 @@ TEST_CASE("numbers at the ends of their ranges neither crash nor hang") {
          R"({"set": {"phase": "glass", "of": {"twist": {"rate": 1e30, "of": {"box": {"size": [1, 1, 1]}}}}}})"}};
     const Shell shell;
     for (const auto& [name, tree] : trees) {
-        CAPTURE(name);
+        const std::string what = name;  // Clang 14 cannot capture a binding
+        CAPTURE(what);
         SceneText scene;
         scene.tree = tree;
         scene.rest = R"("render": {"width": 4, "height": 4, "samples": 1})";

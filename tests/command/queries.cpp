@@ -281,7 +281,8 @@ TEST_CASE("trace: every interface along each ray, in order") {
             begin(3, "vacuum");
         }
         begin(ray, "vacuum");
-        const auto add = [&](double z, const char* from, const char* to, double nx, double nz) {
+        const auto add = [&, ray = ray, height = height, speed = speed](double z, const char* from, const char* to,
+                                                                        double nx, double nz) {
             expected.push_back({ray, (height - z) / speed, from, to, nx, nz});
         };
         add(outer, "vacuum", "glass", -0.1 / 1.1, -outer / 1.1);

@@ -300,7 +300,9 @@ TEST_CASE("no phase of the gallery is thinner than its author says") {
                 CHECK(std::ranges::any_of(all, [&](const auto& f) { return is_one_of(f.first, one); }));
             }
         }
-        for (const auto& [film, found] : all) {
+        for (const auto& entry : all) {
+            const Film& film = entry.first;
+            const auto& found = entry.second;
             if (found.rays < share_of_edges * count) continue;
             ++seen;
             const glm::vec3 &o = found.example.origin, &d = found.example.direction;

@@ -65,7 +65,8 @@ TEST_CASE("the deepest tree that there may be can be written in any way, and be 
     for (const auto& [open, close] : {std::pair(R"({"under": {"of": [)", "]}}"), std::pair(R"({"under": [)", "]}"),
                                       std::pair(R"({"translate": {"by": [0, 0, 0.001], "of": )", "}}"),
                                       std::pair(R"({"grid": {"count_x": 1, "spacing": [3, 3, 3], "of": )", "}}")}) {
-        CAPTURE(open);
+        const char* const beginning = open;  // Clang 14 cannot capture a binding
+        CAPTURE(beginning);
         std::size_t depth = 0;
         std::string told, told_far_more;
         with_stack(small_stack, [&, open = open, close = close] {

@@ -47,7 +47,7 @@ TEST_CASE("layers repeat, strata end") {
     const Phased strata = read(scene(R"({"strata": {)" + lists + R"("thicknesses": [1, 2]}})"));
     for (const auto& [z, repeated, once] : std::vector<std::tuple<float, int, int>>{
              {-4.5f, 1, 1}, {-3, 2, 1}, {0, 3, 1}, {1.5f, 1, 1}, {3, 2, 2}, {5, 3, 3}, {7.5f, 1, 3}, {9, 2, 3}}) {
-        const float height = z;  // a lambda of CAPTURE's cannot capture a binding in Clang 14
+        const float height = z;  // Clang 14 cannot capture a binding
         CAPTURE(height);
         CHECK(phase_at(layers, {5, -7, z}) == repeated);
         CHECK(phase_at(strata, {5, -7, z}) == once);

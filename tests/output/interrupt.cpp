@@ -140,7 +140,8 @@ constexpr EndingAtOnce::Codes codes{7, 8};
 TEST_CASE("where it is said, the first signal ends the program at once, with a code and a message" *
           doctest::skip(!signals_work_in_children)) {
     for (const auto& [signal, code] : {std::pair(SIGINT, 7), std::pair(SIGTERM, 8), std::pair(SIGHUP, 8)}) {
-        CAPTURE(signal);
+        const int number = signal;  // Clang 14 cannot capture a binding
+        CAPTURE(number);
         const Ended ended = end_of([s = signal] {
             const InterruptGuard guard;
             const EndingAtOnce at_once(codes, "as it was said\n");

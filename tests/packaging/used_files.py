@@ -19,10 +19,11 @@ Use = collections.namedtuple("Use", "file reader list")
 
 # Programs and modules that tests use where they are installed, and are skipped without.
 OPTIONAL_PROGRAMS = {"chromium", "chromium-browser", "google-chrome", "groff", "lintian", "setarch", "ninja-build"}
-OPTIONAL_MODULES = {"IPython", "pip", "setuptools", "wheel", "nbconvert", "OpenImageIO", "scipy", "bpy", "torch"}
+OPTIONAL_MODULES = {"IPython", "pip", "setuptools", "wheel", "nbconvert"}
+# Scripts beside the tests that make recordings and pictures.
 NOT_RUN_BY_TESTS = {"recording.py", "pictures.py"}
 # Libraries that CMake takes only where they are installed, and that the lists leave out.
-OPTIONAL_PATHS = re.compile(r"benchmark|OpenImageDenoise")
+OPTIONAL_PATHS = re.compile(r"/benchmark/|libbenchmark|OpenImageDenoise")
 
 
 def text_of(path):
@@ -30,7 +31,8 @@ def text_of(path):
 
 
 def is_outside(path):
-    return path.startswith("/") and not path.startswith((f"{SOURCE}/", "/tmp/", "/proc/", "/dev/")) and os.path.isfile(path)
+    is_ours = path.startswith((f"{SOURCE}/", "/tmp/", "/proc/", "/dev/"))
+    return path.startswith("/") and not is_ours and not OPTIONAL_PATHS.search(path) and os.path.isfile(path)
 
 
 class Build:
@@ -119,10 +121,9 @@ def of_command(build, work):
 
 
 def of_tests(build):
-    uses = [Use(f, "CMake, or the build of the tests", "packages_to_test") for f in build.named_files() if not OPTIONAL_PATHS.search(f)]
+    uses = [Use(f, "CMake, or the build of the tests", "packages_to_test") for f in build.named_files()]
     for name, files in build.dependencies().items():
-        if not OPTIONAL_PATHS.search(name) and not name.startswith("benchmarks/CMakeFiles/phasetree-kernels"):
-            uses += uses_of_object(name, files, "packages_to_test")
+        uses += uses_of_object(name, files, "packages_to_test")
     uses += linked([*build.folder.glob("tests/**/test-*"), *build.folder.glob("plugins/python/phasetree/*.so")], "packages_to_test")
     uses += loaded_by_shader_tests(build)
     scripts = [SOURCE / "tests/run.sh", SOURCE / "tests/coverage.sh", *SOURCE.glob("tests/**/*.cmake"), *SOURCE.glob("tests/**/*.cpp")]

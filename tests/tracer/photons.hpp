@@ -105,7 +105,7 @@ void check_pictures(Made&& made, double planted_factor, double significance, Bri
             by_paths_and_photons[caustics].add(sum / static_cast<double>(image.pixels.size()));
         }
     }
-    const auto& [paths, photons] = by_paths_and_photons;
+    const Moments &paths = by_paths_and_photons[0], &photons = by_paths_and_photons[1];
     const double error = std::hypot(paths.standard_error(), photons.standard_error());
     const auto p_value = [&](double factor) {
         return phasetree::tests::normal_two_sided((factor * photons.mean() - paths.mean()) / error);
