@@ -165,14 +165,15 @@ TEST_CASE("eval reads what it writes, and any CSV with the columns it needs") {
         const char *command, *text, *error;
     };
     for (const Wrong& w :
-         {Wrong{"eval", "x,y\n1,2\n", "<stdin>:1:1: a header must have the columns x,y,z, but this one has no \"z\""},
-          Wrong{"trace", "x,y,z\n", "<stdin>:1:1: a header must have the columns ox,oy,oz,dx,dy,dz"},
-          Wrong{"eval", "\nx,y,z\n1,2\n", "<stdin>:3:4: expected a finite number in the column \"z\""},
-          Wrong{"eval", "x,y,z\n1,2x,3\n", "<stdin>:2:3: expected a finite number in the column \"y\""},
+         {Wrong{"eval", "x,y\n1,2\n", "<stdin>:1:1: the header has no column \"z\"; it must name x, y, z\n"},
+          Wrong{"trace", "x,y,z\n",
+                "<stdin>:1:1: the header has no column \"ox\"; it must name ox, oy, oz, dx, dy, dz\n"},
+          Wrong{"eval", "\nx,y,z\n1,2\n", "<stdin>:3:4: the row has no z\n"},
+          Wrong{"eval", "x,y,z\n1,2x,3\n", "<stdin>:2:3: y must be a finite number, but is \"2x\"\n"},
           Wrong{"eval", "0 0 0\nx,y,z\n", "<stdin>:2:1: expected 3 finite numbers"},
           Wrong{"eval", "1,,2,3\n", "<stdin>:1:3: expected 3 finite numbers"},
-          Wrong{"eval", "1,2,3,\n", "<stdin>:1:6: more than 3 numbers"},
-          Wrong{"eval", "1-2 3\n", "<stdin>:1:2: expected 3 finite numbers"},
+          Wrong{"eval", "1,2,3,\n", "<stdin>:1:7: more than 3 numbers"},
+          Wrong{"eval", "1-2 3\n", "<stdin>:1:1: expected 3 finite numbers"},
           Wrong{"eval", "1 2 # 3\n", "<stdin>:1:5: expected 3 finite numbers"}}) {
         CAPTURE(w.text);
         const Outcome o = shell.run({w.command, "tree.json"}, w.text);

@@ -6,7 +6,8 @@
 # Starts munged, slurmctld and slurmd (Debian: slurm-wlm, munge) as the user who calls it, without systemd, in a folder of
 # their own, on ports that are free. The command finds them by $SLURM_CONF. In the end, whatever it is, they are stopped. The
 # exit code is the command's; it is 77 where there is no Slurm or it does not come up, and the last line says why.
-# KEEP_LOGS=FOLDER keeps the daemons' logs there.
+# KEEP_LOGS=FOLDER keeps the daemons' logs there. SLURM_CPUS and SLURM_MAX_ARRAY_SIZE replace what it has: 2 processors, and
+# arrays of at most 1001 tasks, Slurm's default.
 set -u
 
 PATH=$PATH:/usr/sbin:/sbin
@@ -70,6 +71,7 @@ SelectTypeParameters=CR_CPU
 ReturnToService=2
 KillWait=5
 SlurmdParameters=config_overrides
+MaxArraySize=${SLURM_MAX_ARRAY_SIZE:-1001}
 SchedulerParameters=bf_interval=2
 NodeName=$host NodeAddr=127.0.0.1 CPUs=${SLURM_CPUS:-2} State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP

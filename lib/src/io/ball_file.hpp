@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "phasetree/io/balls.hpp"
@@ -11,13 +12,17 @@ namespace phasetree::io {
 /// The columns of balls, in the order of BallBuilder's numbers. The last two may be missing.
 inline constexpr std::array<std::string_view, 5> ball_columns{"x", "y", "z", "radius", "phase"};
 
-/// Adds one ball after the other to a list, and says what is wrong with one.
+/// Adds balls to a list one by one, and checks each.
 class BallBuilder {
   public:
+    struct Mistake {
+        std::size_t column;
+        std::string_view message;
+    };
     BallBuilder(bool has_radius, bool has_phase) : has_radius_(has_radius), has_phase_(has_phase) {}
 
     /// Adds a ball, given its columns. Returns what is wrong with it, or nothing.
-    std::string_view add(const std::array<double, ball_columns.size()>& columns);
+    std::optional<Mistake> add(const std::array<double, ball_columns.size()>& columns);
     BallList& balls() { return balls_; }
 
   private:

@@ -166,22 +166,29 @@ bool are_layers_within(const std::filesystem::path& folder, const std::filesyste
 
 }  // namespace
 
+// Which of the files that a text names may be read.
+struct Document::FileAccess {
+    std::optional<std::filesystem::path> within{};  // the folder, as it is without links
+    bool has_assets = true;
+};
+
 std::filesystem::path Document::file(Value named) const {
     const std::filesystem::path path = std::filesystem::path(name()).parent_path() / named.string();
-    if (!files_within_) return path;
+    if (!access_ || !access_->within) return path;
+    const std::filesystem::path& folder = *access_->within;
     // What is opened is the path without links, so that it is the one that was looked at.
     std::error_code problem;
     std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
     const bool is_stack = named.string().find('#') != std::string_view::npos;
-    if (problem || !is_within(*files_within_, real) || (is_stack && !are_layers_within(*files_within_, real)))
+    if (problem || !is_within(folder, real) || (is_stack && !are_layers_within(folder, real)))
         throw error(named, fmt::format("\"{}\" leads out of {}, the folder that files must lie in", named.string(),
-                                       files_within_->string()));
+                                       folder.string()));
     return real;
 }
 
 Document Document::beside(Value named) const {
     Document other = from_file(file(named));
-    other.files_within_ = files_within_;
+    other.access_ = access_;
     other.kept_nodes_ = kept_nodes_;
     other.seconds_ = seconds_;
     return other;
@@ -193,8 +200,18 @@ Document Document::with_files_within(const std::filesystem::path& folder) const 
     if (problem || !std::filesystem::is_directory(real, problem))
         throw SceneError(folder.string(), "is no folder that files could lie in");
     Document confined = *this;
-    confined.files_within_ = std::make_shared<const std::filesystem::path>(std::move(real));
+    confined.access_ = std::make_shared<const FileAccess>(FileAccess{std::move(real), reads_assets()});
     return confined;
+}
+
+Document Document::without_assets() const {
+    Document other = *this;
+    other.access_ = std::make_shared<const FileAccess>(FileAccess{access_ ? access_->within : std::nullopt, false});
+    return other;
+}
+
+bool Document::reads_assets() const {
+    return !access_ || access_->has_assets;
 }
 
 SceneError Document::error(std::size_t offset, std::string message, std::optional<std::string> suggestion) const {

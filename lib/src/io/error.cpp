@@ -56,7 +56,7 @@ SceneError::SceneError(std::shared_ptr<const Details> details)
           }
           out += ": " + details->message;
           if (details->suggestion) out += " (did you mean " + io::in_quotes(*details->suggestion) + "?)";
-          if (details->line > 0) {
+          if (!details->caret_line.empty()) {
               out += '\n' + std::string(indent) + details->quoted_line;
               out += '\n' + std::string(indent) + details->caret_line;
           }
@@ -134,6 +134,15 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
           under += '^';
           return std::shared_ptr<const Details>(std::move(details));
       }()) {}
+
+SceneError::SceneError(std::string file, std::size_t line, std::size_t column, std::string message)
+    : SceneError(std::make_shared<const Details>(Details{.file = std::move(file),
+                                                         .line = line,
+                                                         .column = column,
+                                                         .message = io::printable(message),
+                                                         .quoted_line = {},
+                                                         .caret_line = {},
+                                                         .suggestion = {}})) {}
 
 const std::string& SceneError::file() const noexcept {
     return details_->file;

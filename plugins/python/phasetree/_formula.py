@@ -5,6 +5,7 @@ from __future__ import annotations
 import numbers
 
 from phasetree._errors import Error
+from phasetree._values import Value
 
 #: The functions of formulas, and how many arguments each takes.
 FUNCTIONS = {
@@ -42,7 +43,7 @@ _UFUNCS = {
 }
 
 
-class Expression:
+class Expression(Value):
     """A number for each point: x, y, z and what is computed of them. Immutable.
 
     It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
@@ -58,6 +59,19 @@ class Expression:
         self._bounds = bounds
         self._field = None
         self._height = 1 + max((e._height for e in of), default=0)
+
+    def _pickled(self):
+        # A list, because pickle would recurse as deep as the formula.
+        order = _Writer(self).order
+        number = {id(one): i for i, one in enumerate(order)}
+        return (tuple((one._what, tuple(number[id(e)] for e in one._of), one._bounds) for one in order),)
+
+    @classmethod
+    def _unpickled(cls, parts):
+        made = []
+        for what, of, bounds in parts:
+            made.append(cls(what, tuple(made[i] for i in of), bounds))
+        return made[-1]
 
     @property
     def text(self):
@@ -133,6 +147,12 @@ class Expression:
 
     def __and__(self, other):
         return self.field() & other
+
+    def __eq__(self, other):
+        return isinstance(other, Expression) and self._bounds == other._bounds and self.text == other.text
+
+    def __hash__(self):
+        return hash(self.text)
 
     def __bool__(self):
         raise TypeError("a formula is no truth value: pt.min and pt.max choose between numbers")

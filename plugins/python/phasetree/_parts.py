@@ -7,6 +7,7 @@ import json
 import types
 
 from phasetree import _phasetree, _reference
+from phasetree._values import Value
 
 _CHECKED_AS = {
     "Materials": ("material", lambda text: text),
@@ -21,7 +22,7 @@ _CHECKED_AS = {
 }
 
 
-class Part:
+class Part(Value):
     """A material, texture, number, map of normals, grid of voxels, light, mesh, camera, or the image's settings: a kind and its
     parameters, checked."""
 
@@ -34,6 +35,9 @@ class Part:
 
     def __setattr__(self, name, value):
         raise AttributeError(f"a {self.kind} cannot be changed; make another one")
+
+    def _pickled(self):
+        return self.chapter, self.kind, json.loads(self._text)
 
     def written(self):
         """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
@@ -75,22 +79,24 @@ def _function(kind):
     return make
 
 
-def _module(title, kinds):
+def _module(name, doc, kinds):
     module = types.SimpleNamespace()
     for kind in kinds:
-        setattr(module, kind.name, _function(kind))
-    module.__doc__ = title
+        function = _function(kind)
+        function.__qualname__ = f"{name}.{kind.name}"  # by which pickle finds it
+        setattr(module, kind.name, function)
+    module.__doc__ = doc
     return module
 
 
 _chapters = {title: kinds for title, kinds in _reference.chapters() if title in _CHECKED_AS}
 kinds = _chapters
-materials = _module("Materials: what phases and meshes are made of.", _chapters["Materials"])
-textures = _module("Textures: colours that differ from place to place.", _chapters["Textures"])
-numbers = _module("Numbers that differ from place to place.", _chapters["Numbers"])
-lights = _module("Lights.", _chapters["Lights"])
-meshes = _module("Meshes: what stands beside the object.", _chapters["Meshes"])
-cameras = _module("Cameras.", _chapters["Cameras"])
+materials = _module("materials", "Materials: what phases and meshes are made of.", _chapters["Materials"])
+textures = _module("textures", "Textures: colours that differ from place to place.", _chapters["Textures"])
+numbers = _module("numbers", "Numbers that differ from place to place.", _chapters["Numbers"])
+lights = _module("lights", "Lights.", _chapters["Lights"])
+meshes = _module("meshes", "Meshes: what stands beside the object.", _chapters["Meshes"])
+cameras = _module("cameras", "Cameras.", _chapters["Cameras"])
 image = _function(_chapters["Image"][0])
 image.__name__ = image.__qualname__ = "image"
 normal_map = _function(_chapters["Maps of normals"][0])

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from phasetree._errors import Error
+from phasetree._values import Value
 
 
-class Phase:
+class Phase(Value):
     """A phase of an object: its name and its material. Called with fields, it makes an object of them.
 
     Two of the same name and the same material are the same phase. Without a material an object can be measured, but
@@ -28,6 +29,9 @@ class Phase:
 
     def __setattr__(self, name, value):
         raise AttributeError(f"a phase cannot be changed; make another one for another {name}")
+
+    def _pickled(self):
+        return self.name, self.material
 
     def __call__(self, *fields):
         """The object of this phase that is where the field is negative; of several fields, their union."""

@@ -14,6 +14,7 @@ from phasetree._errors import Error
 from phasetree._parts import Part
 from phasetree._phases import Phase, vacuum
 from phasetree._trees import Object, _material, node_of
+from phasetree._values import Value
 
 
 def _part(value, chapter, what):
@@ -64,12 +65,25 @@ class Image:
     def _repr_png_(self):
         return self.png()
 
+    def __eq__(self, other):
+        """Whether all is the same but the seconds that it took."""
+        if not isinstance(other, Image) or self.planes.keys() != other.planes.keys():
+            return False
+        described = ("exposure", "view", "samples", "scene", "seed", "crop", "attributes")
+        return (
+            all(getattr(self, name) == getattr(other, name) for name in described)
+            and np.array_equal(self.pixels, other.pixels, equal_nan=True)
+            and all(np.array_equal(plane, other.planes[name], equal_nan=True) for name, plane in self.planes.items())
+        )
+
+    __hash__ = None
+
     def __repr__(self):
         height, width, _ = self.pixels.shape
         return f"<Image {width}x{height}, {self.samples} samples a pixel>"
 
 
-class Scene:
+class Scene(Value):
     """An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
 
     object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
@@ -109,12 +123,25 @@ class Scene:
         self.image = None if image is None else _part(image, "Image", "the image's settings")
         self.name = name
 
+    def _arguments(self):
+        """The arguments that make an equal scene."""
+        shown = ("object",) if self.object is not None else ("objects", "groups", "instances")
+        own = ("camera", "lights", "meshes", "background", "image", "name")
+        return {name: getattr(self, name) for name in (*shown, *own)}
+
+    def _pickled(self):
+        return (self._arguments(),)
+
+    @classmethod
+    def _unpickled(cls, arguments):
+        return cls(**arguments)
+
     def with_(self, **parts):
         """The same scene with some parts replaced: scene.with_(camera=…)."""
-        own = ("camera", "lights", "meshes", "background", "image", "name")
-        shown = ("object",) if self.object is not None else ("objects", "groups", "instances")
-        shown = () if parts.keys() & {"object", "objects"} else shown
-        return Scene(**{**{name: getattr(self, name) for name in (*shown, *own)}, **parts})
+        own = self._arguments()
+        if parts.keys() & {"object", "objects"}:
+            own = {name: value for name, value in own.items() if name not in ("object", "objects", "groups", "instances")}
+        return Scene(**{**own, **parts})
 
     def _shown(self):
         """The file's text but for what is beside the objects, and without its last bracket."""

@@ -11,6 +11,7 @@ from phasetree import _phasetree, _reference
 from phasetree._errors import Error
 from phasetree._formula import Expression
 from phasetree._phases import Phase, merged, vacuum
+from phasetree._values import Value
 
 
 def _points(values, what="the points"):
@@ -112,7 +113,7 @@ def node_of(handle, phases):
     return whole(scene["tree"]["set"]["of"])
 
 
-class Field:
+class Field(Value):
     """A plain signed distance, negative inside. Immutable.
 
     a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
@@ -141,6 +142,13 @@ class Field:
     @property
     def _phases(self):
         return self._phases_ if self._handle else ()
+
+    def _pickled(self):
+        return self._text, self._phases, self._radius
+
+    @classmethod
+    def _unpickled(cls, text, phases, radius):
+        return cls(_phasetree.field_of_text(text), phases, radius)
 
     @property
     def _text(self):
@@ -227,7 +235,7 @@ class Field:
         return f"<Field {text if len(text) <= 100 else text[:97] + '…'}>"
 
 
-class Object:
+class Object(Value):
     """An object of phases, of which exactly one is at any point. Immutable.
 
     Objects are joined by methods, because order matters: a.over(b), a.under(b), a.contact(b, …). Numbers of phases in
@@ -246,6 +254,14 @@ class Object:
     @property
     def _phases(self):
         return self.phases
+
+    def _pickled(self):
+        return self._handle.text(self._materials, ["null"] * len(self._materials)), self.phases
+
+    @classmethod
+    def _unpickled(cls, text, phases):
+        handle, _ = _phasetree.read_text(text, "<pickle>")
+        return cls(handle, phases)
 
     @property
     def names(self):

@@ -97,6 +97,12 @@ class View:
     def __exit__(self, *_):
         self.close()
 
+    def __reduce__(self):
+        raise TypeError(
+            "a View can be neither copied nor pickled, because its page is served by this process; call pt.view where it "
+            "is needed"
+        )
+
     def _repr_html_(self):
         return f'<iframe src="{self.url}" width="100%" height="640" style="border: 0"></iframe><a href="{self.url}">{self.url}</a>'
 

@@ -73,6 +73,16 @@ Handle made(const std::string& text, const std::vector<std::string>& phases, con
     }
 }
 
+// The field in a text that FieldHandle.text wrote.
+Field field_of_text(const std::string& text) {
+    const Document document = Document::from_text(text);
+    std::optional<Value> value = document.root();
+    for (const char* const key : {"tree", "set", "of"})
+        if (value) value = value->find(key);
+    if (!value) throw ModelError("the text is not that of a field");
+    return read_field(document, *value, tracer::file_readers());
+}
+
 py::object as_tuple(const Bounds& b) {
     if (b.empty()) return py::none();
     return py::make_tuple(py::make_tuple(b.low.x, b.low.y, b.low.z), py::make_tuple(b.high.x, b.high.y, b.high.z));
@@ -125,6 +135,7 @@ void add_nodes(py::module_& module) {
         .def("renumbered", &with_numbers<Phased>)
         .def("text", &text_of);
     module.def("make_field", &made<Field>, py::arg("text"), py::arg("phases"), py::arg("parts"));
+    module.def("field_of_text", &field_of_text, py::arg("text"));
     module.def("make_object", &made<Phased>, py::arg("text"), py::arg("phases"), py::arg("parts"));
 }
 

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "command/commands.hpp"
-#include "command/numbers.hpp"
 #include "fuzz/input_file.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
@@ -55,7 +54,7 @@ void run_lines(Bytes input) {
         const char* const arguments[] = {"phasetree", input[0] % 2 == 0 ? "eval" : "trace", path.c_str()};
         app.parse(3, arguments);
         (void)run();
-    } catch (const tracer::InputError&) {
+    } catch (const SceneError&) {
     }
     std::cin.rdbuf(before);
 }

@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::string_view columns[] = {"x", "y", "z"};
+constexpr NumberTable::Column columns[] = {{"x"}, {"y"}, {"z"}};
 
 // Phases that the object never has are left empty.
 int eval(const SceneFile& file, const std::optional<std::string>& object) {
@@ -29,7 +29,7 @@ int eval(const SceneFile& file, const std::optional<std::string>& object) {
     std::string header = copies ? "x,y,z,phase,object,copy" : "x,y,z,phase";
     for (const std::string& name : tree.phases.names) header += "," + csv_cell("phi." + name);
     put("{}\n", header);
-    for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t) {
+    for_each_row(std::cin, columns, [&](const std::array<float, 6>& v, const NumberTable&) {
         const Phases<float> phi = evaluator.distances({v[0], v[1], v[2]}, workspace);
         std::string line = fmt::format("{},{},{},{}", unsigned_zero(v[0]), unsigned_zero(v[1]), unsigned_zero(v[2]),
                                        csv_cell(tree.phases[label(phi)]));
@@ -47,13 +47,15 @@ void add_eval(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("eval", "Read points \"x y z\" and write the phase and all distances there as CSV");
     command->footer(
-        "Standard input: a point a line, three numbers with blanks or a comma between; # begins a\n"
-        "comment. Or CSV with a header that names the columns x, y and z, such as this command's\n"
-        "own output.\n"
-        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, a line a point. phi is the signed\n"
-        "distance to a phase, negative in it; empty for phases that the object never has. Of a\n"
-        "scene of several objects object,copy come behind phase: the name of the object that holds\n"
-        "the point, and the number of its copy.");
+        "Standard input: one point per line, three numbers with blanks or commas between them; #\n"
+        "begins a comment. Or CSV with a header that names the columns x, y and z, such as this\n"
+        "command's own output.\n"
+        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, one line per point. phi is the signed\n"
+        "distance to a phase, negative inside it; empty for phases that the object never has. With\n"
+        "several objects, object,copy follow phase: the name of the object that holds the point, and\n"
+        "the number of its copy.\n"
+        "The whole scene file is checked, but needs no camera and no lights, and the files of lights,\n"
+        "meshes, textures and voxels are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

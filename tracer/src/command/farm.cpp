@@ -17,7 +17,7 @@ namespace {
 struct FarmOptions {
     std::string kind;
     std::shared_ptr<SceneFile> scene;
-    int shares = 0, most_parts = 64;
+    int shares = 0, most_parts = 64, most_running = 0;
     std::vector<std::string> outputs, sbatch, render_words;
     std::string folder, program = "phasetree";
 };
@@ -50,9 +50,29 @@ std::string as_file(const std::string& name) {
     return name.starts_with('-') ? "./" + name : name;
 }
 
+// Finds now what would fail on every machine of the farm.
+void check_limits(const Farm& farm) {
+    // Of most file systems, and of Linux for a word of a command line, which the whole line is for `sh -c`.
+    constexpr std::size_t longest_name = 255, longest_line = (128 << 10) - 1;
+    const std::string part = std::filesystem::path(part_of_share(farm, farm.shares - 1)).filename().string();
+    if (part.size() > longest_name)
+        throw OutputError(
+            fmt::format("the parts' names would have {} bytes, such as \"{}\"; file systems allow {}, so "
+                        "give the scene file a shorter name",
+                        part.size(), part, longest_name));
+    if (const std::size_t bytes = longest_merge_line(farm); bytes > longest_line)
+        throw OutputError(
+            fmt::format("--merge-width {}: the command line of a merge would have {} bytes, and Linux "
+                        "allows {}; let a merge read fewer parts",
+                        farm.most_parts, bytes, longest_line));
+}
+
 int write_farm(const FarmOptions& options) {
     if (options.kind != "slurm" && options.kind != "list")
         throw OutputError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
+    if (options.kind != "slurm" && options.most_running > 0)
+        throw OutputError(
+            "--max-running is for slurm; whatever runs a list decides how many of its commands run at a time");
     if (options.scene->is_standard_input()) throw OutputError("the scene of a farm must be a file that all can read");
     const RenderOptions render = render_options(options);
     Scene scene = load_scene(read_document(*options.scene));
@@ -85,6 +105,7 @@ int write_farm(const FarmOptions& options) {
     farm.samples = scene.settings.samples;
     farm.shares = options.shares;
     farm.most_parts = options.most_parts;
+    farm.most_running = options.most_running;
     if (farm.shares > farm.samples)
         throw OutputError(
             fmt::format("--shares {}: there are only {} samples a pixel to share", farm.shares, farm.samples));
@@ -96,6 +117,7 @@ int write_farm(const FarmOptions& options) {
         check_denoising(*render.denoise, scene.settings.samples);
         farm.merge_options.push_back("--denoise=" + *render.denoise);
     }
+    check_limits(farm);
     const std::string text = options.kind == "slurm" ? slurm_script(farm) : command_list(farm);
     const auto has_line_feed = [](const std::string& word) { return word.find('\n') != std::string::npos; };
     std::vector<std::string> all{farm.program, farm.scene, farm.parts};
@@ -113,8 +135,8 @@ void add_farm(CLI::App& app, Run& run) {
     auto o = std::make_shared<FarmOptions>();
     command
         ->add_option("kind", o->kind,
-                     "slurm: a script for bash that submits an array and a merge; list: one command a line, the merge "
-                     "last, for OpenCue, GNU parallel, nq")
+                     "slurm: a script for bash that submits job arrays and a merge; list: one command per line, the "
+                     "merge last, for OpenCue, GNU parallel, nq")
         ->required();
     o->scene = add_scene_file(*command);
     command->add_option("render", o->render_words, "Behind --: options of render, for every share");
@@ -127,6 +149,13 @@ void add_farm(CLI::App& app, Run& run) {
                      "time (default: 64)")
         ->check(CLI::Range(2, 1 << 20))
         ->option_text("PARTS");
+    command
+        ->add_option(
+            "--max-running", o->most_running,
+            "For slurm: run at most this many shares at a time, and as many merges (default: any number). Beyond "
+            "the longest array that Slurm allows, each array waits for the one before it")
+        ->check(CLI::Range(1, 1 << 20))
+        ->option_text("N");
     add_outputs(*command, o->outputs, "the scene's name, .exr and .png");
     command->add_option("--parts", o->folder, "The folder, which must be there, for the parts (default: this one)")
         ->option_text("DIR");

@@ -76,27 +76,67 @@ std::string first_in_bash(const Farm& farm, const std::vector<int>& steps, std::
     return fmt::format("{} * {} / {}", part, farm.samples, farm.shares);
 }
 
-// What submits the merges of a step before the last as an array.
-std::string array_of_step(const Farm& farm, const std::vector<int>& steps, std::size_t step,
-                          const std::string& options) {
+// What submits the merges of a step before the last.
+std::string merges_in_bash(const Farm& farm, const std::vector<int>& steps, std::size_t step,
+                           const std::string& options) {
     return fmt::format(
-        R"(array=$(sbatch --parsable --job-name=phasetree-merge --array=0-{last} --requeue --dependency="afterok:$array"{options} <<'END'
-#!/bin/bash
+        R"bash(
 # Merges neighbours, so that no merge has more than {most} parts to read.
-i=$SLURM_ARRAY_TASK_ID parts=()
+merge_of_step_{step}() {{
+    echo '#!/bin/bash'
+    echo "i=\$(($1 + SLURM_ARRAY_TASK_ID)) parts=()"
+    cat <<'END'
 for ((j = i * {before} / {count}; j < (i + 1) * {before} / {count}; ++j)); do
     parts+=({parts}.$(({first}))-$(({next})).part)
 done
 exec {program} merge "${{parts[@]}}" --quiet -o {parts}.$(({whole_first}))-$(({whole_next})).part
 END
-)
-)",
-        fmt::arg("last", steps[step] - 1), fmt::arg("options", options), fmt::arg("most", farm.most_parts),
+}}
+submit_arrays {count} merge_of_step_{step} --job-name=phasetree-merge --requeue{options}
+)bash",
+        fmt::arg("step", step), fmt::arg("options", options), fmt::arg("most", farm.most_parts),
         fmt::arg("before", steps[step - 1]), fmt::arg("count", steps[step]), fmt::arg("parts", shell_word(farm.parts)),
         fmt::arg("first", first_in_bash(farm, steps, step - 1, "j")),
         fmt::arg("next", first_in_bash(farm, steps, step - 1, "(j + 1)")),
         fmt::arg("program", shell_word(farm.program)), fmt::arg("whole_first", first_in_bash(farm, steps, step, "i")),
         fmt::arg("whole_next", first_in_bash(farm, steps, step, "(i + 1)")));
+}
+
+// How the script submits: submit_arrays COUNT WRITER [OPTION…] submits tasks 0 to COUNT - 1, whose script `WRITER
+// FIRST` writes for the array that begins with task FIRST, and sets `jobs` to the arrays' numbers, "1:2:3". They wait
+// for the `jobs` that there were. If anything cannot be submitted, all that was is cancelled.
+std::string submitting_in_bash(const Farm& farm) {
+    return fmt::format(
+        R"bash(submitted=() jobs=
+trap 'code=$?; [ "$code" = 0 ] || [ ${{#submitted[@]}} = 0 ] || scancel "${{submitted[@]}}"; exit "$code"' EXIT
+
+# An array's last index must be less than MaxArraySize, so longer ones are submitted in pieces.
+longest=$(scontrol show config 2>/dev/null | sed -n 's/^MaxArraySize *= *\([0-9][0-9]*\).*/\1/p') || true
+[ "${{longest:-0}}" -gt 0 ] || longest=1001
+most_running={most_running}
+
+# submit_arrays COUNT WRITER [OPTION...]: submits tasks 0 to COUNT - 1, after what is in `jobs`, and puts their arrays there.
+# "WRITER FIRST" writes the script of the array whose first task is FIRST.
+submit_arrays() {{
+    local count=$1 writer=$2 before=$jobs first size job dependency
+    shift 2
+    jobs=
+    for ((first = 0; first < count; first += longest)); do
+        size=$((count - first < longest ? count - first : longest))
+        dependency=${{before:+afterok:$before}}
+        # %N limits one array, so with a limit each array waits until the one before it has ended.
+        if [ "$most_running" -gt 0 ] && [ -n "$jobs" ]; then
+            dependency=${{dependency:+$dependency,}}afterany:${{jobs##*:}}
+        fi
+        job=$("$writer" "$first" | sbatch --parsable --array=0-$((size - 1)){limit} ${{dependency:+--dependency="$dependency"}} "$@")
+        job=${{job%%;*}}
+        submitted+=("$job")
+        jobs=${{jobs:+$jobs:}}$job
+    done
+}}
+)bash",
+        fmt::arg("most_running", farm.most_running),
+        fmt::arg("limit", farm.most_running > 0 ? fmt::format("%{}", farm.most_running) : ""));
 }
 
 }  // namespace
@@ -127,6 +167,15 @@ std::vector<int> parts_of_steps(const Farm& farm) {
     return steps;
 }
 
+std::size_t longest_merge_line(const Farm& farm) {
+    // No part's name is longer than that of the last share, whose numbers are the greatest.
+    const std::size_t part = shell_word(part_of_share(farm, farm.shares - 1)).size() + 1;
+    std::size_t bytes = words({farm.program, "merge", "--quiet", "-o"}).size() + part;
+    for (const std::string& word : farm.outputs) bytes += shell_word(word).size() + std::string_view(" -o ").size();
+    for (const std::string& word : farm.merge_options) bytes += shell_word(word).size() + 1;
+    return bytes + part * static_cast<std::size_t>(std::min(farm.shares, farm.most_parts));
+}
+
 std::string command_list(const Farm& farm) {
     std::string list;
     for (int i = 0; i < farm.shares; ++i) {
@@ -143,17 +192,20 @@ std::string slurm_script(const Farm& farm) {
     const std::string options = (farm.sbatch_options.empty() ? "" : " ") + words(farm.sbatch_options);
     const std::vector<int> steps = parts_of_steps(farm);
     std::string steps_between;
-    for (std::size_t step = 1; step < steps.size(); ++step) steps_between += array_of_step(farm, steps, step, options);
+    for (std::size_t step = 1; step < steps.size(); ++step) steps_between += merges_in_bash(farm, steps, step, options);
     return fmt::format(
-        R"(#!/bin/bash
-# Run by hand where sbatch is: submits {shares} shares of {samples} samples a pixel as an array, and what merges them when all
-# are done. Prints the number of the last job, which makes the picture.
+        R"bash(#!/bin/bash
+# Run this where sbatch is. It submits {shares} shares of {samples} samples per pixel, and merges that wait for them, and prints the
+# number of the last job, which makes the picture.
 set -eu
-array=$(sbatch --parsable --job-name=phasetree --array=0-{last} --requeue --open-mode=append --signal=B:TERM@60{options} <<'END'
-#!/bin/bash
-# A share goes on from where it was when it was preempted, requeued or near its time limit. Slurm may send SIGTERM to this
-# script alone or to all of its processes. So the render ignores that, and is told once, by SIGHUP.
-first=$((SLURM_ARRAY_TASK_ID * {samples} / {shares})) last=$(((SLURM_ARRAY_TASK_ID + 1) * {samples} / {shares}))
+{submitting}
+# A share resumes where it was when it is preempted, requeued or near its time limit. Slurm may send SIGTERM to this script
+# alone or to all of its processes. So the render ignores SIGTERM, and the script sends it one SIGHUP instead.
+share() {{
+    echo '#!/bin/bash'
+    echo "share=\$(($1 + SLURM_ARRAY_TASK_ID))"
+    cat <<'END'
+first=$((share * {samples} / {shares})) last=$(((share + 1) * {samples} / {shares}))
 part={parts}.$first-$last.part
 is_stopped=no
 stop() {{
@@ -170,22 +222,27 @@ if [ "$is_stopped" = yes ]; then
     code=0
     wait "$render" || code=$?
 fi
-# 75: there is a checkpoint to go on from. Above 128: a signal came too early for one, or was another, such as the system's
-# when memory runs out, after which it is tried again three times.
+# 75: there is a checkpoint to resume. Above 128: a signal came before the first checkpoint, or it was another signal, such as
+# the system's when memory runs out; then the share is tried again, up to three times.
 if [ "$code" = 75 ] || {{ [ "$code" -gt 128 ] && {{ [ "$is_stopped" = yes ] || [ "${{SLURM_RESTART_COUNT:-0}}" -lt 3 ]; }}; }}; then
     scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"
 fi
 exit "$code"
 END
-)
-{between}sbatch --parsable --job-name=phasetree-merge --dependency="afterok:$array"{options} <<'END'
+}}
+submit_arrays {shares} share --job-name=phasetree --requeue --open-mode=append --signal=B:TERM@60{options}
+{between}
+last=$(sbatch --parsable --job-name=phasetree-merge --dependency="afterok:$jobs"{options} <<'END'
 #!/bin/bash
 exec {merge}
 END
-)",
-        fmt::arg("shares", farm.shares), fmt::arg("samples", farm.samples), fmt::arg("last", farm.shares - 1),
-        fmt::arg("options", options), fmt::arg("parts", shell_word(farm.parts)), fmt::arg("head", render_head(farm)),
-        fmt::arg("tail", render_tail(farm)),
+)
+submitted=()
+echo "$last"
+)bash",
+        fmt::arg("shares", farm.shares), fmt::arg("samples", farm.samples), fmt::arg("options", options),
+        fmt::arg("submitting", submitting_in_bash(farm)), fmt::arg("parts", shell_word(farm.parts)),
+        fmt::arg("head", render_head(farm)), fmt::arg("tail", render_tail(farm)),
         fmt::arg("threads", farm.has_threads ? "" : R"( ${SLURM_CPUS_PER_TASK:+--threads "$SLURM_CPUS_PER_TASK"})"),
         fmt::arg("between", steps_between), fmt::arg("merge", last_merge(farm, steps)));
 }

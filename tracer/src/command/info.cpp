@@ -76,7 +76,7 @@ int info(const SceneFile& file, const InfoOptions& chosen) {
     std::optional<CellStatistics> cells;
     if (chosen.with_cells) {
         CellOptions options = chosen.cells;
-        options.opaque = opaque_phases(document);
+        options.opaque = model.opaque;
         LateProgress progress(ProgressOutput::standard_error(false), "preparing the object");
         options.progress = [&](float done) { progress.tell(done); };
         cells = made_of_tree(document, [&] { return InterfaceCells(tree.object, options).statistics(); });
@@ -135,7 +135,10 @@ void add_info(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<InfoOptions>();
-    command->footer("Of a scene of several objects it lists these; with --object it tells of one.");
+    command->footer(
+        "Lists the objects of a scene of several; --object describes one of them. The whole scene\n"
+        "file is checked, but needs no camera and no lights, and the files of lights, meshes,\n"
+        "textures and voxels are not opened.");
     add_object(*command, options->object);
     command->add_flag("--json", options->as_json, "As JSON");
     auto* const with_cells = command->add_flag(

@@ -8,23 +8,21 @@
 #include <string>
 #include <string_view>
 
+#include "phasetree/io/number_table.hpp"
+
 namespace phasetree::tracer {
 
-// Standard input that is wrong; what() begins with the place, "<stdin>:line:column: ".
+// What is wrong with the command's input or options; what() begins with where, "<stdin>: " or "--option: ".
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// Reads lines of numbers, one for each of `columns`, separated by blanks or a comma. Empty lines and what follows a #
-// are passed over. If the first line is a header, as CSV files have it, then it must have the columns by their names;
-// cells of other columns may hold anything, and what is quoted may hold commas. So the output of `eval` can be its
-// input.
-//
-// `use` gets the numbers and the number of the line, from 1. Throws InputError for anything else, so that a mistake
-// never becomes a wrong answer.
-void for_each_line_of_numbers(std::istream& in, std::span<const std::string_view> columns,
-                              const std::function<void(const std::array<float, 6>&, std::size_t)>& use);
+// Reads a table with these columns, at most six, and calls `use` with the numbers of each row and with the table, which
+// makes errors at a cell. The output of `eval` can be its input. Throws SceneError, with the place in "<stdin>", for
+// anything that is no such table.
+void for_each_row(std::istream& in, std::span<const NumberTable::Column> columns,
+                  const std::function<void(const std::array<float, 6>&, const NumberTable&)>& use);
 
 // A cell of a CSV file (RFC 4180): a name, in quotes if it holds what ends a cell.
 std::string csv_cell(std::string_view text);

@@ -16,7 +16,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::string_view columns[] = {"ox", "oy", "oz", "dx", "dy", "dz"};
+constexpr NumberTable::Column columns[] = {{"ox"}, {"oy"}, {"oz"}, {"dx"}, {"dy"}, {"dz"}};
 
 // t counts in units of the direction as it was given, so that origin + t·direction is the place.
 int trace(const SceneFile& file, const std::optional<std::string>& object) {
@@ -33,10 +33,10 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
     const FlushSubnormals flush;
     put("ray,t,from,to,nx,ny,nz{}\n", copies ? ",to_object,to_copy" : "");
     std::size_t ray = 0;
-    for_each_line_of_numbers(std::cin, columns, [&](const std::array<float, 6>& v, std::size_t line) {
+    for_each_row(std::cin, columns, [&](const std::array<float, 6>& v, const NumberTable& table) {
         const glm::vec3 origin(v[0], v[1], v[2]), given(v[3], v[4], v[5]);
         const double length = glm::length(glm::dvec3(given));
-        if (!(length > 0)) throw InputError(fmt::format("<stdin>:{}:1: the ray has no direction", line));
+        if (!(length > 0)) throw table.error(3, "the ray's direction is zero; give it any other length");
         const glm::vec3 direction(glm::dvec3(given) / length);
         // From the first interface on places are counted from there: a ray that began anew at each would be rounded at
         // each, and where it grazes a face these errors would keep it there.
@@ -71,17 +71,19 @@ void add_trace(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("trace", "Read rays \"ox oy oz dx dy dz\" and write every interface along each as CSV");
     command->footer(
-        "Standard input: a ray a line, its origin and its direction of any length, six numbers with\n"
-        "blanks or a comma between; # begins a comment. Or CSV with a header that names the columns\n"
-        "ox, oy, oz, dx, dy and dz.\n"
+        "Standard input: one ray per line, its origin and its direction of any length, six numbers\n"
+        "with blanks or commas between them; # begins a comment. Or CSV with a header that names the\n"
+        "columns ox, oy, oz, dx, dy and dz.\n"
         "Standard output: ray,t,from,to,nx,ny,nz. Rays count from 0. Each begins with a line that\n"
         "says where it starts: t is 0, \"from\" and the normal are empty, and \"to\" is the phase at\n"
         "its origin. Then comes a line for each interface in its order. The interface is at origin\n"
         "+ t·direction, where t is the near end of the bracket that was found, which is still in\n"
         "\"from\"; the far end, in \"to\", is within the resolution behind it. The normal is of unit\n"
         "length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.\n"
-        "Of a scene of several objects to_object,to_copy come last: the object in which \"to\" is, and\n"
-        "the number of its copy.");
+        "With several objects, to_object,to_copy come last: the object that \"to\" belongs to, and the\n"
+        "number of its copy.\n"
+        "The whole scene file is checked, but needs no camera and no lights, and the files of lights,\n"
+        "meshes, textures and voxels are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

@@ -40,9 +40,13 @@ glm::vec3 IesLight::intensity(const glm::vec3& away) const {
     return intensity_ * profile_->relative_intensity(vertical, horizontal);
 }
 
-IesLight IesLightParameters::made() const {
+void IesLightParameters::check() const {
     if (!(glm::length(target - position) > 0))
         throw ParameterError("target", "\"target\" is where the light itself is");
+}
+
+IesLight IesLightParameters::made() const {
+    check();
     const std::string text = read_whole_file(file, std::uintmax_t{1} << 20, "1 MiB");
     try {
         return IesLight(position, target, turn_degrees, std::make_shared<const IesProfile>(text), color * intensity);

@@ -68,6 +68,8 @@ struct IesLightParameters {
           Parameter{"intensity", "", "Radiant intensity where the file has the most candelas; see the point light.",
                     limits::non_negative, true});
     }
+    /// Checks the parameters without reading the file. Throws ParameterError.
+    void check() const;
     IesLight made() const;
 };
 

@@ -56,11 +56,16 @@ void make_unit(glm::vec3& v) {
 
 }  // namespace
 
+void MeshFileParameters::check_without_file(std::string_view ending) const {
+    check_ending_of_mesh(file, {ending});
+    (void)opacity();
+}
+
 Mesh MeshFileParameters::read(std::string_view ending) const {
     const auto fail = [&](std::string_view what) {
         return ParameterError("file", fmt::format("{} {}", file.string(), what));
     };
-    check_ending_of_mesh(file, {ending});
+    check_without_file(ending);
     MeshFile read;
     try {
         read = read_mesh_file(file, read_whole_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);

@@ -51,8 +51,12 @@ std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gl
     return files;
 }
 
-MeshGroup GltfParameters::made() const {
+void GltfParameters::check() const {
     check_ending_of_mesh(file, {".gltf", ".glb"});
+}
+
+MeshGroup GltfParameters::made() const {
+    check();
     const auto read_named = [&](const std::string& name) {
         try {
             return read_whole_file(file_of_gltf(file, name), most_bytes_of_mesh, most);

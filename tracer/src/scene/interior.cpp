@@ -128,6 +128,8 @@ Medium ClearParameters::interior() const {
             throw ParameterError("emission",
                                  "\"emission\" needs absorption or scattering in the same channel: without "
                                  "any, light would grow without end along a ray");
+    const auto is_unread = [](const std::optional<Voxels>& voxels) { return voxels && !voxels->shares; };
+    if (is_unread(density_grid) || is_unread(temperature_grid)) return AbsorbingMedium{};
     if (density || density_grid) {
         std::optional<Heat> heat;
         if (temperature_grid) {

@@ -2,7 +2,9 @@
 
 #include "lights/light_kinds.hpp"
 #include "phasetree/io/read_kind.hpp"
+#include "scene/parameter_types.hpp"
 #include "scene/read_parts.hpp"
+#include "scene/unread_file.hpp"
 
 namespace phasetree::tracer {
 
@@ -30,6 +32,8 @@ Lights read_lights(const Document& document, Value root) {
                 read_kind<Kind>(document, member, fmt::format("the {} light", Kind::info.name), [&](const Kind& kind) {
                     if constexpr (std::is_same_v<Kind, PortalParameters>)
                         lights.add(kind.made());
+                    else if (is_left_unread(document, kind))
+                        (void)kind.checked_group();
                     else
                         add(lights, made_light(kind, images), kind);
                     return true;

@@ -59,7 +59,9 @@ struct MeshFileParameters : OpacityParameters {
                                 "by the mean of those of the faces around each vertex.",
                                 limits::any, true});
     }
-    // `ending` is that of the format that the file must be of, such as ".obj".
+    // `ending` is that of the format that the file must be of, such as ".obj". Both throw ParameterError; the first
+    // checks what it can without reading the file.
+    void check_without_file(std::string_view ending) const;
     Mesh read(std::string_view ending) const;
 };
 
@@ -73,6 +75,7 @@ struct ObjParameters : MeshFileParameters {
     static void parameters(V&& v) {
         file_parameters<ObjParameters>(v);
     }
+    void check() const { check_without_file(".obj"); }
     Mesh made() const { return read(".obj"); }
 };
 
@@ -85,6 +88,7 @@ struct PlyParameters : MeshFileParameters {
     static void parameters(V&& v) {
         file_parameters<PlyParameters>(v);
     }
+    void check() const { check_without_file(".ply"); }
     Mesh made() const { return read(".ply"); }
 };
 
@@ -95,6 +99,7 @@ struct StlParameters : MeshFileParameters {
     static void parameters(V&& v) {
         file_parameters<StlParameters>(v);
     }
+    void check() const { check_without_file(".stl"); }
     Mesh made() const { return read(".stl"); }
 };
 
@@ -124,6 +129,8 @@ struct GltfParameters {
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
     }
+    /// Checks the parameters without reading the file. Throws ParameterError.
+    void check() const;
     MeshGroup made() const;
 };
 

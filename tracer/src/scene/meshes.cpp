@@ -7,6 +7,7 @@
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_tangents.hpp"
 #include "scene/read_parts.hpp"
+#include "scene/unread_file.hpp"
 
 namespace phasetree::tracer {
 
@@ -66,6 +67,7 @@ MeshGroup read_meshes(const Document& document, Value list) {
                 same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
             MeshGroup group =
                 read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [&](const Kind& kind) {
+                    if (is_left_unread(document, kind)) return MeshGroup{};
                     MeshGroup made = group_of(kind.made(), name);
                     for (Mesh& mesh : made.meshes) {
                         check_textures(mesh);

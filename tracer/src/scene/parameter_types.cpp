@@ -6,15 +6,17 @@
 #include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
 #include "scene/read_parts.hpp"
+#include "scene/unread_file.hpp"
 
 namespace phasetree {
 
 namespace {
 
-// A texture as it was read, with what it needs to be asked for colours.
+// Prepares a texture, map or voxels for evaluation, unless that would open a file that the document leaves closed.
 template <class Kind>
-Kind prepared(Kind kind) {
+Kind prepared(const Document& document, Kind kind) {
     if constexpr (requires { kind.prepare(); }) {
+        if (tracer::is_left_unread(document, kind)) return kind;
         try {
             kind.prepare();
         } catch (const ModelError& e) {
@@ -22,6 +24,11 @@ Kind prepared(Kind kind) {
         }
     }
     return kind;
+}
+
+template <class Kind>
+Kind read_prepared(const Document& document, Value value, std::string_view what) {
+    return read_kind<Kind>(document, value, what, [&](Kind kind) { return prepared(document, std::move(kind)); });
 }
 
 // Calls add(at, value) for each stop of a ramp.
@@ -59,7 +66,7 @@ tracer::Texture TextureType::read(const Document& document, Value value, std::st
         return tracer::ConstantTexture{as_colour(document, value, "the colour", range_of(limits::fraction))};
     tracer::Texture texture;
     with_kind(tracer::NamedTextures(), document, value, "a texture", [&]<class Kind>(Value member) {
-        texture = read_kind<Kind>(document, member, fmt::format("the {} texture", Kind::info.name), prepared<Kind>);
+        texture = read_prepared<Kind>(document, member, fmt::format("the {} texture", Kind::info.name));
     });
     return texture;
 }
@@ -171,7 +178,7 @@ tracer::Number NumberType::read(const Document& document, Value value, std::stri
                     throw ParameterError(std::string(values),
                                          fmt::format("{} must be {}, but the {} has {}", what,
                                                      phasetree::describe(range_of(p.limits)), values, end));
-            return prepared(std::move(kind));
+            return prepared(document, std::move(kind));
         });
     });
     return number;
@@ -185,7 +192,7 @@ ValueType NumberType::describe(const Parameter& p) {
 using NormalMapType = ParameterType<tracer::NormalMap, Parameter>;
 
 tracer::NormalMap NormalMapType::read(const Document& document, Value value, std::string_view, const Parameter&) {
-    return read_kind<tracer::NormalMap>(document, value, "the normal map", prepared<tracer::NormalMap>);
+    return read_prepared<tracer::NormalMap>(document, value, "the normal map");
 }
 
 ValueType NormalMapType::describe(const Parameter&) {
@@ -195,7 +202,7 @@ ValueType NormalMapType::describe(const Parameter&) {
 using VoxelsType = ParameterType<tracer::Voxels, Parameter>;
 
 tracer::Voxels VoxelsType::read(const Document& document, Value value, std::string_view what, const Parameter&) {
-    return read_kind<tracer::Voxels>(document, value, what, prepared<tracer::Voxels>);
+    return read_prepared<tracer::Voxels>(document, value, what);
 }
 
 ValueType VoxelsType::describe(const Parameter&) {

@@ -72,10 +72,6 @@ Material read_phase_material(const Document& document, Value phase) {
     return material;
 }
 
-}  // namespace
-
-namespace {
-
 // Adds a phase's material, unless the voxels of all would be more than a machine may hold.
 void add_material(const Document& document, Value phase, Scene& scene) {
     constexpr std::size_t most_bytes_of_voxels = std::size_t{4} << 30;
@@ -94,21 +90,69 @@ void refuse_places_of_nothing(const Document& document) {
             throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
 }
 
+// What a file is read for: a picture needs all that a picture needs; a model, no more than its tree or objects.
+enum class Purpose { picture, model };
+
+// Whether a file must have a version, and a material for each phase.
+bool must_be_whole(const FileParts& parts, Purpose purpose) {
+    return purpose == Purpose::picture || parts.camera;
+}
+
+void read_placed_into(const Document& document, const Shutter& shutter, NodePlaces* places, Purpose purpose,
+                      Scene& scene, std::vector<ObjectsModel::Source>& materials) {
+    ObjectsModel model = read_placed_objects(document, shutter, places);
+    // A model is that of the document's time, but what is wrong while the shutter is open is an error, too.
+    if (purpose == Purpose::model && (shutter.open != 0 || shutter.close != 0)) model = read_placed_objects(document);
+    scene.phases = std::move(model.phases);
+    scene.placed = std::move(model.placed);
+    materials = std::move(model.materials);
+}
+
 void read_model_into(const Document& document, const FileParts& parts, const Shutter& shutter, NodePlaces* places,
-                     Scene& scene) {
-    scene.materials.push_back(vacuum());
+                     Purpose purpose, Scene& scene) {
+    std::vector<ObjectsModel::Source> materials;
     if (parts.objects) {
-        ObjectsModel model = read_placed_objects(document, shutter, places);
-        scene.phases = std::move(model.phases);
-        scene.placed = std::move(model.placed);
-        for (const auto& source : model.materials) add_material(source.document, source.material, scene);
-        return;
+        read_placed_into(document, shutter, places, purpose, scene, materials);
+    } else {
+        refuse_places_of_nothing(document);
+        SceneTree tree = read_tree(document, file_readers(), places);
+        scene.phases = std::move(tree.phases);
+        scene.object = purpose == Purpose::picture ? with_bounds(tree.object) : std::move(tree.object);
+        for (const Value phase : *parts.phases) materials.push_back({document, phase});
     }
-    refuse_places_of_nothing(document);
-    SceneTree tree = read_tree(document, file_readers(), places);
-    scene.phases = std::move(tree.phases);
-    scene.object = with_bounds(tree.object);
-    for (const Value phase : *parts.phases) add_material(document, phase, scene);
+    scene.materials.push_back(vacuum());
+    for (const auto& [source, material] : materials) {
+        if (must_be_whole(parts, purpose) || material.is_object())
+            add_material(source, material, scene);
+        else
+            scene.materials.push_back(vacuum());
+    }
+}
+
+// Reads and checks all parts of a file. Every command reads files by this function, so that what is wrong with one is
+// wrong for all of them.
+Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) {
+    ObjectReader root(document, document.root(), "the scene");
+    const FileParts parts = parts_of(root);
+    check_schema(document, parts);
+    if (must_be_whole(parts, purpose) || parts.version) check_version(document, needed(root, &FileParts::version));
+
+    Scene scene;
+    scene.file = document.name();
+    if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
+    const Shutter shutter{scene.settings.shutter.x, scene.settings.shutter.y};
+    read_model_into(document, parts, shutter, places, purpose, scene);
+    scene.lights = read_lights(document, document.root());
+    if (parts.meshes) {
+        MeshGroup group = read_meshes(document, *parts.meshes);
+        scene.meshes = std::move(group.meshes);
+        scene.not_shown = std::move(group.not_shown);
+    }
+    if (purpose == Purpose::model && !parts.camera) return scene;
+    const Value camera = needed(root, &FileParts::camera);
+    scene.camera = read_camera(at_moment(document, shutter, 0), camera, scene.film);
+    scene.camera_moments = read_camera_moments(document, camera, shutter);
+    return scene;
 }
 
 }  // namespace
@@ -129,60 +173,25 @@ std::vector<std::string> object_names(const Scene& scene) {
     return names;
 }
 
-SceneModel read_scene_model(const Document& document) {
-    if (has_objects(document)) {
-        ObjectsModel model = read_placed_objects(document);
-        return {std::move(model.phases), {}, std::move(model.placed)};
-    }
-    refuse_places_of_nothing(document);
-    SceneTree tree = read_tree(document, file_readers());
-    return {std::move(tree.phases), std::move(tree.object), {}};
-}
-
 Scene read_scene(const Document& document, NodePlaces* places) {
-    ObjectReader root(document, document.root(), "the scene");
-    const FileParts parts = parts_of(root);
-    check_schema(document, parts);
-    check_version(document, needed(root, &FileParts::version));
-
-    Scene scene;
-    scene.file = document.name();
-    if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
-    const Shutter shutter{scene.settings.shutter.x, scene.settings.shutter.y};
-    read_model_into(document, parts, shutter, places, scene);
-    scene.lights = read_lights(document, document.root());
-    if (parts.meshes) {
-        MeshGroup group = read_meshes(document, *parts.meshes);
-        scene.meshes = std::move(group.meshes);
-        scene.not_shown = std::move(group.not_shown);
-    }
-    const Value camera = needed(root, &FileParts::camera);
-    scene.camera = read_camera(at_moment(document, shutter, 0), camera, scene.film);
-    scene.camera_moments = read_camera_moments(document, camera, shutter);
-
-    // An object that cannot be traced is found here, and not after the meshes are in memory.
+    Scene scene = read_parts(document, Purpose::picture, places);
     try {
         if (scene.object) (void)prepare_to_trace(scene.object);
         find_glowing_parts(scene);
     } catch (const ModelError& e) {
-        throw document.error(parts.tree ? *parts.tree : document.root(), e.what());
+        throw document.error(document.root().find("tree").value_or(document.root()), e.what());
     }
     scene.lights.cluster_lamps();
     return scene;
 }
 
 SceneModel read_scene_without_camera(const Document& document) {
-    ObjectReader root(document, document.root(), "the scene");
-    const FileParts parts = parts_of(root);
-    check_schema(document, parts);
-    if (parts.version) check_version(document, *parts.version);
-    SceneModel model = read_scene_model(document);
-    (void)opaque_phases(document);
-    (void)read_lights(document, document.root());
-    if (parts.meshes) (void)read_meshes(document, *parts.meshes);
-    FilmSettings unused;
-    if (parts.render) (void)read_settings(document, *parts.render, unused);
-    return model;
+    Scene scene = read_parts(document, Purpose::model, nullptr);
+    return {std::move(scene.phases), std::move(scene.object), std::move(scene.placed), opaque_phases(scene.materials)};
+}
+
+SceneModel read_scene_model(const Document& document) {
+    return read_scene_without_camera(document.without_assets());
 }
 
 PhaseSet opaque_phases(const std::vector<Material>& materials) {
@@ -190,20 +199,6 @@ PhaseSet opaque_phases(const std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (!is_clear(materials[i])) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
     return opaque;
-}
-
-PhaseSet opaque_phases(const Document& document) {
-    std::vector<Material> materials{vacuum()};
-    const auto add = [&](const Document& source, Value phase) {
-        materials.push_back(phase.is_object() ? read_phase_material(source, phase) : vacuum());
-    };
-    if (has_objects(document)) {
-        for (const auto& source : read_placed_objects(document).materials) add(source.document, source.material);
-    } else {
-        ObjectReader root(document, document.root(), "the scene");
-        for (const Value phase : needed(root, &FileParts::phases)) add(document, phase);
-    }
-    return opaque_phases(materials);
 }
 
 }  // namespace phasetree::tracer

@@ -43,11 +43,12 @@ struct RenderSettings {
     glm::vec2 shutter{0.0f};          // when it opens and closes, in seconds from the time at which the scene is read
 };
 
-// What a scene shows, without materials and all that surrounds it.
+// The objects of a scene, without materials, lights and surroundings.
 struct SceneModel {
     PhaseNames phases;
     Phased object;         // of a scene of one tree; empty otherwise
     PlacedObjects placed;  // of a scene of several objects; empty otherwise
+    PhaseSet opaque;       // the phases that light does not travel in; phases without a material are clear
 };
 
 struct Scene {
@@ -77,16 +78,16 @@ Scene read_scene(const Document& document, NodePlaces* places = nullptr);
 // What objects and meshes are called, in the order of their numbers (Surface::object).
 std::vector<std::string> object_names(const Scene& scene);
 
-// Of a scene that has no camera: its model, and that all else that it has is sound. It needs no materials either:
-// phases may have anything in their place that is no object. Throws SceneError.
+// Reads the model of a file that need not be a whole scene, and checks everything else in the file, with the same
+// errors in the same order as read_scene. A file with a camera needs a version and a material for each phase, as
+// read_scene demands. A file without one needs neither: its phases may have anything that is no object in place of a
+// material. Whether the object can be traced, seen and lit is not checked. Throws SceneError.
 SceneModel read_scene_without_camera(const Document& document);
 
-// Of a file that need not be more than a tree or objects: these.
+// The same, without opening the files of lights, meshes, textures and voxels (Document::without_assets).
 SceneModel read_scene_model(const Document& document);
 
 // The phases that light does not travel in.
 PhaseSet opaque_phases(const std::vector<Material>& materials);
-// The same of a file that need not be more than a tree: phases that are given no material are clear.
-PhaseSet opaque_phases(const Document& document);
 
 }  // namespace phasetree::tracer

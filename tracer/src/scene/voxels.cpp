@@ -8,7 +8,7 @@
 
 namespace phasetree::tracer {
 
-void Voxels::prepare() {
+void Voxels::check() const {
     const bool is_openvdb = has_ending_of_openvdb(file);
     if (is_openvdb && spacing)
         throw ParameterError("spacing", "grids of OpenVDB have a spacing of their own; leave this out",
@@ -16,6 +16,11 @@ void Voxels::prepare() {
     if (!is_openvdb && !spacing) throw ParameterError("spacing", "images do not say how large their voxels are");
     if (!is_openvdb && !grid.empty())
         throw ParameterError("grid", "images have no grids that this could name", ParameterError::Place::key);
+}
+
+void Voxels::prepare() {
+    check();
+    const bool is_openvdb = has_ending_of_openvdb(file);
     const Placement placement(scale, rotate_z_degrees, translate, y_up);
     const glm::dmat3 linear(placement.linear());
     try {

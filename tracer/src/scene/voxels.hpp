@@ -53,7 +53,9 @@ struct Voxels {
         placement_parameters<P>(v);
         v(&P::y_up, y_up_parameter);
     }
-    /// Reads the file. Throws ParameterError for one that cannot be used.
+    /// Checks the parameters without reading the file. Throws ParameterError.
+    void check() const;
+    /// Checks the parameters and reads the file. Throws ParameterError for one that cannot be used.
     void prepare();
 };
 

@@ -131,6 +131,12 @@ class Document {
     /// untrusted scenes. SceneError if there is no such folder.
     Document with_files_within(const std::filesystem::path& folder) const;
 
+    /// The same text, for a caller that needs the model alone. Readers check everything that the text says, but they do
+    /// not open the files of lights, meshes, textures and voxels: these may be large, or missing.
+    Document without_assets() const;
+    /// False for what without_assets() returns, and for documents beside it.
+    bool reads_assets() const;
+
     /// The time, in seconds, at which what changes with time is read (io/keys.hpp); 0 unless it was set.
     double seconds() const { return seconds_; }
     Document at(double seconds) const {
@@ -157,7 +163,8 @@ class Document {
     explicit Document(std::shared_ptr<const DocumentData> data) : data_(std::move(data)) {}
 
     std::shared_ptr<const DocumentData> data_;
-    std::shared_ptr<const std::filesystem::path> files_within_;  ///< as it is without links; null for anywhere
+    struct FileAccess;
+    std::shared_ptr<const FileAccess> access_;  ///< null for any file anywhere
     std::shared_ptr<KeptNodes> kept_nodes_;
     double seconds_ = 0;
 };

@@ -26,6 +26,9 @@ class SceneError : public std::runtime_error {
     SceneError(std::string file, std::string_view text, std::size_t offset, std::string message,
                std::optional<std::string> suggestion = {});
 
+    /// An error at a line and a column, both from 1, of a text that is not kept: what() does not show the line.
+    SceneError(std::string file, std::size_t line, std::size_t column, std::string message);
+
     const std::string& file() const noexcept;
     /// From 1; 0 when the error has no position.
     std::size_t line() const noexcept;

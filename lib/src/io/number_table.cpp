@@ -1,0 +1,220 @@
+#include "phasetree/io/number_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "io/utf8.hpp"
+#include "io/words.hpp"
+
+namespace phasetree {
+
+namespace {
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+// A blank that separates nothing.
+bool is_padding(char c, char separator) {
+    return is_blank(c) && c != separator;
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return lower;
+}
+
+// What separates the names of a header: the first of these that stands outside quotes.
+char separator_of(std::string_view header) {
+    for (const char separator : {',', ';', '\t'}) {
+        bool is_quoted = false;
+        for (const char c : header) {
+            if (c == '"') is_quoted = !is_quoted;
+            if (c == separator && !is_quoted) return separator;
+        }
+    }
+    return ' ';
+}
+
+// Whether the first cell of a line looks like a name instead of a number.
+bool looks_like_name(std::string_view text) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const std::string word = lower_case({text.begin(), std::ranges::find_if_not(text, is_letter)});
+    if (word == "nan" || word == "inf" || word == "infinity") return false;
+    return !word.empty() || text.empty() || text.front() == '_';
+}
+
+}  // namespace
+
+bool NumberTable::is_row(std::string_view line) {
+    if (++line_number_ == 1 && line.starts_with(io::byte_order_mark)) line.remove_prefix(io::byte_order_mark.size());
+    line_ = line;
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string_view::npos || line[first] == '#') return false;
+    if (!std::exchange(has_begun_, true) && is_header(line)) {
+        read_header();
+        return false;
+    }
+    if (has_header())
+        split(separator_);
+    else
+        split_without_header();
+    check_row();
+    return true;
+}
+
+bool NumberTable::is_header(std::string_view line) {
+    if (header_ == Header::required) return true;
+    // Without quotes, lines of numbers cannot fail to split here.
+    split(separator_of(line));
+    const auto is_column = [&](const Cell& cell) {
+        return std::ranges::find(columns_, lower_case(cell.text), &Column::name) != columns_.end();
+    };
+    const std::string_view first = cells_.front().text;
+    return !io::number_of<double>(first) && (std::ranges::any_of(cells_, is_column) || looks_like_name(first));
+}
+
+void NumberTable::read_header() {
+    separator_ = separator_of(line_);
+    split(separator_);
+    cells_in_header_ = cells_.size();
+    places_.assign(columns_.size(), missing);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const auto column = std::ranges::find(columns_, lower_case(cells_[i].text), &Column::name);
+        if (column == columns_.end()) continue;
+        std::size_t& place = places_[static_cast<std::size_t>(column - columns_.begin())];
+        if (place != missing) throw error_at(cells_[i].at, fmt::format("there are two columns \"{}\"", column->name));
+        place = i;
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+        if (columns_[i].is_required && places_[i] == missing)
+            throw error_at(cells_.front().at, fmt::format("the header has no column \"{}\"; it must name {}",
+                                                          columns_[i].name, required_names()));
+}
+
+std::string NumberTable::required_names() const {
+    std::string names;
+    for (const Column& column : columns_)
+        if (column.is_required) names += (names.empty() ? "" : ", ") + std::string(column.name);
+    return names;
+}
+
+// Reads the quoted cell that begins at `at`, and moves `at` to the separator behind it, or to the end of the line.
+NumberTable::Cell NumberTable::quoted_cell(std::size_t& at, char separator) const {
+    const std::size_t begin = at++;
+    while (at < line_.size() && (line_[at] != '"' || line_.substr(at).starts_with("\"\"")))
+        at += line_[at] == '"' ? 2 : 1;
+    if (at >= line_.size())
+        throw error_at(begin, "a quoted cell must end on its line, but this one has no closing quote");
+    const Cell cell{begin, line_.substr(begin + 1, at - begin - 1)};
+    for (++at; at < line_.size() && is_padding(line_[at], separator); ++at) {
+    }
+    if (at < line_.size() && line_[at] != separator)
+        throw error_at(at, "only a separator may follow the closing quote of a cell");
+    return cell;
+}
+
+void NumberTable::split(char separator) {
+    cells_.clear();
+    std::size_t at = 0;
+    while (true) {
+        const bool is_of_blanks = separator == ' ';
+        while (at < line_.size() && (is_of_blanks ? is_blank(line_[at]) : is_padding(line_[at], separator))) ++at;
+        if (is_of_blanks && at == line_.size() && !cells_.empty()) break;
+        if (at < line_.size() && line_[at] == '"') {
+            cells_.push_back(quoted_cell(at, separator));
+        } else {
+            const std::string_view rest = line_.substr(at);
+            std::string_view text = rest.substr(0, is_of_blanks ? rest.find_first_of(" \t") : rest.find(separator));
+            const std::size_t begin = at;
+            at += text.size();
+            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+            cells_.push_back({begin, text});
+        }
+        if (at == line_.size()) break;
+        ++at;
+    }
+    row_end_ = line_.size();
+}
+
+void NumberTable::split_without_header() {
+    cells_.clear();
+    const auto skip_blanks = [&](std::size_t at) { return std::min(line_.find_first_not_of(" \t", at), line_.size()); };
+    const auto is_end = [&](std::size_t at) { return at == line_.size() || line_[at] == '#'; };
+    std::size_t at = skip_blanks(0);
+    std::optional<char> first_separator;
+    while (true) {
+        const std::size_t end = std::min(line_.find_first_of(" \t,;#", at), line_.size());
+        cells_.push_back({at, line_.substr(at, end - at)});
+        at = skip_blanks(end);
+        if (is_end(at)) break;
+        const char separator = line_[at] == ',' || line_[at] == ';' ? line_[at] : ' ';
+        // "0,5 1,5" is no row of four numbers.
+        if (separator != first_separator.value_or(separator))
+            throw error_at(end, "numbers must have a decimal point, and one separator must stand between all of them");
+        first_separator = separator;
+        // Behind a comma there is a cell, even if it is empty.
+        if (separator != ' ') at = skip_blanks(at + 1);
+    }
+    row_end_ = at;
+}
+
+void NumberTable::check_row() const {
+    if (!has_header()) {
+        // What comes first in the line is said first.
+        for (std::size_t i = 0; i < std::min(columns_.size(), cells_.size()); ++i) (void)number<double>(i);
+        if (cells_.size() < columns_.size())
+            throw error_at(row_end_, fmt::format("expected {} finite numbers", columns_.size()));
+        if (cells_.size() > columns_.size())
+            throw error_at(cells_[columns_.size()].at, fmt::format("more than {} numbers", columns_.size()));
+        return;
+    }
+    for (std::size_t i = cells_in_header_; i < cells_.size(); ++i)
+        if (!cells_[i].text.empty())
+            throw error_at(cells_[i].at,
+                           fmt::format("the row has {} cells, but the header has {}", cells_.size(), cells_in_header_));
+}
+
+const NumberTable::Cell* NumberTable::cell(std::size_t column) const {
+    const std::size_t place = has_header() ? places_[column] : column;
+    return place < cells_.size() ? &cells_[place] : nullptr;
+}
+
+bool NumberTable::has(std::size_t column) const {
+    return !has_header() || places_[column] != missing;
+}
+
+template <class Number>
+Number NumberTable::number(std::size_t column) const {
+    const Cell* const found = cell(column);
+    if (found)
+        if (const auto value = io::number_of<Number>(found->text)) return *value;
+    if (!has_header()) throw error(column, fmt::format("expected {} finite numbers", columns_.size()));
+    const std::string_view name = columns_[column].name;
+    if (!found || found->text.empty()) throw error(column, fmt::format("the row has no {}", name));
+    std::string with_point(found->text);
+    std::ranges::replace(with_point, ',', '.');
+    const bool has_decimal_comma = with_point != found->text && io::number_of<Number>(with_point);
+    throw error(column, fmt::format("{} must be a finite number, but is {}{}", name, io::in_quotes(found->text),
+                                    has_decimal_comma ? "; write a decimal point" : ""));
+}
+
+template float NumberTable::number(std::size_t) const;
+template double NumberTable::number(std::size_t) const;
+
+SceneError NumberTable::error(std::size_t column, std::string message) const {
+    const Cell* const found = cell(column);
+    return error_at(found ? found->at : row_end_, std::move(message));
+}
+
+SceneError NumberTable::error_at(std::size_t offset, std::string message) const {
+    std::size_t column = 1;
+    for (std::size_t at = 0; at < offset && at < line_.size(); at += io::decode(line_, at).bytes) ++column;
+    return {file_, line_number_, column, std::move(message)};
+}
+
+}  // namespace phasetree

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "phasetree/io/document.hpp"
+
+namespace phasetree::tracer {
+
+/// Whether a kind's file stays closed because its document is read without assets. What can be checked without the
+/// file still is: check(), if the kind has one, throws ParameterError.
+template <class Kind>
+bool is_left_unread(const Document& document, const Kind& kind) {
+    if constexpr (requires { kind.file; }) {
+        if (document.reads_assets()) return false;
+        if constexpr (requires { kind.check(); }) kind.check();
+        return true;
+    } else {
+        return false;
+    }
+}
+
+}  // namespace phasetree::tracer
