@@ -94,6 +94,27 @@ TEST_CASE("without normals in the file vertices have the means of their faces', 
     CHECK_FALSE(is_near(smooth.seen_from({9.2f, 9.2f, 9.1f}, {-1, -1, -1}).normal, glm::vec3(1 / std::sqrt(3.0f))));
 }
 
+TEST_CASE("corners of STL files that differ by rounding have one normal") {
+    // A bent sheet: four triangles about its middle, of which two have the middle a little elsewhere.
+    const auto sheet = [](const std::string& other_middle) {
+        const std::string corners[] = {"1 1 0", "-1 1 0", "-1 -1 0", "1 -1 0"};
+        std::string stl = "solid\n";
+        for (std::size_t i = 0; i < 4; ++i)
+            stl += "facet vertex " + corners[i] + " vertex " + corners[(i + 1) % 4] + " vertex " +
+                   (i % 2 == 1 ? other_middle : "0 0 0.5") + " endfacet\n";
+        return stl + "endsolid\n";
+    };
+    const FileMesh exact("stl", sheet("0 0 0.5"));
+    CHECK(exact.mesh().vertices.size() == 5);
+    for (const std::string near : {"1e-20 0 0.5", "-1e-9 1e-9 0.5", "0 0 0.50000006"}) {
+        const FileMesh rounded("stl", sheet(near));
+        CHECK(rounded.mesh().vertices.size() == 5);
+        CHECK(is_near(rounded.seen_from({0, 0, 9}, {0, 0, -1}).normal, {0, 0, 1}));
+    }
+    const FileMesh apart("stl", sheet("0 0 0.500001"));
+    CHECK(apart.mesh().vertices.size() == 6);
+}
+
 TEST_CASE("a file of another kind, or of none, is refused with a hint") {
     const auto said = [](const std::string& kind, const std::string& file) {
         try {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <tuple>
 
 #include "nodes/disjoint_sets.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/joined_vertices.hpp"
 
 namespace phasetree::mesh {
 
@@ -29,37 +29,25 @@ class Complaint {
     const std::string& name_;
 };
 
-// The points at which vertices are, in rising order, and for each vertex the index of its point.
-struct DistinctPoints {
-    std::vector<glm::vec3> points;
-    std::vector<std::uint32_t> of;
-};
-DistinctPoints distinct_points(std::span<const glm::vec3> vertices) {
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) { return std::tuple(vertices[i].x, vertices[i].y, vertices[i].z); };
-    std::ranges::sort(order, {}, key);
-    DistinctPoints result{{}, std::vector<std::uint32_t>(vertices.size())};
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        // A sum with 0 is never −0, which would be the same point with other bits.
-        if (i == 0 || key(order[i]) != key(order[i - 1])) result.points.push_back(vertices[order[i]] + 0.f);
-        result.of[order[i]] = static_cast<std::uint32_t>(result.points.size() - 1);
-    }
-    return result;
+void check_numbers(const TriangleMesh& mesh, const Complaint& complain) {
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
+                complain(
+                    fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or no number", i + 1));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+            if (mesh.triangles[t][i] >= mesh.vertices.size())
+                complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
 }
 
 // The triangles of these points, in rising order and each from its least corner on.
-void add_triangles(Surface& s, const TriangleMesh& mesh, const DistinctPoints& distinct, const Complaint& complain) {
+void add_triangles(Surface& s, const TriangleMesh& mesh, const JoinedVertices& joined) {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> numbered;
     numbered.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         std::array<std::uint32_t, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t vertex = mesh.triangles[t][static_cast<int>(i)];
-            if (vertex >= distinct.of.size())
-                complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
-            corners[i] = distinct.of[vertex];
-        }
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = joined.of[mesh.triangles[t][static_cast<int>(i)]];
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         numbered.emplace_back(corners, static_cast<std::uint32_t>(t + 1));
@@ -178,15 +166,11 @@ std::string written(const glm::dvec3& p) {
 
 Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
     const Complaint complain(name);
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-        for (int k = 0; k < 3; ++k)
-            if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
-                complain(
-                    fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or no number", i + 1));
-    DistinctPoints distinct = distinct_points(mesh.vertices);
+    check_numbers(mesh, complain);
+    JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
     Surface s;
-    add_triangles(s, mesh, distinct, complain);
-    s.vertices = std::move(distinct.points);
+    add_triangles(s, mesh, joined);
+    s.vertices = std::move(joined.points);
     if (s.triangles.empty()) complain("has no triangles");
     join(s, complain);
     require_single_rings(s, complain);

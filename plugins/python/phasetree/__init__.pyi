@@ -1568,7 +1568,7 @@ def mesh(file: str | PathLike[str]) -> Field:
 
         ± min over the triangles of |p − nearest point|
 
-    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners at the same place are one; materials, normals and the like are not looked at. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are not looked at. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "image/srgb.hpp"
 #include "parameters/named_file.hpp"
 #include "phasetree/io/error.hpp"
+#include "phasetree/nodes/fields/joined_vertices.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_placement.hpp"
 
@@ -18,22 +18,11 @@ namespace {
 
 constexpr std::size_t most_triangles = 100'000'000;
 
-// Vertices at one place become one. In STL files each triangle has vertices of its own.
-void join_vertices(Mesh& mesh) {
-    const auto place = [&](std::uint32_t i) {
-        const glm::vec3& p = mesh.vertices[i];
-        return std::tuple(p.x, p.y, p.z);
-    };
-    std::vector<std::uint32_t> sorted(mesh.vertices.size()), joined(mesh.vertices.size());
-    std::iota(sorted.begin(), sorted.end(), 0u);
-    std::ranges::sort(sorted, {}, place);
-    std::vector<glm::vec3> vertices;
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        if (i == 0 || place(sorted[i]) != place(sorted[i - 1])) vertices.push_back(mesh.vertices[sorted[i]]);
-        joined[sorted[i]] = static_cast<std::uint32_t>(vertices.size() - 1);
-    }
-    mesh.vertices = std::move(vertices);
-    for (glm::uvec3& t : mesh.triangles) t = {joined[t.x], joined[t.y], joined[t.z]};
+// In STL files each triangle has vertices of its own.
+void join_corners(Mesh& mesh) {
+    JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
+    mesh.vertices = std::move(joined.points);
+    for (glm::uvec3& t : mesh.triangles) t = {joined.of[t.x], joined.of[t.y], joined.of[t.z]};
 }
 
 // Normals of the vertices: the means of those of the triangles around each, weighted by area.
@@ -79,7 +68,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     mesh.triangles = std::move(read.mesh.triangles);
     if (smooth) mesh.normals = std::move(read.normals);
     place(mesh, Placement(scale, rotate_z_degrees, translate, y_up), file);
-    if (ending == ".stl") join_vertices(mesh);
+    if (ending == ".stl") join_corners(mesh);
     if (smooth && mesh.normals.empty()) mesh.normals = smooth_normals(mesh);
     for (glm::vec3& n : mesh.normals.values) make_unit(n);
     mesh.uv = std::move(read.texture);

@@ -31,8 +31,8 @@ struct Mesh {
     static void parameters(V&& v) {
         v(&Mesh::file, Parameter{"file", "",
                                  "The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and "
-                                 "counter-clockwise seen from outside. Corners at the same place are one; materials, "
-                                 "normals and the like are ignored. Walls and gaps that are thinner than a "
+                                 "counter-clockwise seen from outside. Corners that differ only by rounding are one; "
+                                 "materials, normals and the like are ignored. Walls and gaps that are thinner than a "
                                  "millionth of the mesh's size may be taken for each other."});
     }
     /// Throws ModelError, which says where the surface is wrong.
