@@ -23,7 +23,7 @@ SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes"
 
 
 def rendered(command, scene, options, seed, folder):
-    """The luminances and the seconds of one picture; None if the scene is refused."""
+    """The luminances and the seconds of one picture; None if the scene is rejected."""
     output, stats = os.path.join(folder, "picture.exr"), os.path.join(folder, "stats.json")
     run = subprocess.run([command, "render", scene, "--quiet", "--size", options.size, "--spp", str(options.samples), "--seed",
                           str(seed), "-o", output, "--stats", stats], stderr=subprocess.DEVNULL)

@@ -5,7 +5,7 @@
 
 An edit is one of the numbers of the tree changed by a hundredth, as by a slider: the scene is read, its cells are built
 and a picture is taken. The time is the one that the page shows; it is the server's, from the request to the picture.
-Of so many edits of a scene the median counts. Numbers that may not be changed, as those on which the tree's validity
+Of this many edits of a scene the median counts. Numbers that may not be changed, as those on which the tree's validity
 depends, are passed over.
 """
 

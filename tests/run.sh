@@ -52,7 +52,7 @@ while [ $# -gt 0 ]; do
 done
 [ ${#presets[@]} -gt 0 ] || presets=(release)
 
-# fuzz_one TARGET LONGEST SEEDS: one fuzzer for so many minutes. Its corpus grows from run to run; a finding ends it.
+# fuzz_one TARGET LONGEST SEEDS: one fuzzer for this many minutes. Its corpus grows from run to run; a finding ends it.
 fuzz_one() {
     local target=$1 longest=$2 folders=("$root/tests/fuzz/corpus/$1")
     [ -z "$3" ] || folders+=("$root/$3")

@@ -4,7 +4,7 @@
 #
 #   bash tracer/quickstart.sh [ARGUMENT…]
 #
-# The arguments go to "phasetree render" in place of --time 2m --denoise: --spp 16 is a quick look, --size 1920x1080
+# The arguments go to "phasetree render" instead of --time 2m --denoise: --spp 16 is a quick look, --size 1920x1080
 # --time 20m a large picture. The more cores there are, the less noise there is after that time.
 set -uo pipefail
 

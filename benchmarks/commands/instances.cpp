@@ -173,7 +173,7 @@ Report instances(const Settings& settings) {
     const glm::vec3 extent = bounds.extent();
     const double cube = static_cast<double>(std::max({extent.x, extent.y, extent.z})) / cubes;
     std::vector<std::vector<Table::Cell>> rows;
-    // The most come first, because memory that was freed hides what is taken anew.
+    // The most come first, because memory that was freed hides what is taken again.
     for (const int along : {100, 32, 10, 1}) {
         if (settings.quick && along > 32) continue;
         const auto where = places(along, bounds, settings.seed);

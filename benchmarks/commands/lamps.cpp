@@ -29,7 +29,7 @@ tracer::Lights hall(int count) {
     return lights;
 }
 
-// Takes so many samples of the lights at each of so many points of the floor.
+// Takes this many samples of the lights at each of this many points of the floor.
 class Floor {
   public:
     Floor(int points, int samples, std::uint32_t seed) : points_(points), samples_(samples), seed_(seed) {}

@@ -17,7 +17,7 @@ namespace phasetree::bench {
 Report phases(const Settings& settings) {
     Report report("phases", "a cluster of 96 balls and boxes, in 1 to 32 phases");
     const std::vector<int> counts{1, 2, 3, 4, 5, 8, 12, 16, 20, 24, 32};
-    const int few = settings.quick ? 24 : 48;  // the naive way's image is so many pixels wide
+    const int few = settings.quick ? 24 : 48;  // the naive way's image is this many pixels wide
     std::vector<std::unique_ptr<FieldScene>> cells;
     std::vector<std::unique_ptr<NaiveScene>> naive;
     for (const int n : counts) {

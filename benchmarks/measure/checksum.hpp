@@ -4,7 +4,7 @@
 
 namespace phasetree::bench {
 
-// What tracing a set of rays gave; keeps it from being optimised away, and tells whether two ways gave the same.
+// What tracing a set of rays gave; keeps it from being optimised away, and says whether two ways gave the same.
 struct Checksum {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;

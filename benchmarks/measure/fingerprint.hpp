@@ -7,7 +7,7 @@
 
 namespace phasetree::bench {
 
-// A number that tells whether two runs found the same to the last bit: FNV-1a over the bytes of what is added. It finds
+// A number that says whether two runs found the same to the last bit: FNV-1a over the bytes of what is added. It finds
 // accidents, not forgeries.
 class Fingerprint {
   public:

@@ -11,8 +11,8 @@
 
 namespace phasetree::bench {
 
-// The outer surface, with so many cubes along the longest side of the object's bounds. Runs on the threads that TBB may
-// use; the result does not depend on how many.
+// The outer surface, with this many cubes along the longest side of the object's bounds. Runs on the threads that TBB
+// may use; the result does not depend on how many.
 Triangles surface_nets(const FieldScene&, int cubes);
 
 }  // namespace phasetree::bench

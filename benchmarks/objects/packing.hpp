@@ -4,7 +4,7 @@
 
 namespace phasetree::bench {
 
-// About so many balls of four phases in a cube of side 1: on a lattice, each moved at random by up to a fifth of the
+// About this many balls of four phases in a cube of side 1: on a lattice, each moved at random by up to a fifth of the
 // spacing along each axis, with radii of 0.3 to 0.5 of it. Some overlap.
 BallList packing(std::size_t balls);
 

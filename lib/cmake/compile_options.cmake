@@ -61,7 +61,7 @@ if(PHASETREE_FUZZ)
     add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-# How often each line of these folders runs, for gcov: see tests/coverage.sh. All else is compiled as ever.
+# How often each line of these folders runs, for gcov: see tests/coverage.sh. All else is compiled as before.
 set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/io;tracer/src/scene …")
 if(PHASETREE_COVERAGE)
     add_link_options(--coverage)

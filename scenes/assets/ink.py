@@ -12,7 +12,7 @@ import numpy as np
 import fluid
 
 SHAPE = (128, 128, 224)
-SCALE = 1.6  # The numbers below were found with a grid of fewer cells. One of its lengths is so many here.
+SCALE = 1.6  # The numbers below were found with a grid of fewer cells. One of its lengths is this many here.
 TIME_STEP = 0.6
 STEPS = 190
 STREAM_ENDS = 62.0  # when no more ink is poured

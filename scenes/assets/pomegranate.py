@@ -3,7 +3,7 @@
 
     python3 scenes/assets/pomegranate.py scenes/assets/pomegranate
 
-It stands in for a scan that somebody has segmented. The fruit is a ball with a crown, cut across near its top. Within its
+It replaces a scan that somebody has segmented. The fruit is a ball with a crown, cut across near its top. Within its
 rind six membranes part it into chambers, and in these are the seeds: cells of a Voronoi diagram of points that keep away from
 each other, shrunk and rounded, each with a kernel. Seeds that the cut would go through stay whole. The same numbers come
 out each time: 1 skin, 2 pith, 3 the flesh of seeds, 4 their kernels, 0 air.

@@ -38,7 +38,7 @@ def opened(browser, page):
 
 
 def at_rest(browser, seconds=120):
-    """A picture with at least one finished pass, or what there is after so many seconds."""
+    """A picture with at least one finished pass, or what there is after this many seconds."""
     browser.wait("phasetree.passes >= 1", seconds)
     return browser.screenshot()
 

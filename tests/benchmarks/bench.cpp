@@ -1,5 +1,5 @@
 // phasetree-bench as a user runs it, with images of a few pixels: it comes to its end, its numbers are numbers, and
-// what it compares is the same. Whether its targets are met on such images means nothing, and is not looked at.
+// what it compares is the same. Whether its targets are met on such images means nothing, and is ignored.
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What the tests of files of cells share: an object, its cells in a file, and why a file is refused.
+// What the tests of files of cells share: an object, its cells in a file, and why a file is rejected.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -57,7 +57,7 @@ inline Phased various() {
 
 inline const CellOptions few{.deepest = 3};
 
-// Why a file is refused; nothing if it is not.
+// Why a file is rejected; nothing if it is not.
 inline std::optional<Reason> refusal(const fs::path& path, const Phased& object, const CellOptions& options = few,
                                      std::string* message = nullptr) {
     try {

@@ -1,4 +1,4 @@
-// Whatever is done to a file of cells is refused or harmless: it is cut short, its bytes are changed, its counts and
+// Whatever is done to a file of cells is rejected or harmless: it is cut short, its bytes are changed, its counts and
 // checksums are forged.
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ void forge(Bytes& file) {
 
 }  // namespace
 
-TEST_CASE("a file that ends too early is refused wherever it ends") {
+TEST_CASE("a file that ends too early is rejected wherever it ends") {
     const Written w;
     const std::size_t step = is_long() ? 1 : 1 + w.bytes.size() / 4000;
     const fs::path path = w.folder / "short";

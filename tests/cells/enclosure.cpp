@@ -192,7 +192,7 @@ double largest_bend(const Solid& solid, const glm::dvec3& q) {
     const glm::dvec3 s = glm::cross(n, t);
     const auto across = [&](const glm::dvec3& u) { return (gradient(q + h * u) - gradient(q - h * u)) / (2 * h); };
     const glm::dvec3 along_t = across(t), along_s = across(s);
-    // Second derivatives by which it bends most along u, if no seam is near; that it does is asked anew.
+    // Second derivatives by which it bends most along u, if no seam is near; that it does is asked again.
     const double angle =
         0.5 * std::atan2(glm::dot(along_t, s) + glm::dot(along_s, t), glm::dot(along_t, t) - glm::dot(along_s, s));
     const glm::dvec3 u = std::cos(angle) * t + std::sin(angle) * s;

@@ -1,4 +1,4 @@
-// Files that scenes name: what they cost before they are refused, that each is read once, what an error may say of
+// Files that scenes name: what they cost before they are rejected, that each is read once, what an error may say of
 // them, and the folder that they must lie in.
 #include <fmt/format.h>
 
@@ -74,7 +74,7 @@ const std::string weights =
 
 }  // namespace
 
-TEST_CASE("an image that claims more than it holds is refused before it costs memory") {
+TEST_CASE("an image that claims more than it holds is rejected before it costs memory") {
     const Shell shell;
     write_text(shell.directory / "good.hdr", hdr(16, 8));
     write_text(shell.directory / "scene.json", with_images("good.hdr", 1).text());
@@ -99,7 +99,7 @@ TEST_CASE("an image that claims more than it holds is refused before it costs me
     if (!under_sanitizer) CHECK(o.peak_megabytes < good.peak_megabytes + 100);
 }
 
-TEST_CASE("an image of a kind that opening decodes is refused, whatever it is called") {
+TEST_CASE("an image of a kind that opening decodes is rejected, whatever it is called") {
     const Shell shell;
     // A WebP image without loss of 16383×16383 pixels, of one colour; and the beginnings of the others.
     const std::string webp(
@@ -174,7 +174,7 @@ TEST_CASE("an error of a file of weights has its place in the scene, and quotes 
     }
 }
 
-TEST_CASE("--assets-within: what leaves the folder is refused, whatever it is") {
+TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is") {
     const Shell shell;
     const auto at = [&](const std::string& name) { return shell.directory / name; };
     for (const char* const folder : {"assets", "assets/deep", "assets2"}) fs::create_directory(at(folder));

@@ -182,7 +182,7 @@ TEST_CASE("more samples than a checkpoint was to have are added to it") {
     CHECK(o.err.find("it is of the samples 0:3, and this render is of 0:2") != std::string::npos);
 }
 
-TEST_CASE("a checkpoint that is of something else is refused before any work, and stays as it is") {
+TEST_CASE("a checkpoint that is of something else is rejected before any work, and stays as it is") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(3));
     const std::vector<std::string> render{"render", "scene.json", "--quiet", "-o", "a.exr"};

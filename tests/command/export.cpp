@@ -8,7 +8,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-// Checks that `export` with some arguments is refused in a few words, among which are these.
+// Checks that `export` with some arguments is rejected in a few words, among which are these.
 auto refused_by(const Shell& shell) {
     return [&shell](const std::vector<std::string>& arguments, const std::string& said) {
         std::vector<std::string> words{"export"};

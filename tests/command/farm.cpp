@@ -222,7 +222,7 @@ TEST_CASE("a farm's picture is denoised when it is merged") {
 }
 
 TEST_CASE(
-    "a merge whose command line would be too long, and names that no file can have, are refused when a farm is "
+    "a merge whose command line would be too long, and names that no file can have, are rejected when a farm is "
     "written") {
     const Shell shell;
     const std::string name(235, 's');
@@ -245,7 +245,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("what makes no farm is refused") {
+TEST_CASE("what makes no farm is rejected") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(4));
     const auto refused = [&](std::vector<std::string> words, const std::string& why) {

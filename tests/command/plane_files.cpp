@@ -60,7 +60,7 @@ TEST_CASE("a farm passes the name on as it is") {
     CHECK(files_of(shell, "f").size() == 3);
 }
 
-TEST_CASE("a name that asks for what cannot be is refused before any work") {
+TEST_CASE("a name that asks for what cannot be is rejected before any work") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     for (const char* name : {"a.{plane}.png", "a.{plane}.part", "{plane}/a.exr"}) {

@@ -36,7 +36,7 @@ TEST_CASE("a signal while the scene is read ends the command at once, with the c
     write_text(shell.directory / "there.part", "whatever it is");
     const std::vector<std::string> start{"--checkpoint", "a.part", "--resume", "a.part", "--or-start"};
     const std::vector<std::string> resume{"--resume", "there.part"};
-    const std::vector<std::string> anew{"--checkpoint", "a.part"};
+    const std::vector<std::string> again{"--checkpoint", "a.part"};
     struct Case {
         int signal;
         std::vector<std::string> words;
@@ -44,7 +44,7 @@ TEST_CASE("a signal while the scene is read ends the command at once, with the c
     };
     for (const Case& c :
          {Case{SIGINT, start, 130}, Case{SIGTERM, start, 75}, Case{SIGHUP, start, 75}, Case{SIGTERM, resume, 75},
-          Case{SIGTERM, anew, 1}, Case{SIGHUP, {}, 1}, Case{SIGINT, {}, 130}}) {
+          Case{SIGTERM, again, 1}, Case{SIGHUP, {}, 1}, Case{SIGINT, {}, 130}}) {
         CAPTURE(c.signal);
         CAPTURE(c.words);
         std::vector<std::string> words{"render", "scene.json", "-o", "a.exr", "--quiet"};

@@ -85,7 +85,7 @@ TEST_CASE("an image and its twin: the same bytes, whatever the threads") {
     CHECK_FALSE(same);
 }
 
-TEST_CASE("--planes: the same bytes whatever the threads, and what is no plane is refused") {
+TEST_CASE("--planes: the same bytes whatever the threads, and what is no plane is rejected") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());
     for (const char* threads : {"1", "3"})
@@ -201,7 +201,7 @@ TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
     CHECK(image() == first_image);
     CHECK(std::filesystem::last_write_time(shell.directory / "object.cells") == written);
 
-    // Of another object, or damaged: built and written anew, and the image is right.
+    // Of another object, or damaged: built and rewritten, and the image is right.
     scene.shapes = R"({"ball": {"sphere": {"radius": 1.3}}})";
     write_text(shell.directory / "scene.json", scene.text());
     REQUIRE(render({}).code == 0);

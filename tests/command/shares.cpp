@@ -80,7 +80,7 @@ TEST_CASE("a crop and a picture as people see it are merged, too") {
     }
 }
 
-TEST_CASE("what does not belong together is refused by name") {
+TEST_CASE("what does not belong together is rejected by name") {
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(8));
     std::string darker = cut_scene(8);

@@ -112,7 +112,7 @@ struct Mistake {
     const char* message;
 };
 
-// A header, and the first row with something else in place of its first cell, which is "0".
+// A header, and the first row with something else instead of its first cell, which is "0".
 std::string with_first_cell(const User& user, const std::string& cell, const std::string& separator = ",") {
     return joined(user.columns, separator) + "\n" + cell + joined(user.rows[0], separator).substr(1) + "\n";
 }

@@ -48,7 +48,7 @@ Film film(const std::string& before, const std::string& phase, const std::string
     return {phase, std::min(before, after), std::max(before, after)};
 }
 
-// In place of a phase: whichever.
+// Instead of a phase: whichever.
 const std::string any = "*";
 
 bool is_one_of(const Film& film, const Film& meant) {

@@ -12,7 +12,7 @@
 
 namespace phasetree::fuzz {
 
-// One file, written anew for each input; in memory where the system has such a folder.
+// One file, rewritten for each input; in memory where the system has such a folder.
 class InputFile {
   public:
     explicit InputFile(const std::string& name) {

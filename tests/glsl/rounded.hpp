@@ -25,8 +25,8 @@ struct Rounded {
 
 inline constexpr double unit_roundoff = 0x1p-24, smallest = 0x1p-126;
 
-/// A result, with the error of its operands and so many half units of its own. Sums and products that are whole numbers
-/// are exact, as hashes need it. Others are not, even where 32 bits hold them.
+/// A result, with the error of its operands and this many half units of its own. Sums and products that are whole
+/// numbers are exact, as hashes need it. Others are not, even where 32 bits hold them.
 inline Rounded rounded(double value, double error, double half_units = 1) {
     if (half_units == 1 && error == 0 && std::floor(value) == value && std::abs(value) <= 0x1p24) return {value, 0};
     return {value, error + half_units * (unit_roundoff * (std::abs(value) + error) + smallest)};

@@ -194,7 +194,7 @@ A lamp.
     const Value properties = *schema.root().find("properties");
     CHECK(schema.root().find("required")->size() == 1);
     CHECK(!schema.root().find("additionalProperties")->boolean());
-    // In place of a number there may be keys.
+    // Instead of a number there may be keys.
     const auto number = [&](const char* name) { return (*properties.find(name)->find("anyOf"))[1]; };
     CHECK((*properties.find("size")->find("anyOf"))[0].find("$ref")->string() == "#/definitions/keys");
     CHECK(number("size").find("minimum")->number() == 0.1);

@@ -31,7 +31,7 @@ std::string content(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// The tree of an example as render.sh reads it: in the studio, in place of the mark.
+/// The tree of an example as render.sh reads it: in the studio, instead of the mark.
 Phased read_example(const std::filesystem::path& example) {
     const std::string mark = "@TREE@";
     std::string scene = content(folder() / "studio.json");

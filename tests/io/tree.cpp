@@ -31,7 +31,7 @@ std::string error_of(const std::string& tree) {
 
 const std::string ball = R"({"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}})";  // two nodes
 
-// So many nodes about a ball, each in the longest way of writing it.
+// This many nodes about a ball, each in the longest way of writing it.
 std::string nested(const std::string& open, const std::string& close, std::size_t more) {
     std::string text;
     for (std::size_t i = 0; i < more; ++i) text += open;
@@ -40,7 +40,7 @@ std::string nested(const std::string& open, const std::string& close, std::size_
     return text;
 }
 
-// Runs f on a thread with a stack of so many bytes.
+// Runs f on a thread with a stack of this many bytes.
 template <class F>
 void with_stack(std::size_t bytes, F f) {
     pthread_attr_t attributes;

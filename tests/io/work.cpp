@@ -45,7 +45,7 @@ std::string said_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a scatter over what stands for billions is refused at its place") {
+TEST_CASE("a scatter over what stands for billions is rejected at its place") {
     const std::string said =
         said_of(scene(two_copies, "{\"scatter\": {\"on\": \"s40\", \"of\": \"s0\", \"count\": 10}}"));
     CAPTURE(said);
@@ -57,7 +57,7 @@ TEST_CASE("blobs of blobs, forty levels, are few instructions") {
     CHECK(said_of(text) == "nothing");
 }
 
-TEST_CASE("more work than a node may do is refused at its place") {
+TEST_CASE("more work than a node may do is rejected at its place") {
     const std::string fine =
         "{\"displace\": {\"of\": {\"sphere\": {\"radius\": 1}}, \"amplitude\": 0.01, \"scale\": 0.01, "
         "\"octaves\": 6}}";

@@ -159,7 +159,7 @@ TEST_CASE("objects of listed balls have the phases that set algebra says, and on
     CHECK(met > 500);
 }
 
-TEST_CASE("what are no balls is refused, with the place") {
+TEST_CASE("what are no balls is rejected, with the place") {
     const std::vector<glm::vec3> two{{0, 0, 0}, {1, 0, 0}};
     CHECK(said_of(Balls{.centres = two, .radii = {1}}) == "balls");
     CHECK(said_of(Balls{}) == "balls: it needs either \"centres\" or a \"file\"");

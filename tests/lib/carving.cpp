@@ -175,7 +175,7 @@ TEST_CASE("given directions make a k-DOP, and the clip of a ray is what of it is
     }
 }
 
-TEST_CASE("what has no bounds is refused, what is empty has none, and work can be ended") {
+TEST_CASE("what has no bounds is rejected, what is empty has none, and work can be ended") {
     CHECK_THROWS_AS(carve(Field(Plane{})), ModelError);
     const Field nothing = Difference{.from = Sphere{.radius = 1}, .subtract = {Sphere{.radius = 1.5f}}};
     const CarvedBounds none = carve(nothing);

@@ -143,7 +143,7 @@ TEST_CASE("samples along a ray are the samples at origin + t · direction") {
     });
 }
 
-TEST_CASE("an unknown instruction set is refused") {
+TEST_CASE("an unknown instruction set is rejected") {
     CHECK_THROWS_AS(use_simd_target("MMX"), std::invalid_argument);
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("exact primitives are as far from their surface as a search by members
         CAPTURE(index++);
         const Agreement a = compare(f, rng, 25);
         CHECK(a.too_large == 0);
-        // The search itself may miss a corner now and then.
+        // The search itself may miss a corner periodically.
         CHECK(a.not_exact <= 1);
         CHECK(a.average < 1.008);
     }

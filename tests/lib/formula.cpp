@@ -1,4 +1,4 @@
-// Formulas: what their text means, how steep they may be, and what is refused, where in the text.
+// Formulas: what their text means, how steep they may be, and what is rejected, where in the text.
 #include "phasetree/nodes/fields/formula.hpp"
 
 #include <doctest/doctest.h>
@@ -126,7 +126,7 @@ TEST_CASE("minima, maxima and absolute values are instructions, and equal terms 
     CHECK(instructions("min(length(x, y) - 1, length(x, y) - 1)") == instructions("length(x, y) - 1"));
 }
 
-TEST_CASE("what is refused, and where") {
+TEST_CASE("what is rejected, and where") {
     check_refused("x + ", 4, "a number, a name or \"(\" is expected here, but the text ends");
     check_refused("x + q", 4, "there is no name \"q\"");
     check_refused("sin x", 0, "is a function");
@@ -150,11 +150,11 @@ TEST_CASE("what is refused, and where") {
     check_refused("smooth_min(x, y, z)", 0, "must be a positive number");
 }
 
-TEST_CASE("an exponent that is no number is refused where the call stands") {
+TEST_CASE("an exponent that is no number is rejected where the call stands") {
     check_refused("z + pow(x, y)", 4, "an exponent must be a number");
 }
 
-TEST_CASE("a slope without bound is refused, and what it is that has none") {
+TEST_CASE("a slope without bound is rejected, and what it is that has none") {
     check_refused("x^2 + y^2 + z^2 - 1", 16, "no bound far from the origin");
     check_refused("sin(x)", 0, "no bound far from the origin");
     check_refused("y + 1 / x", 6, "divides by zero near (", cube);
@@ -166,7 +166,7 @@ TEST_CASE("a slope without bound is refused, and what it is that has none") {
     CHECK(error_of(sum, cube).message().find("more than 128 operations") != std::string::npos);
 }
 
-TEST_CASE("a text that means much is refused before it is done") {
+TEST_CASE("a text that means much is rejected before it is done") {
     std::string doubled = "a0 = x^2 + 1; ";
     for (int i = 1; i < 60; ++i)
         doubled += "a" + std::to_string(i) + " = a" + std::to_string(i - 1) + " + a" + std::to_string(i - 1) + "; ";
@@ -181,7 +181,7 @@ TEST_CASE("a text that means much is refused before it is done") {
     CHECK_THROWS_AS((void)prepared(many + "b399", cube), ModelError);  // too long to prepare, or too steep
 }
 
-TEST_CASE("bounds that are none are refused") {
+TEST_CASE("bounds that are none are rejected") {
     const glm::vec3 low(-1), high(1);
     for (const std::vector<glm::vec3>& bounds : {std::vector{low}, std::vector{high, low}, std::vector{low, low},
                                                  std::vector{low, high, high}, std::vector{low, glm::vec3(1e7f)}})

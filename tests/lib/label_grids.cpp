@@ -208,7 +208,7 @@ TEST_CASE("numbers are given to phases and to the vacuum") {
     CHECK(said_of(node).find("the voxel (0, 0, 0), counted from 0, has the number 0") != std::string::npos);
 }
 
-TEST_CASE("what is no object is refused") {
+TEST_CASE("what is no object is rejected") {
     const LabelGrid grid = labelled({2, 2, 2}, 2, [](const glm::ivec3& p) { return p.x; });
     Labels node = node_of(grid);
     node.values = {1, 2};

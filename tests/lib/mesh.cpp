@@ -167,7 +167,7 @@ TEST_CASE("in a box a mesh is few pieces, to the last bit") {
     CHECK(beyond > points / 100);
 }
 
-TEST_CASE("what is no closed surface is refused, with the place") {
+TEST_CASE("what is no closed surface is rejected, with the place") {
     const TriangleMesh solid = octahedron_mesh();
     CHECK(said_of(solid) == "a solid");
     TriangleMesh mesh = solid;
@@ -215,7 +215,7 @@ TEST_CASE("what is no closed surface is refused, with the place") {
     begins(said_of(mesh), "mesh: it has a vertex (3) that is farther than 1e9 m from the origin, or no number");
 }
 
-TEST_CASE("corners at the same place are one, and triangles with two equal corners are not looked at") {
+TEST_CASE("corners at the same place are one, and triangles with two equal corners are ignored") {
     TriangleMesh soup;
     const TriangleMesh solid = octahedron_mesh();
     for (const glm::uvec3& t : solid.triangles) {

@@ -305,7 +305,7 @@ TEST_CASE("what is thinner than the grid is counted") {
     for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(coarse, PhaseSet::of(phase)) == 0);
 }
 
-TEST_CASE("far from the origin vertices keep apart, and a spacing that is too fine for floats is refused") {
+TEST_CASE("far from the origin vertices keep apart, and a spacing that is too fine for floats is rejected") {
     const Field box = warped(Rotate{.axis = {1, 2, 3}, .angle = 40}, Field(Box{.size = {1, 1, 1}}));
     const PhaseMesh mesh = meshed(of(one, warped(Translate{{1000, 700, -300}}, box)), 0.006f);
     CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
@@ -329,7 +329,7 @@ TEST_CASE("a mesh does not depend on the number of threads") {
     }
 }
 
-TEST_CASE("what has no mesh is refused, and a mesh can be cancelled") {
+TEST_CASE("what has no mesh is rejected, and a mesh can be cancelled") {
     const LineTracer nothing = [](const glm::vec3&, const glm::vec3&, float, std::vector<CrossingOnLine>&) {};
     CHECK_THROWS_WITH_AS(mesh_of(Bounds::everything(), nothing), doctest::Contains("unbounded"), ModelError);
     for (const float none : {-1.f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})

@@ -1,4 +1,4 @@
-// Impossible parameters are refused in words, and deep trees work up to the depth at which they are refused.
+// Impossible parameters are rejected in words, and deep trees work up to the depth at which they are rejected.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -282,7 +282,7 @@ TEST_CASE("a tree as deep as the limit is walked, recorded, bounded and destroye
     for_each_type(PhasedNodes(), check);
 }
 
-TEST_CASE("a deeper tree is refused") {
+TEST_CASE("a deeper tree is rejected") {
     const auto grow = [](std::size_t depth) {
         Field f = Sphere{};
         for (std::size_t i = 1; i < depth; ++i) f = Offset{.of = f, .amount = 0};

@@ -17,7 +17,7 @@ using namespace phasetree::tests;
 namespace {
 
 /// On a raster of quarters as often as not: level edges, equal heights, repeated points. Some coordinates are such as
-/// r cos(π/2) leaves in place of zero.
+/// r cos(π/2) leaves instead of zero.
 glm::vec2 random_corner(Random& rng) {
     glm::vec2 v(rng.uniform(-1, 1), rng.uniform(-1, 1));
     if (rng.chance(0.4)) v = glm::round(v * 4.f) / 4.f;
@@ -210,7 +210,7 @@ TEST_CASE("in a box the few pieces that matter there give the same distances to 
     CHECK(c.heights > c.boxes / 100);
 }
 
-TEST_CASE("what is no outline is refused") {
+TEST_CASE("what is no outline is rejected") {
     const auto refused = [](auto n, const char* why) { CHECK_THROWS_WITH_AS(n.prepare(), why, ModelError); };
     refused(Polygon{.points = {{0, 0}, {1, 1}, {1, 0}, {0, 1}}},
             "polygon: the edges from its points 1 and 3 cross or touch");

@@ -311,7 +311,7 @@ TEST_CASE("all interfaces are the interfaces of all pairs") {
     }
 }
 
-TEST_CASE("what an operator cannot mean is refused in words") {
+TEST_CASE("what an operator cannot mean is rejected in words") {
     const Phased ball = Set{.phase = one, .of = Sphere{}}, other = Set{.phase = two, .of = Box{}};
     CHECK(error(Contact{.a = ball, .phase_a = one, .b = ball, .phase_b = one, .alpha = 0.5f}) ==
           "contact: a phase does not make contact with itself");

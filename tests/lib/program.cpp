@@ -147,7 +147,7 @@ TEST_CASE("registers are used again") {
     CHECK(evaluator.program().instructions.size() > 3000);
 }
 
-TEST_CASE("a tree that unfolds exponentially is refused early") {
+TEST_CASE("a tree that unfolds exponentially is rejected early") {
     // Thirty levels of two uses each under different transforms: 2³⁰ balls.
     Field f = Sphere{};
     for (int i = 0; i < 30; ++i) f = Union{.of = {warped(Translate{.by = {std::ldexp(0.001f, i), 0, 0}}, f), f}};

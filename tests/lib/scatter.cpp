@@ -66,7 +66,7 @@ TEST_CASE("scattered points keep their distance, and depend on the seed alone") 
     CHECK(other.front().position != points.front().position);
 }
 
-TEST_CASE("a surface without end or without points is refused") {
+TEST_CASE("a surface without end or without points is rejected") {
     CHECK_THROWS_WITH_AS((void)detail::scattered(Plane{}, 10, 0, 1), "scatter: the surface must be bounded",
                          ModelError);
     const Field nothing =

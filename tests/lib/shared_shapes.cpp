@@ -99,7 +99,7 @@ void climb(Random& rng, bool moves, Answers& answers) {
 
 }  // namespace
 
-TEST_CASE("of forty levels of any node there is an answer, or it is refused") {
+TEST_CASE("of forty levels of any node there is an answer, or it is rejected") {
     Random rng(40);
     for (const bool moves : {false, true}) {
         Answers answers;

@@ -52,7 +52,7 @@ TEST_CASE("the sampled slope is what it says, and no bound is claimed for it") {
     CHECK(node_of(n, 0).lipschitz == doctest::Approx(n.spectral_bound()));
 }
 
-TEST_CASE("networks that do not fit together are refused") {
+TEST_CASE("networks that do not fit together are rejected") {
     const auto mistake = [](SirenNetwork n) { return std::string(n.mistake() ? n.mistake() : ""); };
     CHECK(mistake(diagonal(1, 1, 1)) == "");
     SirenNetwork n = diagonal(1, 1, 1);

@@ -87,7 +87,7 @@ TEST_CASE("copies stand where a scene file lists them") {
     CHECK(phase_at(rows, {9, 4, 0}) == 0);
 }
 
-TEST_CASE("lists that do not fit are refused in words") {
+TEST_CASE("lists that do not fit are rejected in words") {
     const auto refused = [](const std::string& tree) -> std::string {
         try {
             (void)read(scene(tree));

@@ -124,7 +124,7 @@ TEST_CASE("outside of its box a volume is as far as the box at least, and a soli
     CHECK(distance(none, {5, 0, 0}) == doctest::Approx(4));
 }
 
-TEST_CASE("what is no grid is refused") {
+TEST_CASE("what is no grid is rejected") {
     const auto made = [](const VoxelLattice& lattice, double v) {
         return sampled_grid(lattice, [v](const glm::dvec3&) { return v; });
     };

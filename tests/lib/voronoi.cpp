@@ -11,7 +11,7 @@ namespace test_voronoi {
 using namespace phasetree;
 using namespace phasetree::tests;
 
-TEST_CASE("sites that are not looked at are as far as is said, and the nearest is as near") {
+TEST_CASE("sites that are ignored are as far as is said, and the nearest is as near") {
     Random rng(41);
     for (int n = 0; n < 2000; ++n) {
         const VoronoiSites sites{rng.chance(0.3) ? 1.f : rng.uniform(0, 1), static_cast<float>(rng.below(289))};

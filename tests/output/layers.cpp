@@ -121,7 +121,7 @@ TEST_CASE("where the file of one plane cannot be written the others are") {
     CHECK(std::filesystem::exists(folder / "a.plain.exr"));  // the last
 }
 
-TEST_CASE("what {plane} cannot be in is refused before there is an image") {
+TEST_CASE("what {plane} cannot be in is rejected before there is an image") {
     const TemporaryDirectory folder;
     for (const char* name : {"a.{plane}.png", "{plane}/a.exr", "{plane}/{plane}.exr"}) {
         const std::string message = message_of<OutputError>([&] { check_writable(folder / name); });

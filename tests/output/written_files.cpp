@@ -24,7 +24,7 @@ using namespace phasetree::tracer::test;
 
 namespace {
 
-// While this lives, no file that the process writes can grow beyond so many bytes. It stands in for a full disk.
+// While this lives, no file that the process writes can grow beyond this many bytes. It replaces a full disk.
 class FileSizeLimit {
   public:
     // The signal is ignored, so that writing fails with an error instead of ending the process.
@@ -61,7 +61,7 @@ class CurrentDirectory {
 
 }  // namespace
 
-TEST_CASE("a bad name is refused with the reason, before and after rendering") {
+TEST_CASE("a bad name is rejected with the reason, before and after rendering") {
     const OcioVariable none;
     const TemporaryDirectory folder;
     fs::create_directory(folder / "folder.png");
@@ -142,7 +142,7 @@ TEST_CASE("a full disk leaves the old file and no other") {
     CHECK(folder.size() == names.size());
 }
 
-TEST_CASE("a file of any kind is written whole or not at all, and never in the place of what is no file") {
+TEST_CASE("a file of any kind is written whole or not at all, and never in place of what is no file") {
     const TemporaryDirectory folder;
     write_text(folder / "numbers", "precious");
     std::string message;

@@ -1,5 +1,5 @@
 # An installed library whose headers do not compile, or that does not link, is left out: configuring succeeds and says so
-# in one line. The real project is configured, with a broken package in place of each library. Run by CTest:
+# in one line. The real project is configured, with a broken package instead of each library. Run by CTest:
 #   cmake -DSOURCE=… -DWORK=… -DGENERATOR=Ninja -DPREFIX_PATH=… -P optional_dependencies.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)

@@ -1,5 +1,5 @@
 # The reference of the C99 interface: that every exported function has a page which says what it is, does and returns, and
-# that headers which say too little are refused. Run by CTest:
+# that headers which say too little are rejected. Run by CTest:
 #   cmake -DTOOL=…/phasetree-reference -DPAGES=…/man3 -DLIBRARY=…/libphasetree_embree3.so -DHEADERS=…/include/phasetree
 #         -DWORK=… -P reference.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -82,13 +82,13 @@ if(groff)
     endif()
 endif()
 
-# refuse(TEXT PART…): a header with this declaration is refused, for a reason that has those parts.
+# refuse(TEXT PART…): a header with this declaration is rejected, for a reason that has those parts.
 function(refuse text)
     file(WRITE "${WORK}/header.h" "/* A header. */\n\n${text}\n")
     run_failing("${TOOL}" "${WORK}/refused" 1.0 "${HEADERS}/phasetree_embree.h" "${WORK}/header.h")
     expect("${errors}" ${ARGN})
     if(EXISTS "${WORK}/refused")
-        message(FATAL_ERROR "pages were written of a header that was refused")
+        message(FATAL_ERROR "pages were written of a header that was rejected")
     endif()
 endfunction()
 set(declared "PHASETREE_API PhasetreeError phasetreeTry(int number)")

@@ -1,4 +1,4 @@
-"""Formulas: arithmetic makes a field, what cannot be one is refused with its place, and files say the same."""
+"""Formulas: arithmetic makes a field, what cannot be one is rejected with its place, and files say the same."""
 
 import pathlib
 import re

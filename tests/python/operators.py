@@ -1,4 +1,4 @@
-"""What fields and objects are joined by, and what is refused."""
+"""What fields and objects are joined by, and what is rejected."""
 
 import unittest
 

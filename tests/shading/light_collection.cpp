@@ -151,7 +151,7 @@ TEST_CASE("lights: light from all around is chosen by what of it is above its me
     CHECK(DiffuseIrradiance(ImageEnvironment(256, 128, sky)).unevenness() > 0.9f);
 }
 
-TEST_CASE("lights: a portal is looked at as before, however even the sky is") {
+TEST_CASE("lights: a portal is examined as before, however even the sky is") {
     // The fluence of the lamp is a tenth of the sky's. Without a portal the sky is chosen half of the time; with one,
     // ten times in eleven, three quarters of which go to the portal.
     const glm::vec3 p(0.0f);

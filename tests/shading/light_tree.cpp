@@ -245,7 +245,7 @@ TEST_CASE("clustered lamps: rays see the same as if each is asked") {
     CHECK(met > 500);
 }
 
-TEST_CASE("clustered lamps: one that is added later counts, and up to so many are asked one by one") {
+TEST_CASE("clustered lamps: one that is added later counts, and up to this many are asked one by one") {
     Lights lights = lamps_of_all_kinds(100, 10), expected = lights;
     lights.cluster_lamps();
     for (Lights* each : {&lights, &expected}) {

@@ -9,7 +9,7 @@ namespace test_shared_surfaces {
 
 using namespace phasetree::tracer;
 
-TEST_CASE("between scenes coatings that are in use stay, and all else is made anew") {
+TEST_CASE("between scenes coatings that are in use stay, and all else is recreated") {
     SharedSurfaces surfaces;
     const auto coating = [&](float ior) { return surfaces.coating(1, ior, ValueRange{0.2f, 0.2f}, std::nullopt); };
     const auto dielectric = [&] { return surfaces.dielectric(1, 1.5f, std::nullopt, std::nullopt); };

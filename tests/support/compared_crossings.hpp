@@ -202,7 +202,7 @@ inline void compare_ray(const Phased& object, const InterfaceCells& cells, const
     }
 }
 
-/// Along so many rays.
+/// Along this many rays.
 inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result,
                               BuildQuality quality = BuildQuality::medium) {
     Evaluator::Workspace w;

@@ -30,7 +30,7 @@ inline TextOutlines::Contour random_contour(Random& rng, const glm::vec2& centre
 }
 
 /// Each letter is one stroke or two: an outer contour and at most one hole behind it, which runs the other way around.
-/// In half of the texts all run clockwise in place of counter-clockwise, and the other way around.
+/// In half of the texts all run clockwise instead of counter-clockwise, and the other way around.
 inline TextOutlines random_text(Random& rng) {
     TextOutlines text;
     const bool is_reversed = rng.chance(0.5);

@@ -59,7 +59,7 @@ inline Phased bounded(Random& rng, Phased a) {
     return IntersectShape{.of = std::move(a), .shape = Sphere{.radius = rng.uniform(0.8f, 1.6f)}, .phases_cut = {}};
 }
 
-/// A formula; some of them need bounds, and are refused without.
+/// A formula; some of them need bounds, and are rejected without.
 inline std::string random_formula(Random& rng) {
     static constexpr const char* formulas[] = {
         "length(x, y, z) - A",
@@ -149,7 +149,7 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
         each.optional = false;
         for (auto& item : value) fill(rng, item, each, depth, needs_bounded);
     } else {
-        // Mostly two or three, now and then the single child that a fold over the rest must survive.
+        // Mostly two or three, periodically the single child that a fold over the rest must survive.
         using Entry = typename Value::value_type;
         const bool is_outline = std::is_same_v<Entry, glm::vec2>;
         if constexpr (std::is_same_v<Entry, glm::vec3>) {

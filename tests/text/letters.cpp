@@ -1,4 +1,4 @@
-// Fonts, by two that have the same letters of known shapes (make_fonts.py): outlines, places, and what is refused.
+// Fonts, by two that have the same letters of known shapes (make_fonts.py): outlines, places, and what is rejected.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -149,7 +149,7 @@ TEST_CASE("a cubic curve is followed within its tolerance, with hardly a kink") 
     CHECK(curves < 20);
 }
 
-TEST_CASE("what no text can be made of is refused in a sentence") {
+TEST_CASE("what no text can be made of is rejected in a sentence") {
     const support::TemporaryDirectory directory;
     const fs::path no_font = directory.path() / "a.ttf", folder = directory.path();
     std::ofstream(no_font) << "root:x:0:0";

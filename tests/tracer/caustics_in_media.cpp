@@ -146,7 +146,7 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     const std::string thin = R"("absorption": [0.3, 0.3, 0.3], "scattering": [0.9, 0.9, 0.9], "anisotropy": 0.4)";
     const std::string thinnest = R"("absorption": [0.02, 0.02, 0.02], "scattering": [0.4, 0.4, 0.4])";
     const std::string thick = R"("absorption": [0.5, 0.5, 0.5], "scattering": [6, 6, 6])";
-    // Of the first channel, which is looked at, the others differ much.
+    // Of the first channel, which is examined, the others differ much.
     const std::string coloured = R"("absorption": [0.2, 2, 0.1], "scattering": [1.5, 12, 0.2], "anisotropy": -0.2)";
     // With many photons they alone bring the light; with few they share it with the other techniques, by their weights.
     struct Case {

@@ -228,7 +228,7 @@ TEST_CASE("it can be stopped, and says how far it is") {
     CHECK(last == 1);
 }
 
-TEST_CASE("a film that lacks a channel or samples is refused") {
+TEST_CASE("a film that lacks a channel or samples is rejected") {
     Image image = made(textured, sigma, 7);
     Image lacking = image;
     std::erase_if(lacking.further, [](const Channel& c) { return c.name == "half_normal.Y"; });

@@ -292,7 +292,7 @@ TEST_CASE("means, choices and weights") {
     CHECK(weights.entries()[1].weight.value() == 0.75);
 }
 
-TEST_CASE("bytes that no sum writes are refused") {
+TEST_CASE("bytes that no sum writes are rejected") {
     const auto read = []<class Sum>(Sum, std::vector<int> numbers) {
         std::vector<std::byte> bytes;
         for (const int n : numbers) bytes.push_back(static_cast<std::byte>(n));

@@ -186,7 +186,7 @@ TEST_CASE("surfaces and media that shine have the colour of their temperature") 
                  3.0 * (1 - std::exp(-1.0)) * colour_of_bulb());
 }
 
-TEST_CASE("a spectrum of which nothing is seen, as one in micrometres, is refused") {
+TEST_CASE("a spectrum of which nothing is seen, as one in micrometres, is rejected") {
     for (const char* const points : {"[[0.4, 1], [0.7, 0.5]]", "[[800, 1]]", "[[200, 1], [379, 0]]"}) {
         CAPTURE(points);
         CHECK_THROWS_WITH_AS(

@@ -158,7 +158,7 @@ TEST_CASE("photons and paths find the same light on a mixture with a mirror, and
     }
 }
 
-TEST_CASE("what cannot be mixed, and a reflectance beside an index, is refused") {
+TEST_CASE("what cannot be mixed, and a reflectance beside an index, is rejected") {
     const auto said = [](const std::string& material) {
         try {
             Shown shown(material);

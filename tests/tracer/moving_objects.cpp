@@ -250,7 +250,7 @@ TEST_CASE("a camera that moves is at each time the one that the file has then") 
     }
 }
 
-TEST_CASE("what cannot move is refused, with the place") {
+TEST_CASE("what cannot move is rejected, with the place") {
     const auto message = [](const std::string& transform, const std::string& shutter = "[0, 1]",
                             const std::string& phase = "water") {
         try {

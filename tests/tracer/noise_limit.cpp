@@ -63,7 +63,7 @@ double mean_luminance(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("blocks are looked at after 32, 48, 64, 96, ... samples") {
+TEST_CASE("blocks are examined after 32, 48, 64, 96, ... samples") {
     std::vector<int> looks;
     for (int done = 0; done < 400;) looks.push_back(done = NoiseLimit::next_look(done));
     CHECK(looks == std::vector<int>{32, 48, 64, 96, 128, 192, 256, 384, 512});

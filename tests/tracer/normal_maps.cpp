@@ -134,7 +134,7 @@ TEST_CASE("on a smooth mesh the frame is that of the shading normal, the same on
         }
 }
 
-TEST_CASE("a map of normals is refused where there are no coordinates, and beside a bump") {
+TEST_CASE("a map of normals is rejected where there are no coordinates, and beside a bump") {
     const auto said = [](const auto& make) {
         try {
             make();

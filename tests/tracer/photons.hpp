@@ -21,7 +21,7 @@ inline const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
 inline const int passes = long_form ? 6000 : 200;
 inline const double planted = long_form ? 1.03 : 1.1;
 
-// Calls use(emitted, photon) for what falls on surfaces of so many photons. Each batch has others.
+// Calls use(emitted, photon) for what falls on surfaces of this many photons. Each batch has others.
 template <class Use>
 void for_each_photon(const World& world, const Scene& scene, const PhotonEmission& emission, std::uint32_t count,
                      Use&& use, const std::optional<Wavelengths>& wavelength = {}, std::uint32_t batch = 0) {

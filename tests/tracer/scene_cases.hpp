@@ -59,7 +59,7 @@ struct Case {
     std::string chapter, name, needed;
     std::string before, after;  ///< around the object, to make of it what the reader reads
     void (*read)(const Document&, std::vector<float>& told);
-    /// Members to stand in place of `needed` where a key would not go with those.
+    /// Members to stand instead of `needed` where a key would not go with those.
     std::map<std::string, std::string> instead = {};
 
     Document document(const std::string& members) const {

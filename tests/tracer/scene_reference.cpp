@@ -98,9 +98,9 @@ std::size_t column_of(const Document& document, const std::string& part) {
 TEST_CASE("the committed reference page and schema are what the program prints") {
     // The texts are long, so they are not printed.
     const bool is_page_current = committed("nodes.md") == tracer::scene_reference_markdown();
-    CHECK_MESSAGE(is_page_current, "to be written anew: phasetree nodes --markdown > scenes/nodes.md");
+    CHECK_MESSAGE(is_page_current, "to be rewritten: phasetree nodes --markdown > scenes/nodes.md");
     const bool is_schema_current = committed("scene.schema.json") == tracer::scene_json_schema();
-    CHECK_MESSAGE(is_schema_current, "to be written anew: phasetree nodes --json-schema > scenes/scene.schema.json");
+    CHECK_MESSAGE(is_schema_current, "to be rewritten: phasetree nodes --json-schema > scenes/scene.schema.json");
 }
 
 TEST_CASE("every kind is in the page, in the schema and in these tests, with the same keys") {

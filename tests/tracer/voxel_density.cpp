@@ -141,7 +141,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
     CHECK(tight > 1000);
 }
 
-TEST_CASE("voxels that floats do not tell apart where they are placed are refused, along whichever axis") {
+TEST_CASE("voxels that floats do not tell apart where they are placed are rejected, along whichever axis") {
     const auto made = [](const glm::dvec3& spacing, const VoxelPlacement& placement) {
         return VoxelDensity(
             VoxelGrid::of_voxels("test", {{4, 4, 4}, {0, 0, 0}, spacing}, [](int x, int, int) { return x; }),

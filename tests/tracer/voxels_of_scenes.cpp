@@ -1,4 +1,5 @@
-// Numbers at voxels as scene files say them: what is refused and where, and what densities and temperatures make of it.
+// Numbers at voxels as scene files say them: what is rejected and where, and what densities and temperatures make of
+// it.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -101,7 +102,7 @@ TEST_CASE("a grid is made larger first, then turned, then moved; with y up what 
     CHECK(density_at(R"("y_up": true)", {0.5f, 0, 0}) == doctest::Approx(1).epsilon(1e-5));
 }
 
-TEST_CASE("what is cold does not shine, and what is no temperature is refused") {
+TEST_CASE("what is cold does not shine, and what is no temperature is rejected") {
     const Folder folder;
     const auto hot = [](double factor) {
         return fmt::format(R"("absorption": [1, 1, 1], "emission": [5, 5, 5], "density_grid": {{IMAGE}}, )"

@@ -252,7 +252,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.text("copied"), "")
         self.view.file.write_text(LARGER, encoding="utf-8")
         self.browser.wait_for(READY)
-        # What was refused stays until something else is tried.
+        # What was rejected stays until something else is tried.
         self.assertEqual(self.text("error"), error)
         self.browser.run("document.getElementById('write').click()")
         self.wait_for_no_error()

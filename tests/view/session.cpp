@@ -175,7 +175,7 @@ TEST_CASE("an error of one picture is over with the next") {
     CHECK(session.shown()->error.empty());
 }
 
-TEST_CASE("the scene is read at the time that is wished, and anew at that when it is saved") {
+TEST_CASE("the scene is read at the time that is wished, and again at that when it is saved") {
     Bench bench;
     Session& session = bench.begin();
     REQUIRE(bench.is_ready());

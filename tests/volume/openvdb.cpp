@@ -1,4 +1,4 @@
-// Level sets, labels and numbers from OpenVDB files, against OpenVDB's own sampling; and what files are refused for.
+// Level sets, labels and numbers from OpenVDB files, against OpenVDB's own sampling; and what files are rejected for.
 #include "volume/read_volume.hpp"
 
 #include <doctest/doctest.h>
@@ -127,7 +127,7 @@ TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds tha
     }
 }
 
-TEST_CASE("which grids of numbers are taken, and what the others are refused for") {
+TEST_CASE("which grids of numbers are taken, and what the others are rejected for") {
     const VdbFolder folder;
     const auto named = [](const char* name, float background = 0) {
         auto grid = openvdb::FloatGrid::create(background);
@@ -222,7 +222,7 @@ TEST_CASE("one of several grids is read by its name") {
     CHECK(said_of_level_set(folder.write("fog.vdb", {fog})).starts_with("it is a fog volume, not a level set"));
 }
 
-TEST_CASE("what is no level set is refused, with what is wrong") {
+TEST_CASE("what is no level set is rejected, with what is wrong") {
     const VdbFolder folder;
     CHECK(said_of_level_set(folder.path("none.vdb")) == "there is no such file");
     CHECK(said_of_level_set(folder.write_bytes("a.obj", "x")) == "its name must end with .vdb");
@@ -265,7 +265,7 @@ TEST_CASE("what is no level set is refused, with what is wrong") {
     CHECK(said_of_labels(folder.write("spread.vdb", {spread})).find("in all can be") != std::string::npos);
 }
 
-TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or read, in bounded memory") {
+TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is rejected or read, in bounded memory") {
     const VdbFolder folder;
     const auto grid = ball(0.3, {0, 0, 0}, 0.05f, "ball");
     for (const std::uint32_t compression : {0u, 3u, 6u}) {
@@ -290,7 +290,7 @@ TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is refused or r
                 std::memset(&bytes[at], k % 4 == 1 ? 0xff : 0x7f, 4);
             refused += said_of_level_set(folder.write_bytes("damaged.vdb", bytes)) != "nothing";
         }
-        MESSAGE("of 400 damaged files ", refused, " were refused");
+        MESSAGE("of 400 damaged files ", refused, " were rejected");
         CHECK(refused > 80);
     }
 }
@@ -322,7 +322,7 @@ TEST_CASE("a number in a file's metadata has the length of its type") {
 
 #include <string>
 
-TEST_CASE("without OpenVDB its files are refused in a sentence that says how they can be read") {
+TEST_CASE("without OpenVDB its files are rejected in a sentence that says how they can be read") {
     CHECK_FALSE(phasetree::tracer::can_read_openvdb());
     try {
         (void)phasetree::tracer::read_level_set("ball.vdb", "");

@@ -37,7 +37,7 @@ class VdbFolder {
     support::TemporaryDirectory directory_;
 };
 
-/// Why a file was refused, without its name; "nothing" if it was read.
+/// Why a file was rejected, without its name; "nothing" if it was read.
 template <class Read>
 std::string said_by(const Read& read) {
     try {

@@ -1,4 +1,4 @@
-// What OpenVDB writes is read, however many leaves it has and however they are stored; lies about lengths are refused.
+// What OpenVDB writes is read, however many leaves it has and however they are stored; lies about lengths are rejected.
 #include "volume/vdb_structure.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// So many leaves in a block of 8 × 8 × 8, and a few whole numbers, which halves can hold, in each of them.
+// This many leaves in a block of 8 × 8 × 8, and a few whole numbers, which halves can hold, in each of them.
 template <class Grid>
 typename Grid::Ptr grid_of_leaves(int leaves, const std::string& name, bool is_half) {
     auto grid = Grid::create(0);
@@ -138,7 +138,7 @@ TEST_CASE("metadata of a later version that is longer than today's is read") {
 }
 
 // Blosc reads as many bytes as its own header says.
-TEST_CASE("values whose Blosc header claims more bytes than there are, are refused") {
+TEST_CASE("values whose Blosc header claims more bytes than there are, are rejected") {
     const VdbFolder folder;
     auto grid = openvdb::FloatGrid::create(0);
     grid->setName("float");

@@ -202,7 +202,7 @@ TEST_CASE("axes that are rotated by rounding errors alone count as straight") {
     CHECK(said_of_level_set(folder.write("a.vdb", {grid})) == "nothing");
 }
 
-TEST_CASE("which transforms are refused") {
+TEST_CASE("which transforms are rejected") {
     const VdbFolder folder;
     const auto set = random_grid<openvdb::FloatGrid>(0.3, -0.2, 0.2, 29);
     set->setGridClass(openvdb::GRID_LEVEL_SET);

@@ -5,7 +5,7 @@ They are smooth, by the sum of squared differences between neighbours, that add 
 are nowhere below 0, and whose colours under D65 are exactly red, green and blue. The idea is that of Mallett & Yuksel,
 Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019; the numbers are our own, by the colour
 matching functions in colour_matching.cpp. Spectra that would be below 0 are held at 0 there, and the rest is solved
-anew, until none is.
+again, until none is.
 """
 import re
 from pathlib import Path

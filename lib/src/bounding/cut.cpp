@@ -38,7 +38,7 @@ class Cutter {
         std::ranges::fill(planes_, Plane{});
     }
 
-    // A box around the part of `box` that is in a level set. For {v = τ}, `already_cut` tells whether the box has been
+    // A box around the part of `box` that is in a level set. For {v = τ}, `already_cut` says whether the box has been
     // cut before to where v ≤ τ (below) or v ≥ τ (above) can hold; with `at` it has not been cut.
     LaneBox box_around(const LevelSet& set, const LaneBox& box, Side already_cut = Side::at) {
         const auto [v, side, tau] = set;

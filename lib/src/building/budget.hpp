@@ -30,7 +30,7 @@ class CellBudget {
 
     /// Whether the division of a box, which may save this much, is worth its memory. Any thread may call it.
     bool is_worth_dividing(const Bounds& box, float saving);
-    /// The largest saving, divided by its box's tie breaker (budget.cpp), that was refused. With this as the least
+    /// The largest saving, divided by its box's tie breaker (budget.cpp), that was rejected. With this as the least
     /// saving one more box would be divided.
     float largest_refused_saving() const { return largest_refused_; }
 

@@ -19,8 +19,8 @@ namespace {
 
 // Of a box that is cut, what is left is enclosed again if its surface is less than this share of that before.
 constexpr float much_smaller = 0.7f;
-// A ray that crosses a box as large as a fold's period is expected to pass so many interfaces of its copies: it enters
-// and leaves one in each of about two copies.
+// A ray that crosses a box as large as a fold's period is expected to pass this many interfaces of its copies: it
+// enters and leaves one in each of about two copies.
 constexpr float copies_in_period = 4;
 // The work, in simple instructions, of the few operations by which the lists of parts of several phases are joined to a
 // program's outputs.
@@ -57,7 +57,7 @@ class CandidateSearch {
             if (!pruned) return std::nullopt;
             // A program of the same length is taken for the same program. It may have a cheaper operation or a smaller
             // slope, which is not worth another round; the one that was enclosed is right, too. After the last round
-            // pruning still tells whether anything is left.
+            // pruning still says whether anything is left.
             const bool is_all_left = pruned->code.size() == cell.program.code.size() &&
                                      pruned->outputs.size() == cell.program.outputs.size();
             if (!is_all_left && round < most_rounds) {

@@ -11,8 +11,8 @@ struct Support {
     bool is_within_tolerance = true;
 };
 
-/// Bounds d·p over the solid within a box, for a unit vector d, by at most so many evaluations. The height is −∞ if the
-/// solid is certainly empty.
+/// Bounds d·p over the solid within a box, for a unit vector d, by at most this many evaluations. The height is −∞ if
+/// the solid is certainly empty.
 Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
                       std::size_t most_evaluations);
 

@@ -54,7 +54,7 @@ class LoopSearch {
     }
 
   private:
-    // Finds loops whose iterations are so many items long. Returns whether there were any.
+    // Finds loops whose iterations are this many items long. Returns whether there were any.
     bool find_of_length(std::size_t length) {
         // For each item, how many from it on equal the one that is an iteration later.
         std::vector<std::uint32_t> equal(list_.size(), 0);

@@ -33,7 +33,7 @@ struct PrunedGrid {
 };
 
 /// Divides the bounds so that their longest side has about `along` boxes. The programs are right up to `reach` beyond
-/// their boxes. `program` is rewritten, which may append constants to it. `cancelled` is asked now and then; where it
+/// their boxes. `program` is rewritten, which may append constants to it. `cancelled` is polled; where it
 /// says so, BuildCancelled is thrown.
 PrunedGrid prune_on_grid(Program& program, const Bounds&, float reach, int along,
                          const std::function<bool()>& cancelled = {});

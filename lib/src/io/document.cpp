@@ -176,7 +176,7 @@ std::filesystem::path Document::file(Value named) const {
     const std::filesystem::path path = std::filesystem::path(name()).parent_path() / named.string();
     if (!access_ || !access_->within) return path;
     const std::filesystem::path& folder = *access_->within;
-    // What is opened is the path without links, so that it is the one that was looked at.
+    // What is opened is the path without links, so that it is the one that was examined.
     std::error_code problem;
     std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
     const bool is_stack = named.string().find('#') != std::string_view::npos;

@@ -32,7 +32,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
     return flat;
 }
 
-// Tells whether a polygon never turns right, and goes around once.
+// Returns whether a polygon never turns right, and goes around once.
 bool is_convex(const std::vector<glm::dvec2>& p) {
     const std::size_t n = p.size();
     int turns = 0;

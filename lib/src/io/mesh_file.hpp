@@ -21,7 +21,7 @@ void drop_unless_complete(AtCorners<T>& values, const TriangleMesh& mesh) {
     if (values.triangles.size() != mesh.triangles.size()) values = {};
 }
 
-/// Throws SceneError if there are more than so many triangles.
+/// Throws SceneError if there are more than this many triangles.
 void check_triangles(const std::filesystem::path&, const TriangleMesh&, std::size_t most);
 
 }  // namespace phasetree::io

@@ -14,7 +14,7 @@
 
 namespace phasetree::io {
 
-/// The state of a regular file, by which a later one tells whether it changed; nothing for what is no regular file, and
+/// The state of a regular file, by which a later one says whether it changed; nothing for what is no regular file, and
 /// for one that was saved within the last second.
 std::optional<std::string> state_of(const std::filesystem::path& file);
 

@@ -25,7 +25,7 @@ int columns_of(char32_t c);
 /// pictures (U+2400 …), and what would hide or reorder text, or is no UTF-8, becomes U+FFFD.
 std::string printable_at(std::string_view text, std::size_t at, const CodePoint& c);
 
-/// The whole text made printable and cut to so many code points, the last an ellipsis.
+/// The whole text made printable and cut to this many code points, the last an ellipsis.
 std::string printable(std::string_view text, std::size_t max_code_points = 1000);
 
 /// "text", printable and short, in double quotes.

@@ -106,7 +106,7 @@ std::optional<Number> number_of(std::string_view word) {
     return value;
 }
 
-/// As number_of, but NaN for what programs write in place of a number that is none or too large: nan, -inf, 1e999,
+/// As number_of, but NaN for what programs write instead of a number that is none or too large: nan, -inf, 1e999,
 /// -1.#IND.
 template <class Number>
 std::optional<Number> number_or_nan(std::string_view word) {

@@ -198,7 +198,7 @@ HWY_INLINE Batch shifted_back(const Batch& a, float after) {
     }
     return r;
 }
-/// A mask whose bit i tells whether lane i is true.
+/// A mask whose bit i says whether lane i is true.
 HWY_INLINE std::uint32_t bits(const BatchMask& m) {
     std::uint32_t all = 0;
     PHASETREE_EACH {

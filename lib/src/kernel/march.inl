@@ -36,7 +36,7 @@ class March {
 
   private:
     static constexpr float no_label = -1;
-    // The search pauses after so many batches: most rays that take so many creep along an interface (trace/creep.hpp).
+    // The search pauses after so many batches: most rays that take this many creep along an interface (trace/creep.hpp).
     static constexpr std::uint32_t most_batches = 256;
     // The number of frames on the stack. Each is within a gap of the one below, at most a fifth as long or so.
     static constexpr int deepest = 24;

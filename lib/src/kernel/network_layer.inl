@@ -37,7 +37,7 @@ HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::s
 }
 
 // out = W·in + bias, with `network_lanes` doubles for each neuron. The bias is added to the first of them; those from
-// `absolute_lane` on are error bounds, which are summed with |W| in place of W. Sums run over the inputs in their
+// `absolute_lane` on are error bounds, which are summed with |W| instead of W. Sums run over the inputs in their
 // order, which is the same for every instruction set.
 HWY_FLATTEN void network_layer(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                                const double* in, double* out) {

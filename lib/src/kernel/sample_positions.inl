@@ -38,7 +38,7 @@ HWY_INLINE Batch evenly_spaced(float low, float high) {
     return ending_at(Batch(low) + lanes() * ((high - low) * (1 / last_lane)), high);
 }
 
-// The step with which geometric() goes from a to b in so many steps; 0 if b is no larger than a. The number of steps is
+// The step with which geometric() goes from a to b in this many steps; 0 if b is no larger than a. The number of steps is
 // a template parameter, because dividing by a number that is not a constant takes long.
 template <std::uint32_t steps>
 HWY_INLINE std::uint32_t geometric_step(float a, float b) {

@@ -140,7 +140,7 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
                                          is_free_by_curvature(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
-            // If all frames are in use, the search begins anew with this gap in the first frame, and the samples ahead
+            // If all frames are in use, the search starts again with this gap in the first frame, and the samples ahead
             // of the gap are given up. The search cannot pass a gap that is in doubt.
             const int deeper = depth < deepest ? depth : 0;
             const Batch t = positions_in_gap(f, is_aligned ? f.next : -1, next);

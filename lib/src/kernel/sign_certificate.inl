@@ -42,7 +42,7 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding_error) {
     return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding_error};
 }
 
-// Bit i tells whether the leaf, or minus the leaf if `is_negated`, is proven to be positive in the gap that ends at
+// Bit i says whether the leaf, or minus the leaf if `is_negated`, is proven to be positive in the gap that ends at
 // lane i. It is never set for the first lane, where a is 0.
 HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_negated, const float* registers,
                                            const Gaps& gaps) {
@@ -71,7 +71,7 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
     return free & bits(less(zero, min(a, b)));
 }
 
-// Bit i tells whether the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as
+// Bit i says whether the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as
 // in the phase of the first output, or, if `is_negated`, to be positive, as in the other phases.
 std::uint32_t certified_gaps(const Routine& routine, bool is_negated, const float* registers, const Batch& t,
                              float rounding_error) {

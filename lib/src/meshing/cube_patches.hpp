@@ -36,7 +36,7 @@ constexpr int edge_between(int a, int b) {
 inline constexpr int sides_of_cube[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                             {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
-/// Tells whether two phases take turns around a side: A, B, A, B.
+/// Returns whether two phases take turns around a side: A, B, A, B.
 inline bool take_turns(const Corners& corners, int side) {
     const auto at = [&](int i) { return corners[static_cast<std::size_t>(sides_of_cube[side][i])]; };
     return at(0) == at(2) && at(1) == at(3) && at(0) != at(1);

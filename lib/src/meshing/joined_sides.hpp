@@ -15,11 +15,11 @@ class JoinedSides {
     /// Refers to the grid and the lines.
     JoinedSides(const Grid& grid, const LineTracer& lines) : grid_(grid), lines_(lines) {}
 
-    /// Looks at the middles of all such sides. `cancelled` is called now and then, and may throw.
+    /// Looks at the middles of all such sides. `cancelled` is called periodically, and may throw.
     void find_all(const Labels&, const std::function<void()>& cancelled);
     /// Looks at the middles of such sides of a cube that came to be by changes of labels.
     void find(const Labels&, const glm::ivec3& cube);
-    /// The labels of a cube whose sides were looked at. Any number of threads may call it at once.
+    /// The labels of a cube whose sides were examined. Any number of threads may call it at once.
     CubeLabels labels_of(const Labels&, const glm::ivec3& cube) const;
 
   private:

@@ -93,14 +93,14 @@ class MeshProgress {
   public:
     explicit MeshProgress(const std::function<void(float)>& tell) : tell_(tell) {}
 
-    /// Begins a stage of so many steps, which ends at a share of all the work.
+    /// Begins a stage of this many steps, which ends at a share of all the work.
     void begin(std::size_t steps, float end) {
         start_ = end_;
         end_ = end;
         steps_ = steps;
         done_ = 0;
     }
-    /// So many steps more are done. Any thread.
+    /// This many steps more are done. Any thread.
     void advance(std::size_t steps = 1) {
         if (!tell_) return;
         const std::lock_guard lock(mutex_);

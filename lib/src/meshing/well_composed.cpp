@@ -32,14 +32,14 @@ Change change_of_side(const CubeLabels& c, int side) {
     return {};
 }
 
-// Tells whether both faces of a wall across a side are of one patch.
+// Returns whether both faces of a wall across a side are of one patch.
 bool is_wall_in_one_patch(const CubePatches& patches, int side, const WallAcross& wall) {
     const auto& corners = sides_of_cube[side];
     const auto patch_at = [&](int i) { return patches.patch(edge_between(corners[i], corners[(i + 1) % 4])); };
     return patch_at(wall.first) == patch_at(wall.first + 2);
 }
 
-// Tells whether a patch has two rings of a phase (well_composed.hpp).
+// Returns whether a patch has two rings of a phase (well_composed.hpp).
 bool has_two_rings(const CubeLabels& c, const CubePatches& patches, Phase phase) {
     const LinkedEdges rings = cut_edges(c, [&](Phase a, Phase b) { return (a == phase) != (b == phase); });
     std::array<int, 4> in_patch{};
@@ -114,7 +114,7 @@ class Repair {
 
 void make_well_composed(const Grid& grid, Labels& labels, JoinedSides& joined, const std::function<void()>& cancelled) {
     Repair repair(grid, labels, joined);
-    // Few cubes are unsound: all are looked at in parallel, these are mended in turn.
+    // Few cubes are unsound: all are examined in parallel, these are mended in turn.
     std::vector<std::vector<glm::ivec3>> unsound(static_cast<std::size_t>(grid.points.z - 1));
     tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
         cancelled();

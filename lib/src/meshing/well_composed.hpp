@@ -19,8 +19,8 @@ namespace phasetree::meshing {
 
 /// Changes labels until neither is so. Labels only rise, and none becomes one that is not beside it already, so it
 /// comes to an end; in it a phase of a higher index fills what is narrower than the grid. All sides that phases take
-/// turns around have been looked at, and are afterwards. The outermost points, which must be vacuum, stay so.
-/// `cancelled` is called now and then, and may throw.
+/// turns around have been examined, and are afterwards. The outermost points, which must be vacuum, stay so.
+/// `cancelled` is called periodically, and may throw.
 void make_well_composed(const Grid&, Labels&, JoinedSides&, const std::function<void()>& cancelled);
 
 }  // namespace phasetree::meshing

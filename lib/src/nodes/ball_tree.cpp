@@ -21,7 +21,7 @@ std::size_t half(std::size_t count) {
     return count / 2;
 }
 
-// The number of nodes of a tree over so many balls. On each level all nodes have n balls or n + 1.
+// The number of nodes of a tree over this many balls. On each level all nodes have n balls or n + 1.
 std::size_t nodes_over(std::size_t count) {
     std::size_t sum = 0, n = count, with_n = 1, with_one_more = 0;
     for (;;) {

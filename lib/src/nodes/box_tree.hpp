@@ -13,7 +13,7 @@ struct BoxTree {
     struct Node {
         Bounds box;
         std::uint32_t second_child = 0;      ///< 0 for a leaf
-        std::uint32_t first = 0, count = 0;  ///< a leaf's items: so many of `order` from this one on
+        std::uint32_t first = 0, count = 0;  ///< a leaf's items: this many of `order` from this one on
     };
     std::vector<Node> nodes;
     std::vector<std::uint32_t> order;  ///< the items' numbers, leaf after leaf

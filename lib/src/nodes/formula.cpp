@@ -15,8 +15,8 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int most_boxes = 4000;  // are looked at to find the slope of one term
-constexpr double steepest = 1e6;  // a steeper formula is refused
+constexpr int most_boxes = 4000;  // are examined to find the slope of one term
+constexpr double steepest = 1e6;  // a steeper formula is rejected
 // Without bounds the slope is found in a large cube and in a small one, of half these sides, with fewer boxes: nothing
 // is to be refined there. If it is larger in the large one, it is taken to grow without limit, and the formula is
 // refused. Beyond the large cube, 1000 km from the origin, nothing is proven, so the author's bounds may not reach

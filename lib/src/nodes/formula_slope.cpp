@@ -13,7 +13,7 @@ using formula::Op;
 
 namespace {
 
-constexpr double close_enough = 1.02;  // the search ends when the bound is so many times the steepest gradient seen
+constexpr double close_enough = 1.02;  // the search ends when the bound is this many times the steepest gradient seen
 constexpr double no_bound = 1e50;      // a bound above this stands for none: Range::most is larger
 
 // Why a term has no bound in a box: the first step that has none although its operands have.

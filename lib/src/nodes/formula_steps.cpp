@@ -148,9 +148,9 @@ FormulaIndex FormulaSteps::emit(FormulaStep s) {
     return index;
 }
 
-// Tells whether a value is a sum of squares, and appends to `sides` what is squared. It may append steps, and may leave
-// `sides` half filled if it returns false. A step that is used twice counts twice, so a few steps could make very many
-// squares; hence the limit.
+// Returns whether a value is a sum of squares, and appends to `sides` what is squared. It may append steps, and may
+// leave `sides` half filled if it returns false. A step that is used twice counts twice, so a few steps could make very
+// many squares; hence the limit.
 bool FormulaSteps::collect_squares(Index i, std::vector<Index>& sides, int depth) {
     const FormulaStep s = steps_[i];
     if (depth > deepest_formula || sides.size() >= most_squares) return false;

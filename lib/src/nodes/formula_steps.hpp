@@ -86,7 +86,7 @@ class FormulaSteps {
     std::size_t offset_ = 0;
 };
 
-/// The steps that one step of a list needs, in their order and numbered anew; it is the last.
+/// The steps that one step of a list needs, in their order and renumbered; it is the last.
 std::vector<FormulaStep> needed_steps(const std::vector<FormulaStep>& all, FormulaIndex root);
 
 }  // namespace phasetree::nodes

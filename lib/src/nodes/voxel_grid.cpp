@@ -15,7 +15,7 @@ using voxels::Table;
 
 namespace {
 
-// The blocks of a grid of so many voxels, of which x varies fastest.
+// The blocks of a grid of this many voxels, of which x varies fastest.
 class Blocks {
   public:
     explicit Blocks(const std::array<int, 3>& size) {
@@ -144,7 +144,7 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
     return grid;
 }
 
-// Blocks are looked at on all threads, then numbered in their order, then copied on all threads.
+// Blocks are examined on all threads, then numbered in their order, then copied on all threads.
 VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice, std::span<const float> values) {
     VoxelGrid grid = empty_grid(who, lattice);
     const std::array<int, 3> size = lattice.size;

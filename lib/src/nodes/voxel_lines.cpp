@@ -10,11 +10,11 @@ namespace phasetree::voxels {
 
 namespace {
 
-// So many lines are worked on at a time, a lane for each: the same operations on neighbours in memory, which compilers
-// make vector instructions of. Lanes do not depend on each other.
+// This many lines are worked on at a time, a lane for each: the same operations on neighbours in memory, which
+// compilers make vector instructions of. Lanes do not depend on each other.
 constexpr std::size_t lanes = 16;
 
-// So many lines, side by side: the value k of the line in a lane is at lanes · k + lane.
+// This many lines, side by side: the value k of the line in a lane is at lanes · k + lane.
 using Bundle = std::vector<float>;
 
 // Calls work(bundle) for all lines along an axis, on all threads. Lines are copied to a bundle and back, unless they

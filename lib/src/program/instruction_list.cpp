@@ -12,7 +12,7 @@ namespace phasetree::program {
 
 namespace {
 
-// Of long lists of constants, as those of images are, so many are looked at to tell them from others: evenly spaced.
+// Of long lists of constants, as those of images are, this many are examined to tell them from others: evenly spaced.
 // Lists that have these in common are compared in full.
 constexpr std::size_t most_hashed = 512;
 

@@ -31,7 +31,7 @@ class InstructionList {
   private:
     bool is_same(std::uint32_t value, Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants) const;
 
-    /// A program of the largest size takes at most so many steps of work for each instruction.
+    /// A program of the largest size takes at most this many steps of work for each instruction.
     static constexpr std::size_t most_work_for_one = 16;
     static constexpr std::size_t most_constants = std::size_t{1} << 28;
 

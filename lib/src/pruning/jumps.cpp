@@ -33,7 +33,7 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-// The guard above a fold tells whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
+// The guard above a fold says whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
 // jumps (`guarded` in math/number.hpp). A guard and its fold are known by their point: endless_grid measures the bound
 // at the very point that it folds. Only equal values take the place of a bound (resolve_guarded), so if its operand is
 // no longer that point, no fold is found, and one that no guard vouches for counts as one that may jump.

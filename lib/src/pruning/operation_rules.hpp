@@ -60,7 +60,7 @@ void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
-    // If a is above b, or above r, b stands in for the minimum: it is the minimum, or both of them are above r. If b is
+    // If a is above b, or above r, b replaces the minimum: it is the minimum, or both of them are above r. If b is
     // above a or above r, a does so for the same reason. An operand below r stands in, too, for the minimum is below r
     // with it.
     const bool is_b_surely = is_above(in.a, in.b) | bool(low_a > r.high());
@@ -75,7 +75,7 @@ void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
-    // If a is below b, or below r, b stands in for the maximum: it is the maximum, or both of them are below r. If b is
+    // If a is below b, or below r, b replaces the maximum: it is the maximum, or both of them are below r. If b is
     // below a or below r, a does so for the same reason. An operand above r stands in, too, for the maximum is above r
     // with it.
     const bool is_b_surely = is_above(in.b, in.a) | bool(high_a < r.low());
@@ -109,7 +109,7 @@ void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     // Where the operands differ by more than the radius they are not blended.
     if (is_above(in.b, in.a, radius)) return replace(i, in.a);
     if (is_above(in.a, in.b, radius)) return replace(i, in.b);
-    // If a is above r by more than the radius, b stands in for the smooth minimum. Where b ≤ r.high, it is more than
+    // If a is above r by more than the radius, b replaces the smooth minimum. Where b ≤ r.high, it is more than
     // the radius below a and is the smooth minimum. Where b > r.high, the smooth minimum is above r as well: if b is
     // the smaller, blending lowers it by a sixth of ρ − (a − b) at most, and it is above r by more than all of that; if
     // a is the smaller, it is above r by more than ρ and lowered by a sixth of ρ at most. The same holds with a and b

@@ -27,7 +27,7 @@ struct Specialisation {
 
     std::uint32_t value = 0;  ///< the primitive's instruction
     /// The index of the general primitive's constants, by which a smaller box finds this specialisation again, although
-    /// instructions are numbered anew; no_source if several instructions of the program share these constants.
+    /// instructions are renumbered; no_source if several instructions of the program share these constants.
     std::uint32_t source = no_source;
     Op op{};                               ///< the operation of P::Specialised
     std::span<const float> data{};         ///< the data of that; empty if the primitive is not replaced
@@ -45,7 +45,7 @@ inline bool has_local_primitive(const WorkingProgram& program) {
     return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
 }
 
-/// The program with specialised primitives in the place of local ones. Their data are appended to `floats`. Such an
+/// The program with specialised primitives in place of local ones. Their data are appended to `floats`. Such an
 /// instruction (OpTraits::is_specialised) no longer refers to the whole program's constants: its index is `first` plus
 /// the offset in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
 /// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data an offset

@@ -16,7 +16,7 @@
 // the kernel goes on, at three resolutions a batch.
 //
 // So the work is bounded by the length of the creep. At the resolution that is chosen for an object the longest ray
-// through it has half a million resolutions. At finer resolutions there may be more. After so many batches
+// through it has half a million resolutions. At finer resolutions there may be more. After this many batches
 // (most_batches, of all kinds) each further walk, of at most 256 batches, takes steps twice as long as those of the
 // walk before, so that no ray takes forever. Once the ray is away from the interface, steps are a resolution again.
 // What lies behind a walk the kernel searches at the resolution.

@@ -23,7 +23,7 @@ using evaluation::Component;
 ///  * two resolutions from both ends along the coordinate axes, of which the point deepest in its phase is taken.
 /// If none agrees, the normal is taken that has the smallest angle to the ray.
 ///
-/// `component(p, phase)` gives a component and its gradient, and `holds(p)` tells whether it can do so at p.
+/// `component(p, phase)` gives a component and its gradient, and `holds(p)` says whether it can do so at p.
 template <class ComponentAt, class Holds>
 class NormalOf {
   public:

@@ -58,7 +58,7 @@ struct BoundsQuery::Memory {
     std::unordered_map<const void*, std::unordered_set<float>> levels;  // for which each node was asked
     std::size_t asked = 0;  // the number of subtrees that were asked by directions since the root was
 
-    // The level for which a node is asked in place of the given one. A tree of offsets of shared subtrees can ask for
+    // The level for which a node is asked instead of the given one. A tree of offsets of shared subtrees can ask for
     // exponentially many levels, so beyond the first few they are rounded up to few numbers: the box of a higher level
     // contains that of a lower.
     float rounded_level(const void* node, float level) {

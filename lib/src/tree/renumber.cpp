@@ -9,7 +9,7 @@ namespace phasetree {
 
 namespace {
 
-// Makes each node anew whose parameters change; a tree of one field is the same handle as before.
+// Makes each node again whose parameters change; a tree of one field is the same handle as before.
 class Renumbering {
   public:
     Renumbering(std::span<const Phase> numbers, const NodeCopied& copied) : numbers_(numbers), copied_(copied) {

@@ -209,7 +209,7 @@ class Scene(Value):
     ):  # fmt: skip
         """Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
 
-        image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
+        image: settings instead of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
         progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
         planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
         "regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as

@@ -13,7 +13,7 @@
 
 namespace phasetree::python {
 
-/// Asks Python now and then whether a signal has come. Only the thread that called may ask, and only it has the time
+/// Asks Python periodically whether a signal has come. Only the thread that called may ask, and only it has the time
 /// of the last question. While the object lives that thread does not hold the interpreter's lock.
 class Interruption {
   public:

@@ -19,7 +19,7 @@ struct Told {
     std::vector<double> fractions;
     std::atomic<int> inside{0};
     int at_once = 0;
-    int last = 1 << 30;  // so many calls say go on
+    int last = 1 << 30;  // this many calls say go on
 };
 bool tell(void* user, double fraction) {
     auto& told = *static_cast<Told*>(user);
@@ -175,7 +175,7 @@ TEST_CASE("files of cells that cannot be used") {
     CHECK(phasetreeReleaseGeometry(geometry) == PHASETREE_ERROR_NONE);
 }
 
-TEST_CASE("empty and unbounded trees are refused with a message") {
+TEST_CASE("empty and unbounded trees are rejected with a message") {
     Device device;
     PhasetreeGeometry geometry = nullptr;
     const auto make = [&](const char* tree) {

@@ -166,7 +166,7 @@ TEST_CASE("the application's own callbacks choose a cell by its number; there ar
     CHECK_FALSE(box.lower_x <= box.upper_x);
 }
 
-TEST_CASE("what the flag excludes is refused, and says why") {
+TEST_CASE("what the flag excludes is rejected, and says why") {
     Device device;
     const embree::Tree tree = object_tree();
     const auto refuse = [&](unsigned flags, PhasetreePhaseSet shown, const char* part) {

@@ -19,7 +19,7 @@ struct Monitor {
         auto& m = *static_cast<Monitor*>(user);
         const std::ptrdiff_t now = m.bytes += bytes;
         if (now > m.most) m.most = now;
-        // After the fact, or for what is given back, there is nothing to refuse. What is refused is not allocated.
+        // After the fact, or for what is given back, there is nothing to refuse. What is rejected is not allocated.
         if (post || bytes <= 0 || now <= m.limit) return true;
         m.bytes -= bytes;
         return false;

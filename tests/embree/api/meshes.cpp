@@ -1,4 +1,4 @@
-// Meshes of geometries through the C99 interface: what they promise, and what is refused.
+// Meshes of geometries through the C99 interface: what they promise, and what is rejected.
 #include "embree/api/api.hpp"
 #include "support/manifold.hpp"
 

@@ -52,7 +52,7 @@ TEST_CASE("rays end at any resolution that is accepted, and hit what is there") 
     }
 }
 
-TEST_CASE("what leaves too few digits is warned of, and what leaves none is refused") {
+TEST_CASE("what leaves too few digits is warned of, and what leaves none is rejected") {
     const Placed near(ball(0)), far(ball(1e5f));
     CHECK(near.geometry.warning() == "");
     CHECK(far.geometry.warning().find("move it nearer to the origin") != std::string::npos);

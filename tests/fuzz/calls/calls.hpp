@@ -66,7 +66,7 @@ class Calls {
     template <class Handle>
     void check_with(Handle handle, PhasetreeError error) {
         check(error);
-        if (!is_live(handle)) promised(error != PHASETREE_ERROR_NONE, "a handle that is not live is refused");
+        if (!is_live(handle)) promised(error != PHASETREE_ERROR_NONE, "a handle that is not live is rejected");
     }
     // Counts a reference more or less of a handle, live or not.
     template <class List, class Handle>

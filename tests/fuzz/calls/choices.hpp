@@ -34,7 +34,7 @@ class Choices {
         if (b < 120) return static_cast<float>(b) / 30 - 2;
         return b >= 248 ? of(not_finite) : of(some_numbers);
     }
-    // The pointer, or now and then NULL.
+    // The pointer, or periodically NULL.
     template <class T>
     T* or_null(T* p) {
         return rarely() ? nullptr : p;

@@ -79,7 +79,7 @@ void Calls::edit() {
     const PhasetreeGeometryOptions o = options();
     const auto error = phasetreeSetGeometryTree(of, by, c_.below(8) == 0 ? nullptr : &o);
     check_with(of, error);
-    if (!is_live(by)) promised(error != PHASETREE_ERROR_NONE, "a tree that is not live is refused");
+    if (!is_live(by)) promised(error != PHASETREE_ERROR_NONE, "a tree that is not live is rejected");
     change();
 }
 

@@ -1,4 +1,4 @@
-// Files of meshes, by the reading of the node `mesh`: what is no solid is refused, and of what is one the search finds
+// Files of meshes, by the reading of the node `mesh`: what is no solid is rejected, and of what is one the search finds
 // the piece that a loop over all of them would. What files say of triangles' corners is of corners that there are.
 #include "phasetree/io/mesh.hpp"
 #include "fuzz/found_by_search.hpp"

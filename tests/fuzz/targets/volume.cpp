@@ -1,5 +1,5 @@
 // OpenVDB files, by the readers of the nodes `volume` and `labels` and of numbers at voxels: what is read is sound, and
-// everything else is refused without more memory than a small file may take.
+// everything else is rejected without more memory than a small file may take.
 #include <cmath>
 #include <stdexcept>
 

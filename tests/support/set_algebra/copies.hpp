@@ -71,7 +71,7 @@ std::vector<Copy> copies(const FibonacciSphere<Child>& n) {
     }
     return all;
 }
-/// Where the places are is looked at by tests of their own (tests/lib/scatter.cpp).
+/// Where the places are is examined by tests of their own (tests/lib/scatter.cpp).
 template <class Child>
 std::vector<Copy> copies(const Scatter<Child>& n) {
     std::vector<Copy> all;

@@ -14,7 +14,7 @@ struct CameraRay {
 };
 
 /// * Parameters: what a scene says of the camera, as plain values; `position` and `look_at` among them.
-/// * C(parameters, resolution): for a whole picture of so many pixels, which are square. Throws std::invalid_argument
+/// * C(parameters, resolution): for a whole picture of this many pixels, which are square. Throws std::invalid_argument
 ///   with a text for people when the parameters describe no camera.
 /// * generate(film, lens): the ray that reaches a point of the film, in pixels from the top left corner of the whole
 ///   picture; points outside of the picture continue it. `lens` in [0, 1)² chooses the point of a lens. Every ray

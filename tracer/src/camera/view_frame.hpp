@@ -13,7 +13,7 @@ struct ViewFrame {
 
     glm::dvec3 position;
     glm::dvec3 right, up, forward;  ///< orthonormal
-    double distance;                ///< to the point that is looked at
+    double distance;                ///< to the point that is examined
 };
 
 /// Half of a vertical field of view in degrees, in radians. Throws std::invalid_argument unless it is above 0 and below

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t photons_a_task = 4096;
 
-// What is learnt before the first pass is of so many photons for each source, and of so many in all at most.
+// What is learnt before the first pass is of this many photons for each source, and of this many in all at most.
 constexpr std::size_t learnt_a_source = 1 << 15, most_learnt = 1 << 18;
 
 // Photons have pixels of their own, so that their random numbers are not those of the picture's.

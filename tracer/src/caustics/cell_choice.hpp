@@ -9,7 +9,7 @@ namespace phasetree::tracer {
 
 class CellChoice {
   public:
-    /// So many cells, all of which are equally likely.
+    /// This many cells, all of which are equally likely.
     explicit CellChoice(std::size_t cells);
 
     std::size_t size() const { return cumulative_.size() - 1; }

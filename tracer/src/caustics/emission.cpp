@@ -28,7 +28,7 @@ constexpr std::size_t most_glowing = 4096;
 // Photons of one direction start all over the ball around such a part, so fine cells of directions gain little; those
 // of a medium least of all.
 constexpr int direction_cells_a_side_of_glowing = 16, direction_cells_a_side_of_shining = 8;
-// So many places are asked at most how bright media are there, in all balls together.
+// This many places are asked at most how bright media are there, in all balls together.
 constexpr std::size_t most_places_asked = 1 << 20;
 
 // This share of the photons, and of places in a medium, is spread evenly, because what was learnt, or is known of a

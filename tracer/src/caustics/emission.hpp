@@ -152,7 +152,7 @@ class PhotonEmission {
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
     /// From now on places of a ball are chosen in proportion to how brightly media shine there, but for a tenth, which
-    /// stays even. So many places of each cell are asked, at most 8.
+    /// stays even. This many places of each cell are asked, at most 8.
     void prefer_bright_places(PhotonPlaces& places, std::size_t asked_a_cell) const;
     /// The luminance per unit of length that a medium sends at a place.
     double brightness_at(const glm::vec3& place, float time) const;

@@ -1,5 +1,5 @@
 // A grid of cubes in which photons near a point are found. Cubes are as wide as the sphere that is searched, so that no
-// more than two are looked at along each axis, or three where rounding makes the sphere wider.
+// more than two are examined along each axis, or three where rounding makes the sphere wider.
 #pragma once
 
 #include <bit>

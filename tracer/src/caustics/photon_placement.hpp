@@ -13,7 +13,7 @@
 // and where one of them is far clearer and does not scatter, a few places do count often.
 //
 // Where the density of the medium varies, nobody knows beforehand how deep light gets. Places are then sampled as in
-// three homogeneous media, in place of channels: one as dense as the medium can be, σ̄, one of σ̄/4 and one of σ̄/16. T is
+// three homogeneous media, instead of channels: one as dense as the medium can be, σ̄, one of σ̄/4 and one of σ̄/16. T is
 // estimated by the medium, on the way back from the point.
 //
 // Across the line photons are gathered in a disc, as those on a surface are; along it nothing is blurred. Where the

@@ -15,7 +15,7 @@
 // from x to y, and n'² dA cos θ' dω' all along that from y to the lamp. Each further rough interface multiplies the
 // first two densities by its p_y, and that of photons by its R.
 //
-// A point light has a density q of directions in place of p(line)/n_l². If a photon of it reaches its first rough
+// A point light has a density q of directions instead of p(line)/n_l². If a photon of it reaches its first rough
 // interface unbent, at the distance d from the light, q/(n'² d²) stands for that, because area across the line is d²
 // times solid angle at the light. If it was bent before, no other technique finds its light.
 #pragma once

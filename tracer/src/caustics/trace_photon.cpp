@@ -35,7 +35,7 @@ class PhotonFlight {
         if (emitted.is_of_medium || std::holds_alternative<OfGlowingSurface>(emitted.emission.source))
             start_sees_light_ = true;
         // No sampled direction meets a point. A shadow ray meets it only if the photon's first interface is rough;
-        // multiply_quotients() then has the quotient in place of this 0.
+        // multiply_quotients() then has the quotient instead of this 0.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 

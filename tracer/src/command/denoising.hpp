@@ -19,7 +19,7 @@ void add_denoise(CLI::App& command, std::optional<std::string>& denoise);
 // How it is asked for. Throws OutputError.
 Denoiser denoiser_of(const std::string& text);
 
-// Makes sure that a picture of so many samples a pixel, those of all shares together, can be denoised as it is asked
+// Makes sure that a picture of this many samples a pixel, those of all shares together, can be denoised as it is asked
 // for. Throws OutputError.
 void check_denoising(const std::string& denoise, int samples);
 // Makes sure that a film of these planes can be denoised, and that there is to be a picture of it. Throws OutputError.

@@ -5,7 +5,7 @@
 namespace phasetree::tracer {
 
 /// Chooses the levels of detail of a scene's object for its camera and the size of its picture: the errors that their
-/// nodes promise look no larger than so many pixels, wherever in the picture. Throws OutputError for a camera
+/// nodes promise look no larger than this many pixels, wherever in the picture. Throws OutputError for a camera
 /// whose rays do not start in one place.
 void choose_levels_of_detail(Scene& scene, float pixels);
 

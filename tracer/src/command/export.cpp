@@ -42,7 +42,7 @@ std::string numbers_as_bytes(const std::vector<float>& numbers) {
 
 // A page is read at once by people who wait for it.
 constexpr std::size_t largest_page = 500'000;
-// The boxes along the longest side that are tried, finest first, and the length of a bracket: a page is looked at.
+// The boxes along the longest side that are tried, finest first, and the length of a bracket: a page is examined.
 constexpr int page_grids[] = {32, 24, 16, 12, 8, 5};
 constexpr float bracket_on_page = 3e-5f;
 
@@ -171,10 +171,10 @@ void add_export(CLI::App& app, Run& run) {
     add_object(*command, options->object);
     command->add_option("-o,--output", options->output, "The file to write")->required()->option_text("FILE");
     command
-        ->add_option(
-            "--grid", options->grid,
-            "Of a shader: divide the object's bounds into boxes, so many along the longest side, and evaluate in each "
-            "only what matters there; 0 for none (default: 0)")
+        ->add_option("--grid", options->grid,
+                     "Of a shader: divide the object's bounds into boxes, this many along the longest side, and "
+                     "evaluate in each "
+                     "only what matters there; 0 for none (default: 0)")
         ->check(CLI::Range(0, 64))
         ->option_text("N");
     command

@@ -15,7 +15,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Does what reads so many bytes.
+// Does what reads this many bytes.
 template <class Read>
 auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
     LateProgress progress(ProgressOutput::standard_error(quiet), task);

@@ -172,11 +172,11 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
             "Go on from this checkpoint, which must be of the same picture; it may be the file of --checkpoint, "
             "too")
         ->option_text("FILE");
-    command.add_flag("--or-start", o.may_start, "With --resume: start anew if there is no such file");
+    command.add_flag("--or-start", o.may_start, "With --resume: start again if there is no such file");
     command.add_option("--seed", o.seed, "Seed of the sampling");
     command
         .add_option("--detail", o.detail,
-                    "Lets coarser levels of detail stand where their errors look no larger than so many pixels; "
+                    "Lets coarser levels of detail stand where their errors look no larger than this many pixels; "
                     "without it the finest stand everywhere")
         ->check(CLI::Range(1e-3, 1e3))
         ->option_text("PIXELS");

@@ -38,7 +38,7 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
         const double length = glm::length(glm::dvec3(given));
         if (!(length > 0)) throw table.error(3, "the ray's direction is zero; give it any other length");
         const glm::vec3 direction(glm::dvec3(given) / length);
-        // From the first interface on places are counted from there: a ray that began anew at each would be rounded at
+        // From the first interface on places are counted from there: a ray that began again at each would be rounded at
         // each, and where it grazes a face these errors would keep it there.
         glm::vec3 start = origin;
         float from = 0;

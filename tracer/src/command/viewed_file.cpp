@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 namespace {
 
 // Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
-// be read as one is watched, which costs a look now and then. Of a stack of images its folder is watched, too, in which
+// be read as one is watched, which costs a look periodically. Of a stack of images its folder is watched, too, in which
 // images come and go.
 void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
     files.add(path);

@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 struct ViewedFile {
     SceneFile scene;
-    std::optional<std::string> display, view;  // of OpenColorIO, in place of the scene's
+    std::optional<std::string> display, view;  // of OpenColorIO, instead of the scene's
 
     // What a session reads the scene by. Reads it a first time at once, so that what is wrong from the start is thrown
     // here: SceneError, DisplayError.

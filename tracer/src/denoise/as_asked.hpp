@@ -13,10 +13,10 @@ namespace phasetree::tracer {
 /// "best", "regression" or "oidn". Throws DenoiseError if there is no such denoiser, or it is not built in.
 Denoiser denoiser_named(const std::string& name);
 
-/// Throws DenoiseError if a picture of so many samples a pixel has too few.
+/// Throws DenoiseError if a picture of this many samples a pixel has too few.
 void check_samples_to_denoise(int samples);
 
-/// Puts the denoised picture in place of the image's, which becomes the further channels noisy.R, .G and .B. Returns
+/// Puts the denoised picture instead of the image's, which becomes the further channels noisy.R, .G and .B. Returns
 /// whether it is done; if it was cancelled the image is as it was. Throws DenoiseError as denoise() does.
 bool denoise_in_place(Image& image, const DenoiseJob& job);
 

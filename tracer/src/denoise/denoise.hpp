@@ -52,7 +52,7 @@ struct DenoiseJob {
     std::function<bool()> cancelled = [] { return false; };
 };
 
-/// The radiance of each pixel in place of image.pixels; nothing if it was cancelled. The image has the channels of
+/// The radiance of each pixel instead of image.pixels; nothing if it was cancelled. The image has the channels of
 /// denoising_planes(). Takes some 300 bytes a pixel. Throws DenoiseError if a channel or samples are missing.
 std::optional<std::vector<glm::vec3>> denoise(const Image& image, const DenoiseJob& job = {});
 

@@ -73,7 +73,7 @@ concept SumKind = std::regular<S> && requires(S& sum, const S& other, ByteWriter
 /// * add(sums, sample, faults): adds a sample to the sums of its pixel. Values that no sum can take as they are (a NaN)
 ///   are changed by the sums, which count them in `faults`.
 /// * attributes(), which may be missing: what the header of a file says of it, as pairs of names and texts.
-/// * resolve(sums, samples, values): the channels' values at a pixel with so many samples, at least one. It is given
+/// * resolve(sums, samples, values): the channels' values at a pixel with this many samples, at least one. It is given
 ///   zeros.
 template <class P>
 concept PlaneKind = SumKind<typename P::Sum> && std::constructible_from<P, const PlaneSubjects&> && std::copyable<P> &&

@@ -14,7 +14,7 @@
 
 namespace phasetree::tracer {
 
-/// `What` says which names there are, and which of them a surface has in a scene of so many phases.
+/// `What` says which names there are, and which of them a surface has in a scene of this many phases.
 template <class What>
 class CryptomattePlane {
   public:

@@ -68,7 +68,7 @@ struct PlaneList {
     };
 };
 
-/// What the chosen planes keep of so many pixels.
+/// What the chosen planes keep of this many pixels.
 template <class Picture, class... Others>
 class PlaneList<Picture, Others...>::Sums {
   public:

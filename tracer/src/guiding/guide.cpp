@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t findings_a_region = 2048;
 // Of a region with fewer than this nothing is known, because a handful of findings is luck.
 constexpr std::size_t fewest_findings = 64;
-// A finding is clamped to so many times the mean of its region, the mean being taken after clamping. Few paths find
+// A finding is clamped to this many times the mean of its region, the mean being taken after clamping. Few paths find
 // very much light, by luck, and would send all others after it: without this a room behind a door had 1.2 × the
 // variance.
 constexpr double clamp_over_mean = 4;

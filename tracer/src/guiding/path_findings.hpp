@@ -25,7 +25,7 @@ class PathFindings {
     void add_light(float luminance) {
         for (std::size_t i = 0; i < count_; ++i) points_[i].finding.light += luminance * points_[i].per_luminance;
     }
-    /// The path has ended. Appends what it found, and begins anew.
+    /// The path has ended. Appends what it found, and starts again.
     void take(std::vector<Finding>& findings) {
         for (std::size_t i = 0; i < count_; ++i)
             if (points_[i].finding.light > 0.0f && points_[i].finding.light < most_light)

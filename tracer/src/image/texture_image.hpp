@@ -59,7 +59,7 @@ inline constexpr Parameter repeat_parameter{
 enum class ImageMeaning {
     colors,
     numbers,
-    alpha,  ///< the alpha beside the colours, as numbers in all three channels; an image without is refused
+    alpha,  ///< the alpha beside the colours, as numbers in all three channels; an image without is rejected
 };
 
 /// Throws ParameterError of "file".

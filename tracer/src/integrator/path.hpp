@@ -43,7 +43,7 @@ struct PathHelp {
 /// shadow rays start is for light_proposal.hpp.
 ///
 /// Media that scatter. On its way a path may be scattered in a medium, which is a place like a surface: light is looked
-/// for there, and a direction sampled, with the phase function in place of the BSDF. E then includes the transmittance
+/// for there, and a direction sampled, with the phase function instead of the BSDF. E then includes the transmittance
 /// along the chain, by absorption and scattering together, whichever technique finds it.
 ///
 /// Photons are a third technique for the same integral, for chains of at least one interface: E as found from the

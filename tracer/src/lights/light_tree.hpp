@@ -40,7 +40,7 @@ class LightTree {
         LightNode node;
         EmissionBounds bounds;
     };
-    /// The greatest number of roots once lamps are clustered. So many lamps are all roots.
+    /// The greatest number of roots once lamps are clustered. This many lamps are all roots.
     static constexpr std::size_t most_roots = 32;
 
     /// Adds the next lamp of its kind, and dissolves all clusters.

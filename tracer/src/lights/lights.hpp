@@ -31,7 +31,7 @@
 // proposed it, brings what the media on its way send, and the glowing surface that it meets before it gets to the light
 // that is seen there.
 //
-// Portals are sampled in place of some samples of lights that are all around: a point that sees portals moves three
+// Portals are sampled instead of some samples of lights that are all around: a point that sees portals moves three
 // quarters of those lights' weight to the portals, in proportion to their solid angles. A portal is one more density in
 // the mixture and emits nothing.
 #pragma once

@@ -29,7 +29,7 @@ struct PointBatch {
 };
 
 /// * together: how many points are best asked for at once, at most batch_size.
-/// * at(points, count): ρ at the first so many points. The other points are numbers, and what is returned for them
+/// * at(points, count): ρ at the first this many points. The other points are numbers, and what is returned for them
 /// means
 ///   nothing.
 /// * bounds(): a box outside of which ρ is 0.

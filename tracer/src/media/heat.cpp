@@ -10,8 +10,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Between two of so many steps light is interpolated. For greatest temperatures from 200 to 100,000 K it is wrong by at
-// most 0.15 %, where it is brighter than a thousandth of what the hottest place emits.
+// Between two of this many steps light is interpolated. For greatest temperatures from 200 to 100,000 K it is wrong by
+// at most 0.15 %, where it is brighter than a thousandth of what the hottest place emits.
 constexpr std::size_t steps = 1024;
 
 std::vector<glm::vec3> colours_up_to(float greatest, float reference, const LightSpectrum& at_reference) {

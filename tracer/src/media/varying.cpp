@@ -11,9 +11,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-// After so many collisions the rest of a stretch counts as empty, and after so many in all the rest of a way. That ends
-// ways without end through a field without bounds, and those through blocks of voxels of which one is far denser than
-// the others.
+// After so many collisions the rest of a stretch counts as empty, and after this many in all the rest of a way. That
+// ends ways without end through a field without bounds, and those through blocks of voxels of which one is far denser
+// than the others.
 constexpr int most_collisions_of_stretch = 1 << 16, most_collisions = 1 << 20;
 
 // On a way without empty stretches there are at least this many tentative collisions on average, where more of them

@@ -7,7 +7,7 @@
 //
 // Whoever stops when the noise looks small stops a little too often where it was underestimated, which is where bright
 // paths were missed: a bias (Kirk & Arvo, Unbiased Sampling Techniques for Image Synthesis, SIGGRAPH 1991). So blocks
-// are looked at seldom, after 32, 48, 64, 96, 128, 192, … samples a pixel: at the first look a block has 2,048. And a
+// are examined seldom, after 32, 48, 64, 96, 128, 192, … samples a pixel: at the first look a block has 2,048. And a
 // bright path raises its pixel's mean as well as its error, so that pixel counts with an error of about 1, however
 // bright the path is (tests/tracer/noise_limit.cpp measures the bias that is left).
 //
@@ -37,11 +37,11 @@ class NoiseLimit {
     /// Nothing if the settings ask for none.
     static std::optional<NoiseLimit> of(const RenderSettings& settings);
 
-    /// After how many samples a pixel, more than `done`, a block is looked at next.
+    /// After how many samples a pixel, more than `done`, a block is examined next.
     static int next_look(int done);
     static bool is_look(int samples) { return samples > 0 && next_look(samples - 1) == samples; }
 
-    /// Whether a block has done enough: all of its pixels have one number of samples, after which it is looked at, and
+    /// Whether a block has done enough: all of its pixels have one number of samples, after which it is examined, and
     /// its error is at most the limit. The film keeps the plane "noise".
     bool is_met(const FilmTile& pixels, const PixelRange& block) const;
     /// The error of a block whose pixels have samples.

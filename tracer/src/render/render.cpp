@@ -115,7 +115,7 @@ class Renderer {
         }
         return next;
     }
-    // From now on they have no samples more. A block is looked at when all of its pixels have the same number, which
+    // From now on they have no samples more. A block is examined when all of its pixels have the same number, which
     // those that a pass was cut off in may not have.
     void leave_out_quiet_blocks() {
         if (!noise_) return;
@@ -128,7 +128,7 @@ class Renderer {
         });
         job_.advance(spared);
     }
-    // One pass over the picture, after which each pixel has so many samples.
+    // One pass over the picture, after which each pixel has this many samples.
     void run(int wanted) {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, blocks_.size(), 1),

@@ -28,7 +28,7 @@ int running() {
     return 0;
 }
 
-// How many of so many threads can be started beside this one.
+// How many of this many threads can be started beside this one.
 int startable(int wanted) {
     const int before = running();
     std::vector<std::thread> threads;

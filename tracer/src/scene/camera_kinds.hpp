@@ -50,10 +50,11 @@ void lens_parameters(V&& v) {
                                           Limits{.low = 0, .high = 180, .low_open = true, .high_open = true}, true});
     v(&P::lens_radius, Parameter{"lens_radius", "m", "Radius of the lens; what is out of focus blurs by it.",
                                  Limits{.low = 0, .high = farthest}, true});
-    v(&P::blades, Parameter{"blades", "",
-                            "Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a "
-                            "disk.",
-                            Limits{.low = 0, .high = Aperture::most_blades}, true});
+    v(&P::blades,
+      Parameter{"blades", "",
+                "Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a "
+                "disk.",
+                Limits{.low = 0, .high = Aperture::most_blades}, true});
     v(&P::rotation_degrees,
       Parameter{"blade_rotation", "degrees", "Angle by which the opening is turned; at 0 a corner is at the right.",
                 limits::any, true});
@@ -61,7 +62,7 @@ void lens_parameters(V&& v) {
       Parameter{"focus_distance", "m", "Distance of the plane of focus; without it, the plane is at look_at.",
                 limits::positive, true});
     v(&P::focus_at,
-      Parameter{"focus_at", "m", "In place of the distance: a point of the plane of focus.", coordinate, true});
+      Parameter{"focus_at", "m", "Instead of the distance: a point of the plane of focus.", coordinate, true});
 }
 
 struct ThinLensKind : ThinLensParameters, CameraInFile {

@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 /// when it is left out, is left out.
 std::string camera_text(const AnyCameraParameters& camera, const PixelFilter& filter);
 
-/// A scene's text with this camera in place of its own, and all else as it was. SceneError if it has none.
+/// A scene's text with this camera instead of its own, and all else as it was. SceneError if it has none.
 std::string with_camera(const Document& document, const std::string& camera);
 
 }  // namespace phasetree::tracer

@@ -55,7 +55,7 @@ struct FileParts {
                limits::any, true},
               "object",
               R"({"$ref": "#/definitions/object"})"});
-        v(&P::objects, PartParameter{{"objects", "", "Several objects, in place of a tree.", limits::any, true},
+        v(&P::objects, PartParameter{{"objects", "", "Several objects, instead of a tree.", limits::any, true},
                                      "list of objects",
                                      R"({"type": "array", "minItems": 1,
                                          "items": {"$ref": "#/definitions/placed_object"}})"});
@@ -76,7 +76,7 @@ struct FileParts {
           PartParameter{{"lights", "", "What shines. An image needs one light at least.", limits::any, true},
                         "list of lights",
                         R"({"type": "array", "items": {"$ref": "#/definitions/light"}})"});
-        v(&P::background, PartParameter{{"background", "", "What the camera sees in place of the lights at infinity.",
+        v(&P::background, PartParameter{{"background", "", "What the camera sees instead of the lights at infinity.",
                                          limits::any, true},
                                         "colour",
                                         R"({"$ref": "#/definitions/colour"})"});

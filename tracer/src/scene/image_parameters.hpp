@@ -37,7 +37,7 @@ struct ImageParameters : RenderSettings {
                     Limits{.low = 1, .high = 1 << 20}, true});
         v(&P::spectral,
           Parameter{"spectral", "",
-                    "Whether light has wavelengths in place of red, green and blue, three on each path. "
+                    "Whether light has wavelengths instead of red, green and blue, three on each path. "
                     "Metals, films on smooth surfaces, absorption and light then are what they are at each "
                     "wavelength; colours are spectra that look like them.",
                     limits::any, true});

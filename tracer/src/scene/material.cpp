@@ -98,7 +98,7 @@ Conductor ConductorParameters::made() const {
     }
     if (reflectance) {
         if (eta || k)
-            throw ParameterError("reflectance", "\"reflectance\" stands in place of \"eta\" and \"k\"; give either",
+            throw ParameterError("reflectance", "\"reflectance\" stands instead of \"eta\" and \"k\"; give either",
                                  ParameterError::Place::key);
         if (film_thickness)
             throw ParameterError("film_thickness",

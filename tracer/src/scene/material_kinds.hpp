@@ -58,9 +58,9 @@ struct PerturbationParameters {
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump: how much higher white is than black; lower, if it is negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
-        v(&P::normal_map, Parameter{"normal_map", "",
-                                    "In place of a bump: an image of normals, on a mesh that has texture coordinates.",
-                                    limits::any, true});
+        v(&P::normal_map,
+          Parameter{"normal_map", "", "Instead of a bump: an image of normals, on a mesh that has texture coordinates.",
+                    limits::any, true});
     }
     /// Throws ParameterError for what does not fit together.
     std::optional<NormalPerturbation> perturbation() const;
@@ -100,7 +100,7 @@ struct ClearParameters : FilmParameters {
         v(&P::ior, Parameter{"ior", "", "Refractive index against vacuum; needed unless a glass is named.",
                              Limits{.low = 0.1f, .high = 10}, true});
         v(&P::glass, ChoiceParameter{{"glass", "",
-                                      "In place of the index: a measured substance whose index changes with the "
+                                      "Instead of the index: a measured substance whose index changes with the "
                                       "wavelength, so that white light is split into its colours.",
                                       limits::any, true},
                                      names_of_glasses});
@@ -114,12 +114,12 @@ struct ClearParameters : FilmParameters {
                         limits::non_negative, true}});
         v(&P::absorption_spectrum,
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
-                             "In place of the absorption: wavelengths and the absorption at each. Without "
+                             "Instead of the absorption: wavelengths and the absorption at each. Without "
                              "\"spectral\" red, green and blue are absorbed so that a layer looks the same that lets "
                              "a third of white light through, or more.",
                              limits::non_negative, true}});
         v(&P::color,
-          ColourParameter{{"color", "", "In place of the absorption: what is left of white light after a distance.",
+          ColourParameter{{"color", "", "Instead of the absorption: what is left of white light after a distance.",
                            Limits{.low = 0, .high = 1, .low_open = true}, true}});
         v(&P::color_distance,
           Parameter{"color_distance", "m", "The distance after which the colour is left.", limits::positive, true});
@@ -128,14 +128,14 @@ struct ClearParameters : FilmParameters {
           RgbParameter{{"scattering", "1/m", "Scattering of red, green and blue, s; nothing is scattered without it.",
                         limits::non_negative, true}});
         v(&P::albedo, RgbParameter{{"albedo", "",
-                                    "In place of absorption and scattering: the part of the light that is scattered "
+                                    "Instead of absorption and scattering: the part of the light that is scattered "
                                     "where it meets the medium, s/(a + s).",
                                     limits::fraction, true}});
         v(&P::mean_free_path,
           RgbParameter{{"mean_free_path", "m", "With the albedo: how far light goes on average, 1/(a + s).",
                         limits::positive, true}});
         v(&P::medium, ChoiceParameter{{"medium", "",
-                                       "In place of absorption and scattering: a measured medium (Jensen et al. 2001).",
+                                       "Instead of absorption and scattering: a measured medium (Jensen et al. 2001).",
                                        limits::any, true},
                                       names_of_media});
         v(&P::scale, Parameter{"scale", "mm", "With a measured medium: how long the scene's unit of length is.",
@@ -163,7 +163,7 @@ struct ClearParameters : FilmParameters {
           Parameter{"density_depth", "m", "With a density: how deep inside of the field it becomes 1.",
                     limits::positive, true});
         v(&P::density_grid, Parameter{"density_grid", "",
-                                      "In place of a density: numbers at voxels, by which absorption, scattering and "
+                                      "Instead of a density: numbers at voxels, by which absorption, scattering and "
                                       "emission are multiplied.",
                                       limits::any, true});
         v(&P::temperature_grid,
@@ -223,7 +223,7 @@ struct GrainParameters {
                                                "across them.",
                                                limits::any, true}});
         v(&P::grain_around, DirectionParameter{{"grain_around", "",
-                                                "In place of it, of metal that was turned on a lathe: the direction of "
+                                                "Instead of it, of metal that was turned on a lathe: the direction of "
                                                 "the axis around which the strokes run.",
                                                 limits::any, true}});
         v(&P::grain_through, Parameter{"grain_through", "m",
@@ -253,11 +253,11 @@ struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParame
     static void parameters(V&& v) {
         using P = ConductorParameters;
         v(&P::metal, ChoiceParameter{{"metal", "", "A measured metal.", limits::any, true}, names_of_metals});
-        v(&P::eta, RgbParameter{{"eta", "", "η for red, green and blue, in place of a measured metal.",
-                                 limits::positive, true}});
+        v(&P::eta,
+          RgbParameter{{"eta", "", "η for red, green and blue, instead of a measured metal.", limits::positive, true}});
         v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed with η.", limits::non_negative, true}});
         v(&P::reflectance, Parameter{"reflectance", "",
-                                     "In place of both: the colour of light that falls on it at a right angle and is "
+                                     "Instead of both: the colour of light that falls on it at a right angle and is "
                                      "reflected; more is at others. Such a metal has no film.",
                                      limits::any, true});
         v(&P::roughness, roughness_parameter);

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_found = 12, most_found_of_objects = 3;
 constexpr std::size_t most_pairs = 200'000, most_evaluations_of_pair = 4096;
 constexpr std::size_t most_evaluations = 4'000'000;
-// Copies beyond these are not looked at.
+// Copies beyond these are ignored.
 constexpr std::uint32_t most_looked_at = 2'000'000;
 // Of the smaller box's diagonal.
 constexpr double depth_that_counts = 1e-4;
@@ -169,7 +169,7 @@ class Search {
     double depth_in(const CopyInBox& copy, const glm::vec3& p) const {
         return depths_[copy.copy.object].at(glm::vec3(copy.to_object(p)));
     }
-    // Lengths in the scene are at least so many times those in the object.
+    // Lengths in the scene are at least this many times those in the object.
     static double shrink(const Transform& to_object) {
         const glm::dmat3 gram = glm::transpose(to_object.matrix) * to_object.matrix;
         std::vector<double> entries;

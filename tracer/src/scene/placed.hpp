@@ -15,7 +15,7 @@
 
 namespace phasetree::tracer {
 
-/// In place of a number of PlacedObjects::moving.
+/// Instead of a number of PlacedObjects::moving.
 inline constexpr std::uint32_t stands_still = 0xFFFFFFFF;
 
 struct PlacedObject {
@@ -89,7 +89,7 @@ struct PlacedObjects {
     }
 };
 
-/// Numbers of copies are below this, and so many lists of places there may be in all.
+/// Numbers of copies are below this, and this many lists of places there may be in all.
 inline constexpr std::uint64_t most_copies = 1'000'000'000, most_places = 20'000'000;
 
 /// What a scene file says of its objects, without their materials, which are read from the places that are named.

@@ -313,7 +313,7 @@ class ObjectsReader {
                                   "no object stands anywhere: all are in groups, and there are no \"instances\"");
     }
 
-    static constexpr std::size_t deepest = 32;  // At most so many groups are nested.
+    static constexpr std::size_t deepest = 32;  // At most this many groups are nested.
 
     struct TakenFile {
         Document document;

@@ -36,7 +36,7 @@ std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{
         {"Scene file",
          "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
-         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. In place of any number that need not be whole, vector or colour "
+         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. Instead of any number that need not be whole, vector or colour "
          "there may be `{\"keys\": [[seconds, value], …]}`: it changes with time, linearly between its keys, or with "
          "`\"between\": \"smooth\"` slowly at both ends. A picture shows what is there at its time. While the shutter "
          "is open, the camera and the transforms of objects and instances go on, and are blurred; all else stays.",

@@ -33,7 +33,7 @@ struct RenderSettings {
     // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
     // surfaces, and to cut those off would lose light.
     int max_depth = 1 << 16;
-    bool spectral = false;    // whether paths carry wavelengths in place of colours (spectrum/wavelengths.hpp)
+    bool spectral = false;    // whether paths carry wavelengths instead of colours (spectrum/wavelengths.hpp)
     bool guiding = false;     // whether paths learn where light comes from (guiding/guide.hpp)
     bool caustics = false;    // whether photons look for caustics (caustics/caustics.hpp)
     float photons = 1;        // of each pass, per pixel of the whole picture
@@ -80,7 +80,7 @@ std::vector<std::string> object_names(const Scene& scene);
 
 // Reads the model of a file that need not be a whole scene, and checks everything else in the file, with the same
 // errors in the same order as read_scene. A file with a camera needs a version and a material for each phase, as
-// read_scene demands. A file without one needs neither: its phases may have anything that is no object in place of a
+// read_scene demands. A file without one needs neither: its phases may have anything that is no object instead of a
 // material. Whether the object can be traced, seen and lit is not checked. Throws SceneError.
 SceneModel read_scene_without_camera(const Document& document);
 

@@ -78,7 +78,7 @@ class Interface {
         Number roughness;
         Number thickness;
         std::optional<Grain> grain;
-        std::shared_ptr<const Texture> reflectance{};  ///< of a metal that has one in place of an index
+        std::shared_ptr<const Texture> reflectance{};  ///< of a metal that has one instead of an index
     };
     struct DiffuseOptics {
         std::shared_ptr<const Texture> color;

@@ -61,7 +61,7 @@ struct Conductor {
     std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
     std::optional<NormalPerturbation> perturbation{};
     std::optional<Grain> grain{};          ///< then `roughness` is that across it
-    std::optional<Texture> reflectance{};  ///< at normal incidence, in place of the index; then there is no film
+    std::optional<Texture> reflectance{};  ///< at normal incidence, instead of the index; then there is no film
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.

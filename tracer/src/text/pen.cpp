@@ -51,7 +51,7 @@ void Pen::quadratic_to(const glm::vec2& control, const glm::vec2& p) {
 
 void Pen::cubic_to(const glm::vec2& control1, const glm::vec2& control2, const glm::vec2& p) {
     const glm::dvec2 p0 = at_, p1 = placed(control1), p2 = placed(control2), p3 = placed(p);
-    // A quadratic curve in place of one of n equal parts of a cubic is off by at most √3/36 |p₃ − 3p₂ + 3p₁ − p₀| / n³.
+    // A quadratic curve instead of one of n equal parts of a cubic is off by at most √3/36 |p₃ − 3p₂ + 3p₁ − p₀| / n³.
     const double off = std::sqrt(3.0) / 36 * glm::length(p3 - 3.0 * p2 + 3.0 * p1 - p0);
     const int parts = static_cast<int>(std::clamp(std::ceil(std::cbrt(off / tolerance)), 1.0, 32.0));
     const auto point = [&](double t) {

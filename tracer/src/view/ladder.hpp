@@ -33,7 +33,7 @@ class Ladder {
     double pixels_a_second_ = 100'000;  // of a slow scene, until it is known better
 };
 
-/// The size of a picture that is so many times coarser.
+/// The size of a picture that is this many times coarser.
 inline glm::ivec2 coarser(const glm::ivec2& resolution, int scale) {
     return {std::max(1, resolution.x / scale), std::max(1, resolution.y / scale)};
 }

@@ -17,7 +17,7 @@ struct NumberInText {
     double value = 0;      ///< as the file has it
 };
 
-/// What is to stand in place of some numbers. Pointers to nothing, or to what is no number, count for nothing: the file
+/// What is to stand instead of some numbers. Pointers to nothing, or to what is no number, count for nothing: the file
 /// may be saved with others.
 using NumberEdits = std::map<std::string, double>;
 

@@ -29,7 +29,7 @@ struct SessionOptions {
     int threads = 0;
     BuildQuality quality = BuildQuality::medium;  ///< of the cells that the picture is refined with
     std::size_t most_bytes = 0;
-    std::optional<int> samples;  ///< in place of the scene's
+    std::optional<int> samples;  ///< instead of the scene's
     std::optional<int> width;    ///< of the picture, likewise; the height follows
     /// Puts a camera into the scene's file. Throws SceneError and OutputError.
     std::function<void(const std::string& camera)> write_camera = [](const std::string&) {};
@@ -67,7 +67,7 @@ class Session {
     /// Returns the version of what is shown just after the change was taken down: shown_after() of it waits for what
     /// comes of the change.
     std::uint64_t change(const Change& change);
-    /// To be called now and then: reads the scene again if a file of it has been saved.
+    /// To be called periodically: reads the scene again if a file of it has been saved.
     void look_at_files();
 
     /// Puts the camera that is shown into the scene's file, one call after the other. Throws as

@@ -91,7 +91,7 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
     scene_->film.width = size.x;
     scene_->film.height = size.y;
     scene_->settings.samples = 1;
-    // Photons and guides would take longer than all of a coarse picture, because where light is is learnt anew.
+    // Photons and guides would take longer than all of a coarse picture, because where light is is learnt again.
     scene_->settings.caustics = scene_->settings.guiding = false;
     const bool is_first = is_first_of(wishes);
     RenderJob job;

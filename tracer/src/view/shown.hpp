@@ -54,7 +54,7 @@ struct Shown {
     std::optional<CutPlane> cut;    ///< likewise
     std::string layer;              ///< likewise; empty for the picture itself
     std::vector<FilmLayer> layers;  ///< that there are
-    NumberEdits numbers;            ///< likewise, in place of those of the file
+    NumberEdits numbers;            ///< likewise, instead of those of the file
     /// Those of the file, and how often it has been read until they were there.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;

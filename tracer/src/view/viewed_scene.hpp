@@ -18,7 +18,7 @@ struct TimeSpan {
     double first = 0, last = 0;
 };
 
-/// What is wished to stand in place of what the file and the command say.
+/// What is wished to stand instead of what the file and the command say.
 struct Reading {
     NumberEdits numbers{};
     std::optional<double> seconds{};  ///< the time at which it is read
@@ -28,7 +28,7 @@ struct ViewedScene {
     Scene scene;
     /// How the scene is shown, but for the exposure.
     std::function<DisplayTransform(float exposure_ev)> display;
-    std::optional<Document> file{};  ///< of the scene, without the numbers that stand in place of its own:
+    std::optional<Document> file{};  ///< of the scene, without the numbers that stand instead of its own:
     NumberEdits edits{};
     TextNumbers numbers{};           ///< of the file
     NodePlaces places{};             ///< of the object's nodes, with those numbers

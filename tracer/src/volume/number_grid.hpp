@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-// Simulations leave values a little below 0. What is no number stays that, and is refused with its place.
+// Simulations leave values a little below 0. What is no number stays that, and is rejected with its place.
 inline float number_at_voxel(float value) {
     return value < 0.0f ? 0.0f : value;
 }

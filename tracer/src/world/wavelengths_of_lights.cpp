@@ -28,7 +28,7 @@ WavelengthDistribution wavelengths_of_lights(const Scene& scene) {
     if (std::ranges::none_of(spectra, [](const SharedLightSpectrum& spectrum) { return spectrum != nullptr; }))
         return {};
     // Spectra have the luminance 1, by which a violet lamp would count a hundred times as much as a green one. Here
-    // each has the mean 1 instead. No spectrum is dark: scene files with such are refused.
+    // each has the mean 1 instead. No spectrum is dark: scene files with such are rejected.
     std::vector<double> scale;
     for (const SharedLightSpectrum& spectrum : spectra)
         scale.push_back(

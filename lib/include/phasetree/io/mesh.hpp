@@ -38,7 +38,7 @@ struct MeshFile {
 /// Reads an OBJ, PLY or STL file, chosen by its file name extension. Faces of more than three corners are divided into
 /// triangles of these corners, and those of fewer are passed over. Vertices that are no numbers are rejected only where
 /// a face has them. `content` is all of the file, `path` its name. Throws SceneError, which quotes nothing of the file,
-/// for what is none of these, and for more than so many triangles.
+/// for what is none of these, and for more than this many triangles.
 ///
 /// OBJ: v, with colours behind the coordinates if there are some, vt, vn and f. PLY: of "vertex" x y z, nx ny nz, red
 /// green blue, and s t, u v or texture_u texture_v; of "face" the list vertex_indices or vertex_index, and the list

@@ -78,7 +78,7 @@ std::optional<Crossing> bracket(const Object& object, unsigned cell, const UnitR
 }
 
 // Moves a bracket's far end on, by less than two resolutions, to where the phase is the same within `blur`: a ray that
-// is given to Embree anew, and rounded on its way to us, then still starts in it.
+// is given to Embree again, and rounded on its way to us, then still starts in it.
 void move_on(Crossing& c, const InterfaceCells& cells, unsigned cell, const glm::vec3& direction, float blur) {
     BatchOfFloats t;
     for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * (2.f / batch_size) * static_cast<float>(i);

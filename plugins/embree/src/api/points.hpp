@@ -14,7 +14,7 @@ inline void require_stride(std::size_t stride, const char* name) {
         throw invalid("{} is {}; it must be a multiple of {} bytes", name, stride, sizeof(float));
 }
 
-/// The float that is so many strides behind the first.
+/// The float that is this many strides behind the first.
 inline float at(const float* first, std::size_t stride, std::size_t i) {
     float value = 0;
     std::memcpy(&value, reinterpret_cast<const std::byte*>(first) + stride * i, sizeof value);

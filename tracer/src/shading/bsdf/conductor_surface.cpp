@@ -50,7 +50,7 @@ auto mean_over_cosine(const Fresnel& fresnel) {
 constexpr float first_nanometre = 380.0f, nanometre_step = 5.0f;
 constexpr int spectrum_nodes = 81;
 
-// Between so many reflectances F̄ is taken to be linear.
+// Between this many reflectances F̄ is taken to be linear.
 constexpr int reflectance_nodes = 129;
 
 }  // namespace

@@ -12,7 +12,7 @@
 // At wavelengths the index is that of the metal's spectrum, which is kept every few nanometres. What a film on a rough
 // metal makes of F̄ is taken from its colours there.
 //
-// A metal may have a reflectance at normal incidence in place of an index, another at each place: at each wavelength
+// A metal may have a reflectance at normal incidence instead of an index, another at each place: at each wavelength
 // its index is 1 + ik then, with k² = 4 r / (1 − r), which has that reflectance against a vacuum. F̄ comes from a table
 // over r.
 //

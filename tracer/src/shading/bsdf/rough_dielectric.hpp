@@ -14,7 +14,7 @@
 // The transmitted f of both contains the factor (η_from/η_to)² of radiance: f(o, i) η_to² is reciprocal.
 //
 // Reference: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007,
-// equations 16, 17, 20 and 21, with visible normals in place of (24).
+// equations 16, 17, 20 and 21, with visible normals instead of (24).
 #pragma once
 
 #include <glm/vec2.hpp>

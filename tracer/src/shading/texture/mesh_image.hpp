@@ -28,7 +28,7 @@ struct MeshImageTexture {
     }
     void prepare() { image = load_texture_image(file); }
 
-    // A mesh without coordinates is refused where the scene is read.
+    // A mesh without coordinates is rejected where the scene is read.
     glm::vec3 at(const TexturePoint& p) const { return image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat); }
 };
 

@@ -16,7 +16,7 @@ struct VertexColorTexture {
     template <class V>
     static void parameters(V&&) {}
 
-    // A mesh without colours is refused where the scene is read. Bumps ask for places a little outside of triangles.
+    // A mesh without colours is rejected where the scene is read. Bumps ask for places a little outside of triangles.
     glm::vec3 at(const TexturePoint& p) const {
         return p.mesh ? glm::clamp(p.mesh->color, glm::vec3(0.0f), glm::vec3(1.0f)) : glm::vec3(1.0f);
     }

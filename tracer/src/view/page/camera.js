@@ -82,7 +82,7 @@ export function zoomed(camera, centre, radius, factor) {
   const distance = Math.max(length(sub(centre, members.position)), 0.01 * radius);
   const by = times(forward, distance * (1 - factor));
   const position = add(members.position, by);
-  // The point that is looked at stays before the camera, and what is in focus in focus.
+  // The point that is examined stays before the camera, and what is in focus in focus.
   const ahead = Math.max(dot(sub(members.look_at, position), forward), 0.01 * radius);
   const next = {position, look_at: add(position, times(forward, ahead))};
   if (members.focus_distance !== undefined)

@@ -55,7 +55,7 @@ function refuse(text) {
   showErrors();
 }
 
-// Does what may be refused; what was refused before is over.
+// Does what may be refused; what was rejected before is over.
 async function attempt(action) {
   try {
     await action();
@@ -70,7 +70,7 @@ function statusOf(state) {
   return `${state.doing}${seconds}`;
 }
 
-// The options are made anew only if there are others, so that an open list stays.
+// The options are recreated only if there are others, so that an open list stays.
 function showLayers(state) {
   const select = element("layer");
   const known = [...select.options].slice(1).map((option) => option.value);

@@ -1,4 +1,4 @@
-// The list of phases: a checkbox each, and what of its material can be changed. The elements are made anew only if the
+// The list of phases: a checkbox each, and what of its material can be changed. The elements are recreated only if the
 // phases or their materials' kinds change, so that the focus stays.
 import {hexOf} from "./colour.js";
 

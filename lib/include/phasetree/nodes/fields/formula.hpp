@@ -16,7 +16,7 @@ enum class Op : std::uint8_t {
     x,
     y,
     z,
-    constant,         ///< the float stored in place of a
+    constant,         ///< the float stored instead of a
     negate,           ///< −a
     add,              ///< a + b
     subtract,         ///< a − b
@@ -32,7 +32,7 @@ enum class Op : std::uint8_t {
     sine,             ///< sin a
     cosine,           ///< cos a
     exponential,      ///< eᵃ
-    smooth_minimum,   ///< smooth_min(a, b, r), where r is the float stored in place of c
+    smooth_minimum,   ///< smooth_min(a, b, r), where r is the float stored instead of c
 };
 
 inline constexpr std::size_t most_operations = 128;
