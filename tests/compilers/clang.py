@@ -2,8 +2,9 @@
 
     python3 clang.py BUILD [TARGET…]
 
-BUILD has a compile_commands.json. The short form takes every kernel, the fuzzers, all headers, and the sources that differ
-from the commit before the last. With PHASETREE_LONG_TESTS, all sources are taken; with targets, all of these targets.
+BUILD has a compile_commands.json. The short form takes every kernel, the fuzzers, all headers, and up to ten of the sources
+that differ from the commit before the last. With PHASETREE_LONG_TESTS, all sources are taken; with targets, all of these
+targets.
 
 Only syntax and types are checked. Sources that are compiled with the same options are checked as one unit, because parsing
 the standard library's headers takes most of the time. If two of them give a name two meanings, they are checked again
@@ -27,6 +28,7 @@ SKIPPED = 77
 # Options are GCC's; lib/cmake/compile_options.cmake has the second for builds with Clang.
 FOR_CLANG = ["-Wno-unknown-warning-option", "-Wno-bitwise-instead-of-logical"]
 SHORT_TARGETS = {"fuzz"}
+MOST_CHANGED = 10
 # Folders whose headers the short form checks, with the target whose options they are checked with.
 HEADERS = [("phasetree", "lib/include"), ("phasetree", "lib/src"), ("phasetree_command", "tracer/src"),
            ("phasetree_embree[34]", "plugins/embree"), ("phasetree_python", "plugins/python/src")]
@@ -52,13 +54,14 @@ def commands(build):
 
 
 def changed_files():
-    """The files that differ from the commit before the last; none without git."""
+    """Sources that differ from the commit before the last, at most MOST_CHANGED, spread over the list; none without git."""
     command = ["git", "-C", str(SOURCE), "diff", "--name-only", "HEAD~1"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError:
         return set()
-    return {str(SOURCE / name) for name in done.stdout.splitlines()}
+    names = sorted(name for name in done.stdout.splitlines() if name.endswith(".cpp"))
+    return {str(SOURCE / name) for name in names[:: max(1, -(-len(names) // MOST_CHANGED))]}
 
 
 def selected(groups, targets):
@@ -105,7 +108,7 @@ def errors_of(clang, options, sources, folder):
         return text
     failing = with_errors(text, sources)
     if failing and len(failing) < len(sources):
-        # After a fatal error, say a header that is missing, the others were not looked at.
+        # After a fatal error, say a header that is missing, the others were not checked.
         others = [s for s in sources if s not in failing] if "fatal error: " in text else []
         return errors_of(clang, options, failing, folder) + (errors_of(clang, options, others, folder) if others else "")
     return "".join(errors_of(clang, options, [s], folder) for s in sources)
