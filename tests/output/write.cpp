@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "environment.hpp"
+#include "image/read_image.hpp"
 #include "output/file.hpp"
 #include "phasetree/version.hpp"
 #include "phasetree_support/temporary_directory.hpp"
@@ -211,6 +212,19 @@ TEST_CASE("a crop is EXR's data window, and elsewhere the same codes as in the w
     CHECK(spec.full_y == 0);
     CHECK(spec.full_width == 40);
     CHECK(spec.full_height == 30);
+    // As an image of a scene it is the whole picture, black where it was not rendered.
+    std::vector<glm::vec3> read;
+    read_image(
+        folder / "crop.exr", "image", [](const ImageHeader&) { return 3; },
+        [&](std::span<const float> values) {
+            for (std::size_t i = 0; i < values.size(); i += 3)
+                read.emplace_back(values[i], values[i + 1], values[i + 2]);
+        });
+    REQUIRE(read.size() == whole.pixels.size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        const bool is_rendered = i % 40 >= 13 && i % 40 < 22 && i / 40 >= 21 && i / 40 < 26;
+        CHECK(read[i] == (is_rendered ? whole.pixels[i] : glm::vec3(0)));
+    }
 
     write_image(whole, folder / "whole.png", metadata, transform);
     write_image(crop, folder / "crop.png", metadata, transform);

@@ -1,11 +1,14 @@
-// Images that scenes name, as files claim them: sizes, scans and samples, and files that are cut off.
+// Images that scenes name: what is read of the windows of OpenEXR files, what is rejected, and files that claim sizes,
+// scans and samples, or are cut off.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -14,6 +17,8 @@
 
 #include "image/jpeg_header.hpp"
 #include "image/read_image.hpp"
+#include "image/texture_image.hpp"
+#include "lights/load_environment.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 
 namespace test_images {
@@ -235,6 +240,181 @@ TEST_CASE("a PNG file of few bits and one colour is not too short, and a shorten
         CHECK(good.values.size() == 1024 * 1024);
     }
     CHECK(read(palette_png(16384, 16384, 2), nullptr, 1 << 30).error == "it is too short for the size that it claims");
+}
+
+namespace {
+
+// Columns [x0, x1) and rows [y0, y1).
+struct Box {
+    int x0, y0, x1, y1;
+    bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+};
+
+// What a channel of the test pictures is at a pixel; never 0.
+float value_at(int x, int y, int channel) {
+    return 1000.0f + static_cast<float>(x) + 64.0f * static_cast<float>(y) + 0.125f * static_cast<float>(channel);
+}
+
+// An OpenEXR file with these windows, of tiles unless `tile` is 0. The channels are red, green, blue and alpha, in the
+// order of their letters in `order`.
+void write_exr(const std::string& path, const Box& data, const Box& display, int tile = 0,
+               const std::string& order = "RGBA") {
+    OIIO::ImageSpec spec(data.x1 - data.x0, data.y1 - data.y0, static_cast<int>(order.size()), OIIO::TypeDesc::FLOAT);
+    spec.x = data.x0, spec.y = data.y0;
+    spec.full_x = display.x0, spec.full_y = display.y0;
+    spec.full_width = display.x1 - display.x0, spec.full_height = display.y1 - display.y0;
+    spec.tile_width = tile, spec.tile_height = tile / 2;
+    spec.channelnames.clear();
+    for (const char c : order) spec.channelnames.emplace_back(1, c);
+    std::vector<float> values;
+    for (int y = data.y0; y < data.y1; ++y)
+        for (int x = data.x0; x < data.x1; ++x)
+            for (const char c : order) values.push_back(value_at(x, y, static_cast<int>(std::string("RGBA").find(c))));
+    const auto out = OIIO::ImageOutput::create(path);
+    REQUIRE(out->open(path, spec));
+    REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    REQUIRE(out->close());
+}
+
+// An OpenEXR file of these floats.
+void write_floats(const std::string& path, int width, int height, int channels, const std::vector<float>& values) {
+    const auto out = OIIO::ImageOutput::create(path);
+    REQUIRE(out->open(path, OIIO::ImageSpec(width, height, channels, OIIO::TypeDesc::FLOAT)));
+    REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+    REQUIRE(out->close());
+}
+
+// What is said of a file, without its name.
+template <class F>
+std::string said(F&& f) {
+    try {
+        (void)f();
+    } catch (const std::runtime_error& e) {
+        const std::string text = e.what();
+        return text.substr(std::min(text.find("\": ") + 3, text.size()));
+    }
+    return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("what is read of an OpenEXR file is its display window, and 0 where it has no pixels") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    const Box display{10, -7, 74, 143};  // more rows than are read at a time
+    const std::array<Box, 9> windows{display,
+                                     Box{20, 0, 40, 10},        // within
+                                     Box{20, 70, 40, 140},      // within, and more rows than are read at a time
+                                     Box{-15, -40, 20, 30},     // beyond a corner
+                                     Box{60, 100, 100, 250},    // beyond the opposite one
+                                     Box{-10, -100, 101, 300},  // all around
+                                     Box{200, 0, 210, 20},      // beside
+                                     Box{20, -50, 30, -20},     // above
+                                     Box{20, 400, 30, 420}};    // below
+    for (const Box& data : windows)
+        for (const int tile : {0, 16, 256})
+            for (const ChannelRange channels : {ChannelRange(3), ChannelRange(1), ChannelRange(3, 1)}) {
+                CAPTURE(data.x0);
+                CAPTURE(data.y0);
+                CAPTURE(tile);
+                write_exr(path, data, display, tile, tile == 0 ? "ABGR" : "RGBA");
+                std::vector<float> values;
+                read_image(
+                    path, "image",
+                    [&](const ImageHeader& header) {
+                        CHECK(header.width == 64);
+                        CHECK(header.height == 150);
+                        CHECK(header.channels == 4);
+                        return channels;
+                    },
+                    [&](std::span<const float> rows) {
+                        CHECK(rows.size() % static_cast<std::size_t>(64 * channels.count) == 0);
+                        values.insert(values.end(), rows.begin(), rows.end());
+                    });
+                std::vector<float> wanted;
+                for (int y = display.y0; y < display.y1; ++y)
+                    for (int x = display.x0; x < display.x1; ++x)
+                        for (int c = channels.first; c < channels.first + channels.count; ++c)
+                            wanted.push_back(data.contains(x, y) ? value_at(x, y, c) : 0.0f);
+                CHECK((values == wanted));
+            }
+}
+
+TEST_CASE("an environment is the display window of its image, whatever part of it the file holds") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    write_exr(path, {22, 11, 42, 21}, {0, 0, 64, 32});
+    const auto image = load_environment_image(path);
+    CHECK(image->width == 64);
+    CHECK(image->height == 32);
+    int lit = 0;
+    for (const glm::vec3& p : image->pixels) lit += p.x > 0;
+    CHECK(lit == 20 * 10);
+    CHECK(image->pixels[11 * 64 + 22].x == value_at(22, 11, 0));
+    // The shape that counts is the display window's.
+    write_exr(path, {0, 0, 64, 32}, {0, 0, 64, 64});
+    CHECK(said([&] { return load_environment_image(path); }) ==
+          "a lat-long image is twice as wide as high, this one is 64 × 64");
+    // Of a texture, too, alpha is 0 where there are no pixels.
+    write_exr(path, {0, 0, 1, 1}, {0, 0, 2, 1});
+    const auto alpha = load_texture_image(path, ImageMeaning::alpha);
+    CHECK(alpha->pixels() == 2);
+    CHECK(alpha->at({0.25f, 0.5f}).x == 1.0f);
+    CHECK(alpha->at({0.75f, 0.5f}).x == 0.0f);
+}
+
+TEST_CASE("numbers that are not finite are rejected: how many pixels have them, and where the first is") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const std::string repair =
+        "(counted from 0 at the top left); repair the image, for example with: "
+        "oiiotool IN.exr --fixnan box3 -o OUT.exr";
+    const auto each_use = [&](const std::string& wanted) {
+        CHECK(said([&] { return load_environment_image(path); }) == wanted);
+        CHECK(said([&] { return load_texture_image(path); }) == wanted);
+        CHECK(said([&] { return load_texture_image(path, ImageMeaning::numbers); }) == wanted);
+    };
+    // The largest number of 16 bits is a number like others, and less than 0 is black.
+    std::vector<float> values(200 * 100 * 3, 65504.0f);
+    values[5] = -1;
+    write_floats(path, 200, 100, 3, values);
+    each_use("nothing");
+    for (const float bad : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()}) {
+        values[3 * (200 * 81 + 7) + 2] = bad;
+        write_floats(path, 200, 100, 3, values);
+        each_use("1 pixel is infinite or not a number, at column 7, row 81 " + repair);
+    }
+    std::fill_n(values.begin() + 3 * (200 * 20 + 199), 9, infinity);
+    write_floats(path, 200, 100, 3, values);
+    each_use("4 pixels are infinite or not a number, the first at column 199, row 20 " + repair);
+    // Only channels that are used count.
+    write_floats(path, 2, 1, 4, {infinity, 0, 0, 0.5f, 0, 0, 0, 1});
+    CHECK(said([&] { return load_texture_image(path, ImageMeaning::alpha); }) == "nothing");
+    write_floats(path, 2, 1, 4, {0, 0, 0, infinity, 0, 0, 0, 1});
+    CHECK(said([&] { return load_texture_image(path); }) == "nothing");
+    CHECK(said([&] { return load_texture_image(path, ImageMeaning::alpha); }) ==
+          "1 pixel is infinite or not a number, at column 0, row 0 " + repair);
+}
+
+TEST_CASE("a TIFF file that is a part of a larger picture is rejected") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.tif";
+    OIIO::ImageSpec spec(4, 2, 1, OIIO::TypeDesc::UINT8);
+    const std::vector<unsigned char> values(8, 255);
+    const auto write = [&] {
+        const auto out = OIIO::ImageOutput::create(path);
+        REQUIRE(out->open(path, spec));
+        REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, values.data()));
+        REQUIRE(out->close());
+    };
+    write();
+    CHECK(said([&] { return load_texture_image(path); }) == "nothing");
+    spec.x = 3;
+    spec.full_x = 0, spec.full_width = 10, spec.full_height = 5;
+    write();
+    CHECK(said([&] { return load_texture_image(path); }) ==
+          "its 4 × 2 pixels are a part of a picture of 10 × 5; save the whole picture, or the part as OpenEXR");
 }
 
 }  // namespace test_images

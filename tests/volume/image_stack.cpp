@@ -156,9 +156,12 @@ TEST_CASE("what is no stack is refused, with the image and what is wrong") {
         "cannot use the labels \"g_##.png\": cannot use the layer \"g_03.png\": it is of 2 × 3 pixels, but the layers "
         "below it of 2 × 2");
     stack.write("rgb.png", 1, 1, Bytes{0, 1, 2}, 3);
-    CHECK(stack.said_of("rgb.png").find("labels are grey values, but it has 3 channels") != std::string::npos);
+    CHECK(stack.said_of("rgb.png").find(
+              "labels must be grey integers of at most 32 bits, or the palette of a PNG, but it has 3 channels") !=
+          std::string::npos);
     stack.write("real.exr", 1, 1, std::vector<float>{0.5f});
-    CHECK(stack.said_of("real.exr").find("labels are integers of at most 32 bits") != std::string::npos);
+    CHECK(stack.said_of("real.exr").find("palette of a PNG, but it has floating-point numbers of 32 bits") !=
+          std::string::npos);
     std::vector<unsigned short> many(300);
     for (std::size_t i = 0; i < 300; ++i) many[i] = static_cast<unsigned short>(i);
     stack.write("many.png", 300, 1, many);
@@ -246,10 +249,149 @@ TEST_CASE("what a stack of numbers is refused for") {
         CHECK(text.find(part) != std::string::npos);
         CHECK(text.find("cannot use the voxels \"") == 0);
     };
-    is_said(said("rgb.png"), "numbers are grey values, but it has 3 channels");
+    is_said(said("rgb.png"), "numbers must be grey values, but it has 3 channels");
     is_said(said("b_#.png"), "it is of 2 × 3 pixels, but the layers below it of 2 × 2");
-    is_said(said("nan.exr"), "the value at the voxel (0, 0, 0) is too large, or no number");
+    is_said(said("nan.exr"),
+            "nan.exr\": 1 pixel is infinite or not a number, at column 0, row 0 (counted from 0 at the top left)");
     is_said(said("no_#.png"), "there is no file of such a name");
+}
+
+namespace {
+
+std::string big_endian(std::uint32_t n) {
+    return {static_cast<char>(n >> 24), static_cast<char>(n >> 16), static_cast<char>(n >> 8), static_cast<char>(n)};
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+    std::uint32_t crc = 0xffffffffu;
+    for (const char c : type + data) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int k = 0; k < 8; ++k) crc = crc & 1 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+    }
+    return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
+}
+
+// The rows of a part of an image: every `dx`-th column from x0 on, every `dy`-th row from y0 on.
+std::string packed_rows(int width, int height, int bits, const Bytes& indices, int x0, int y0, int dx, int dy) {
+    std::string rows;
+    for (int y = y0; y < height && x0 < width; y += dy) {
+        rows += '\0';  // no filter
+        int used = 8;
+        for (int x = x0; x < width; x += dx, used += bits) {
+            if (used == 8) rows += '\0', used = 0;
+            rows.back() =
+                static_cast<char>(rows.back() | indices[static_cast<std::size_t>(x + y * width)] << (8 - bits - used));
+        }
+    }
+    return rows;
+}
+
+// A palette of colours that say nothing of their indices.
+std::string palette(int colours) {
+    std::string s;
+    for (int i = 0; i < colours; ++i)
+        for (const int c : {i * 91 + 7, 255 - i, i * 37}) s += static_cast<char>(c);
+    return s;
+}
+
+std::string png_of(int width, int height, int bits, bool is_interlaced, const std::string& data) {
+    const int colours = 1 << bits;
+    return "\x89PNG\r\n\x1a\n" +
+           chunk("IHDR", big_endian(static_cast<std::uint32_t>(width)) +
+                             big_endian(static_cast<std::uint32_t>(height)) +
+                             std::string{static_cast<char>(bits), 3, 0, 0, is_interlaced ? '\1' : '\0'}) +
+           chunk("tEXt", std::string("Title\0labels", 12)) + chunk("PLTE", palette(colours)) +
+           chunk("tRNS", std::string(static_cast<std::size_t>(colours), '\xff')) + data + chunk("IEND", "");
+}
+
+// A PNG file with a palette, not compressed, in as many parts as there are rows in it.
+std::string palette_png(int width, int height, int bits, bool is_interlaced, const Bytes& indices) {
+    std::string rows;
+    if (is_interlaced) {
+        constexpr int passes[7][4]{{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                   {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+        for (const auto& [x0, y0, dx, dy] : passes) rows += packed_rows(width, height, bits, indices, x0, y0, dx, dy);
+    } else {
+        rows = packed_rows(width, height, bits, indices, 0, 0, 1, 1);
+    }
+    const auto count = static_cast<unsigned>(rows.size());
+    std::string data = "\x78\x01\x01";
+    for (const unsigned n : {count, ~count}) data += {static_cast<char>(n), static_cast<char>(n >> 8)};
+    std::uint32_t low = 1, high = 0;
+    for (const char c : rows) low = (low + static_cast<unsigned char>(c)) % 65521, high = (high + low) % 65521;
+    data += rows + big_endian(high << 16 | low);
+    std::string chunks;
+    for (std::size_t at = 0; at < data.size(); at += 100) chunks += chunk("IDAT", data.substr(at, 100));
+    return png_of(width, height, bits, is_interlaced, chunks);
+}
+
+}  // namespace
+
+TEST_CASE("the labels of a PNG file with a palette are its indices") {
+    Stack stack;
+    constexpr int width = 21, height = 13;
+    for (const int bits : {1, 2, 4, 8})
+        for (const bool is_interlaced : {false, true}) {
+            CAPTURE(bits);
+            CAPTURE(is_interlaced);
+            Bytes indices;
+            for (int i = 0; i < width * height; ++i) indices.push_back(static_cast<unsigned char>(i * 7 % (1 << bits)));
+            indices[5] = static_cast<unsigned char>((1 << bits) - 1);
+            support::write_text(stack.path("a.png"), palette_png(width, height, bits, is_interlaced, indices));
+            const LabelGrid grid = tracer::read_label_grid(stack.path("a.png"), "");
+            REQUIRE(grid.lattice.size == std::array{width, height, 1});
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    CHECK(grid.numbers[grid.voxels[static_cast<std::size_t>(x + width * (height - 1 - y))]] ==
+                          indices[static_cast<std::size_t>(x + width * y)]);
+            // As a picture the file shows the colours of its palette.
+            const auto shown = OIIO::ImageInput::open(stack.path("a.png").string());
+            REQUIRE(shown);
+            Bytes colours(static_cast<std::size_t>(width * height * shown->spec().nchannels));
+            REQUIRE(shown->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, colours.data()));
+            CHECK(colours[static_cast<std::size_t>(5 * shown->spec().nchannels) + 1] == 255 - indices[5]);
+        }
+}
+
+TEST_CASE("labels with and without a palette stand in one stack, filtered and compressed as programs write them") {
+    Stack stack;
+    Bytes indices;
+    for (int i = 0; i < 64 * 64; ++i) indices.push_back(static_cast<unsigned char>(i % 64 < 20 ? 255 : i / 300));
+    stack.write("a_1.png", 64, 64, indices);
+    // The same, with a palette.
+    const std::string grey = support::bytes_of(stack.path("a_1.png"));
+    const std::size_t begin = grey.find("IDAT") - 4, end = grey.find("IEND") - 4;
+    REQUIRE(grey.find("IHDR") == 12);
+    support::write_text(stack.path("a_2.png"), png_of(64, 64, 8, false, grey.substr(begin, end - begin)));
+    const LabelGrid grid = tracer::read_label_grid(stack.path("a_#.png"), "");
+    REQUIRE(grid.voxels.size() == 2 * 64 * 64);
+    CHECK(std::equal(grid.voxels.begin(), grid.voxels.begin() + 64 * 64, grid.voxels.begin() + 64 * 64));
+    CHECK(grid.numbers[grid.voxels[0]] == 255);
+}
+
+TEST_CASE("files with a palette that are damaged, or claim too much, are refused") {
+    Stack stack;
+    const std::string whole = palette_png(9, 9, 4, false, Bytes(81, 3));
+    for (std::size_t n = 26; n < whole.size(); ++n) {
+        CAPTURE(n);
+        support::write_text(stack.path("a.png"), whole.substr(0, n));
+        CHECK(stack.said_of("a.png").find("cannot use the layer \"a.png\": ") != std::string::npos);
+    }
+    const auto said_of = [&](const std::string& bytes) {
+        support::write_text(stack.path("b.png"), bytes);
+        return stack.said_of("b.png");
+    };
+    const auto with_size = [&](std::uint32_t width, std::uint32_t height, char bits) {
+        return "\x89PNG\r\n\x1a\n" +
+               chunk("IHDR", big_endian(width) + big_endian(height) + std::string{bits, 3, 0, 0, 0}) + whole.substr(33);
+    };
+    CHECK(said_of(with_size(9000, 9, 4)).find("at most 8192 along an axis") != std::string::npos);
+    CHECK(said_of(with_size(8000, 8000, 4)).find("it is too short for the size that it claims") != std::string::npos);
+    CHECK(said_of(with_size(9, 9, 3)).find("its palette has indices of 3 bits") != std::string::npos);
+    CHECK(said_of(with_size(0, 9, 4)).find("its size is impossible") != std::string::npos);
+    std::string many;
+    for (int i = 0; i < 30; ++i) many += chunk("IDAT", std::string(50'000, '\0'));
+    CHECK(said_of(png_of(9, 9, 4, false, many)).find("it has more data than its size needs") != std::string::npos);
 }
 
 }  // namespace test_image_stack

@@ -1,5 +1,5 @@
-// Image files, as an environment, as a height map and as a layer of voxels, by the path tracer's own reading of them.
-// They are small: what a large one costs is no finding.
+// Image files, as an environment, as a height map and as layers of numbers and of labels, by the path tracer's own
+// reading of them. They are small: what a large one costs is no finding.
 #include <OpenImageIO/imageio.h>
 
 #include <array>
@@ -31,7 +31,10 @@ bool is_small(const std::filesystem::path& path) {
     }
     const OIIO::ImageSpec& s = input->spec();
     constexpr std::int64_t most = 1 << 18;
-    return s.width <= most && s.height <= most && std::int64_t{s.width} * s.height * s.nchannels <= most;
+    const auto is_within = [&](std::int64_t width, std::int64_t height) {
+        return width <= most && height <= most && width * height * s.nchannels <= most;
+    };
+    return is_within(s.width, s.height) && is_within(s.full_width, s.full_height);
 }
 
 }  // namespace
@@ -56,6 +59,11 @@ void run_image(Bytes input) {
     }
     try {
         walk_density(tracer::read_number_stack(path, glm::dvec3(1)));
+    } catch (const std::runtime_error&) {
+    }
+    try {
+        const LabelGrid labels = tracer::read_label_grid(path, "");
+        for (const std::uint8_t v : labels.voxels) promised(v < labels.numbers.size(), "a label is one of the list");
     } catch (const std::runtime_error&) {
     }
 }

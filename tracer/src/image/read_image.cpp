@@ -2,9 +2,12 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <climits>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <optional>
@@ -14,6 +17,7 @@
 #include <vector>
 
 #include "image/jpeg_header.hpp"
+#include "image/palette_png.hpp"
 #include "phasetree_support/reading.hpp"
 
 namespace phasetree::tracer {
@@ -42,6 +46,32 @@ bool is_jpeg(std::string_view first) {
 
 constexpr const char* too_short = "it is too short for the size that it claims";
 
+// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is
+// a number of its own here, and an image's colours are those that its file has.
+OIIO::ImageSpec as_stored() {
+    OIIO::ImageSpec configuration;
+    configuration.attribute("oiio:UnassociatedAlpha", 1);
+    return configuration;
+}
+
+// OpenImageIO decodes a PNG or JPEG file from these bytes, which must outlive what it returns.
+class FileInMemory {
+  public:
+    explicit FileInMemory(std::string_view bytes)
+        : is_png_(is_png(bytes)), reader_(const_cast<char*>(bytes.data()), bytes.size()) {}  // it only reads them
+
+    OIIO::ImageInput::unique_ptr open() {
+        OIIO::ImageSpec configuration = as_stored();
+        OIIO::Filesystem::IOProxy* const from = &reader_;
+        configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &from);
+        return OIIO::ImageInput::open(is_png_ ? "in memory.png" : "in memory.jpg", &configuration, &reader_);
+    }
+
+  private:
+    bool is_png_;
+    OIIO::Filesystem::IOMemReader reader_;
+};
+
 // How many bytes a PNG file has at least, by its first chunk (ISO 15948, 11.2.2). Deflate, which compresses it, can at
 // best code 258 bytes in 2 bits, so uncompressed data are at most 1032 times the file. They are rows of packed samples,
 // each row with a byte before it; interlaced images have more.
@@ -59,51 +89,176 @@ std::uintmax_t least_bytes_of_png(std::string_view first) {
     return row / most * number(height_at) + row % most * number(height_at) / most;
 }
 
-// The first channels of rows [begin, end), counted from 0.
-bool read_rows(OIIO::ImageInput& input, int begin, int end, int channels, float* values) {
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.tile_width != 0)
-        return input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + begin, spec.y + end, spec.z, spec.z + 1, 0,
-                                channels, OIIO::TypeDesc::FLOAT, values);
-    return input.read_scanlines(0, 0, spec.y + begin, spec.y + end, spec.z, 0, channels, OIIO::TypeDesc::FLOAT, values);
+// Pixels [x0, x1) × [y0, y1). 64 bits, because windows may lie anywhere in 32.
+struct Window {
+    std::int64_t x0, y0, x1, y1;
+
+    std::int64_t width() const { return x1 - x0; }
+    std::int64_t height() const { return y1 - y0; }
+};
+
+Window data_window(const OIIO::ImageSpec& spec) {
+    return {spec.x, spec.y, std::int64_t{spec.x} + spec.width, std::int64_t{spec.y} + spec.height};
 }
 
-void read_values(OIIO::ImageInput& input, int channels, std::uintmax_t file_bytes,
-                 const std::function<void(std::span<const float>)>& add) {
+// What the picture is, of which the file may hold a part, or more than that.
+Window display_window(const OIIO::ImageInput& input) {
     const OIIO::ImageSpec& spec = input.spec();
-    support::ReadingPlace place;
-    // Whole blocks and tiles, as the formats make them.
-    const int step = spec.tile_width != 0 ? spec.tile_height : 64;
-    std::vector<float> values;
-    for (int begin = 0; begin < spec.height; begin += step) {
-        const int end = std::min(begin + step, spec.height);
-        values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(end - begin) *
-                      static_cast<std::size_t>(channels));
-        if (!read_rows(input, begin, end, channels, values.data())) throw std::runtime_error(input.geterror());
-        add(values);
-        place.reached(file_bytes * static_cast<std::uintmax_t>(end) / static_cast<std::uintmax_t>(spec.height));
+    // Images of other formats are read as their pixels are stored.
+    if (std::string_view(input.format_name()) != "openexr") return data_window(spec);
+    return {spec.full_x, spec.full_y, std::int64_t{spec.full_x} + spec.full_width,
+            std::int64_t{spec.full_y} + spec.full_height};
+}
+
+// Counts the pixels that are not finite, of an image in rows.
+class NonFinitePixels {
+  public:
+    NonFinitePixels(std::int64_t width, int channels) : width_(width), channels_(static_cast<std::size_t>(channels)) {}
+
+    void add(std::span<const float> values) {
+        for (std::size_t i = 0; i + channels_ <= values.size(); i += channels_, ++pixels_) {
+            if (std::ranges::all_of(values.subspan(i, channels_), [](float v) { return std::isfinite(v); })) continue;
+            if (count_++ == 0) first_ = pixels_;
+        }
     }
+    // Throws if there are any.
+    void check() const {
+        if (count_ == 0) return;
+        throw std::runtime_error(fmt::format(
+            "{} infinite or not a number, {}at column {}, row {} (counted from 0 at the top left); repair the image, "
+            "for example with: oiiotool IN.exr --fixnan box3 -o OUT.exr",
+            count_ == 1 ? "1 pixel is" : fmt::format("{} pixels are", count_), count_ == 1 ? "" : "the first ",
+            first_ % width_, first_ / width_));
+    }
+
+  private:
+    std::int64_t width_;
+    std::size_t channels_;
+    std::int64_t pixels_ = 0, count_ = 0, first_ = 0;
+};
+
+// Some channels of rows [begin, end), numbered as the data window does.
+bool read_rows(OIIO::ImageInput& input, std::int64_t begin, std::int64_t end, const ChannelRange& channels,
+               float* values) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const int first = static_cast<int>(begin), last = static_cast<int>(end),
+              last_channel = channels.first + channels.count;
+    if (spec.tile_width != 0)
+        return input.read_tiles(0, 0, spec.x, spec.x + spec.width, first, last, spec.z, spec.z + 1, channels.first,
+                                last_channel, OIIO::TypeDesc::FLOAT, values);
+    return input.read_scanlines(0, 0, first, last, spec.z, channels.first, last_channel, OIIO::TypeDesc::FLOAT, values);
+}
+
+// Hands out the rows of the display window, made of those of the data window; a few at a time, since a data window may
+// be narrow and high, and the display window wide.
+class ShownRows {
+  public:
+    ShownRows(const Window& held, const Window& shown, int channels, const AddRows& add)
+        : held_(held), shown_(shown), channels_(channels), add_(add) {}
+
+    // Rows of zeros.
+    void add_empty(std::int64_t rows) {
+        for (; rows > 0; rows -= most_rows) {
+            values_.assign(count(std::min(rows, most_rows), shown_.width()), 0.0f);
+            add_(values_);
+        }
+    }
+    // Whole rows of the data window, which the display window has, too.
+    void add(std::span<const float> values) {
+        if (held_.x0 == shown_.x0 && held_.x1 == shown_.x1) return add_(values);
+        const std::size_t block = count(most_rows, held_.width());
+        for (std::size_t at = 0; at < values.size(); at += block)
+            add_block(values.subspan(at, std::min(block, values.size() - at)));
+    }
+
+  private:
+    static constexpr std::int64_t most_rows = 64;
+
+    void add_block(std::span<const float> values) {
+        const std::size_t held = count(1, held_.width()), shown = count(1, shown_.width());
+        const std::int64_t x0 = std::max(held_.x0, shown_.x0), x1 = std::min(held_.x1, shown_.x1);
+        const std::size_t rows = values.size() / held;
+        values_.assign(rows * shown, 0.0f);
+        for (std::size_t row = 0; row < rows && x0 < x1; ++row)
+            std::ranges::copy(values.subspan(row * held + count(1, x0 - held_.x0), count(1, x1 - x0)),
+                              values_.begin() + static_cast<std::ptrdiff_t>(row * shown + count(1, x0 - shown_.x0)));
+        add_(values_);
+    }
+    std::size_t count(std::int64_t rows, std::int64_t columns) const {
+        return static_cast<std::size_t>(rows * columns) * static_cast<std::size_t>(channels_);
+    }
+
+    Window held_, shown_;
+    int channels_;
+    const AddRows& add_;
+    std::vector<float> values_;
+};
+
+void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uintmax_t file_bytes, const AddRows& add) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const Window held = data_window(spec), shown = display_window(input);
+    support::ReadingPlace place;
+    NonFinitePixels non_finite(shown.width(), channels.count);
+    const AddRows checked = [&](std::span<const float> values) {
+        if (spec.format.is_floating_point()) non_finite.add(values);
+        add(values);
+    };
+    ShownRows rows(held, shown, channels.count, checked);
+    const std::int64_t top = std::clamp(held.y0, shown.y0, shown.y1), bottom = std::clamp(held.y1, top, shown.y1);
+    rows.add_empty(top - shown.y0);
+    // Whole blocks and tiles, as the formats make them.
+    const std::int64_t step = spec.tile_width != 0 ? spec.tile_height : 64;
+    std::vector<float> values;
+    const std::size_t in_row = static_cast<std::size_t>(held.width()) * static_cast<std::size_t>(channels.count);
+    const std::int64_t start = top < bottom ? top - (top - held.y0) % step : bottom;
+    for (std::int64_t begin = start, end = begin; begin < bottom; begin = end) {
+        end = std::min(begin + step, held.y1);
+        values.resize(in_row * static_cast<std::size_t>(end - begin));
+        if (!read_rows(input, begin, end, channels, values.data())) throw std::runtime_error(input.geterror());
+        const std::int64_t first = std::max(begin, top), last = std::min(end, bottom);
+        rows.add(std::span(values).subspan(in_row * static_cast<std::size_t>(first - begin),
+                                           in_row * static_cast<std::size_t>(last - first)));
+        place.reached(file_bytes * static_cast<std::uintmax_t>(end - held.y0) /
+                      static_cast<std::uintmax_t>(held.height()));
+    }
+    rows.add_empty(shown.y1 - bottom);
     place.finished(file_bytes);
+    non_finite.check();
 }
 
-// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is
-// a number of its own here, and an image's colours are those that its file has.
-OIIO::ImageSpec as_stored() {
-    OIIO::ImageSpec configuration;
-    configuration.attribute("oiio:UnassociatedAlpha", 1);
-    return configuration;
+// Throws for windows that cannot be read. That the display window is not too large is for the caller to say; rows of
+// the data window are in memory, too, a block of them at a time.
+void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
+    constexpr std::int64_t enough = std::int64_t{1} << 24;
+    const Window held = data_window(spec);
+    if (shown.width() < 1 || shown.height() < 1) throw std::runtime_error("it is empty");
+    if (shown.width() > INT_MAX || shown.height() > INT_MAX)
+        throw std::runtime_error("its display window is too large");
+    if (held.width() * held.height() > enough && held.width() * held.height() / 4 > shown.width() * shown.height())
+        throw std::runtime_error(
+            fmt::format("its data window of {} × {} pixels is much larger than its display window of {} × {}; crop it",
+                        held.width(), held.height(), shown.width(), shown.height()));
 }
-
-using Begin = std::function<int(const ImageHeader&)>;
-using Add = std::function<void(std::span<const float>)>;
 
 ImageHeader header_of(const OIIO::ImageInput& input) {
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
+    if (std::string_view(input.format_name()) == "tiff" &&
+        (spec.full_width != spec.width || spec.full_height != spec.height))
+        throw std::runtime_error(fmt::format(
+            "its {} × {} pixels are a part of a picture of {} × {}; save the whole picture, or the part as OpenEXR",
+            spec.width, spec.height, spec.full_width, spec.full_height));
+    const Window shown = display_window(input);
+    check_windows(spec, shown);
     // Values of fewer bits than a byte are spread over it.
     const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
-    return {spec.width, spec.height, spec.nchannels, spec.format.is_floating_point(), bits, spec.format.is_signed()};
+    return {.width = static_cast<int>(shown.width()),
+            .height = static_cast<int>(shown.height()),
+            .channels = spec.nchannels,
+            .is_floating_point = spec.format.is_floating_point(),
+            .bits = bits,
+            .is_signed = spec.format.is_signed()};
 }
 
 // A file to be read: its size, its first bytes, all of them from its beginning, and how OpenImageIO opens it.
@@ -121,11 +276,14 @@ struct Source {
 };
 
 // To open a JPEG may be to decode it. So it is asked before whether it is wanted.
-void read_jpeg(const Source& source, const Begin& begin, const Add& add) {
+void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add) {
     const JpegHeader jpeg = read_jpeg_header(source.next);
     // OpenImageIO makes colours of three channels of inks.
-    const ImageHeader header{jpeg.width, jpeg.height, jpeg.components == 4 ? 3 : jpeg.components, false, jpeg.bits};
-    const int channels = begin(header);
+    const ImageHeader header{.width = jpeg.width,
+                             .height = jpeg.height,
+                             .channels = jpeg.components == 4 ? 3 : jpeg.components,
+                             .bits = jpeg.bits};
+    const ChannelRange channels = begin(header);
     if (source.bytes < jpeg.least_bytes) throw std::runtime_error(too_short);
     const auto input = source.open();
     const ImageHeader decoded = header_of(*input);
@@ -134,16 +292,16 @@ void read_jpeg(const Source& source, const Begin& begin, const Add& add) {
     read_values(*input, channels, source.bytes, add);
 }
 
-void read(const Source& source, const Begin& begin, const Add& add) {
+void read(const Source& source, const BeginImage& begin, const AddRows& add) {
     if (is_jpeg(source.first)) return read_jpeg(source, begin, add);
     const auto input = source.open();
-    const int channels = begin(header_of(*input));
+    const ChannelRange channels = begin(header_of(*input));
     if (std::string_view(input->format_name()) == "png" && source.bytes < least_bytes_of_png(source.first))
         throw std::runtime_error(too_short);
     read_values(*input, channels, source.bytes, add);
 }
 
-void read(const std::filesystem::path& path, const Begin& begin, const Add& add) {
+void read(const std::filesystem::path& path, const BeginImage& begin, const AddRows& add) {
     // The library's own messages for these two are long and speak of formats and plug-ins.
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
@@ -166,18 +324,25 @@ void read(const std::filesystem::path& path, const Begin& begin, const Add& add)
     read({std::filesystem::file_size(path), first, next, open}, begin, add);
 }
 
-void read(std::string_view bytes, const Begin& begin, const Add& add) {
-    const bool is_png = bytes.starts_with("\x89PNG");
-    if (!is_png && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
-    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // it only reads them
-    const auto open = [&] {
-        OIIO::ImageSpec configuration = as_stored();
-        OIIO::Filesystem::IOProxy* const from = &memory;
-        configuration.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &from);
-        return OIIO::ImageInput::open(is_png ? "in memory.png" : "in memory.jpg", &configuration, &memory);
-    };
+void read(std::string_view bytes, const BeginImage& begin, const AddRows& add) {
+    if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
+    FileInMemory memory(bytes);
     const auto next = [left = bytes]() mutable { return std::exchange(left, {}); };
-    read({bytes.size(), std::string(bytes.substr(0, 32)), next, open}, begin, add);
+    read({bytes.size(), std::string(bytes.substr(0, 32)), next, [&] { return memory.open(); }}, begin, add);
+}
+
+// The indices of a PNG file with a palette.
+void read_indices(const std::filesystem::path& path, const PaletteHeader& palette, const BeginImage& begin,
+                  const AddRows& add) {
+    const ImageHeader header{.width = palette.width, .height = palette.height, .channels = 1, .bits = palette.bits};
+    const ChannelRange channels = begin(header);
+    const std::uintmax_t file_bytes = std::filesystem::file_size(path);
+    if (file_bytes < least_bytes_of_png(beginning(path))) throw std::runtime_error(too_short);
+    const std::string grey = as_grey_png(path, palette);
+    FileInMemory memory(grey);
+    const auto input = memory.open();
+    if (!input) throw std::runtime_error(OIIO::geterror());
+    read_values(*input, channels, file_bytes, add);
 }
 
 // Calls f, whose errors then say which image cannot be used.
@@ -194,13 +359,24 @@ void with_name(const std::string& what, const std::string& name, F&& f) {
 
 }  // namespace
 
-void read_image(const std::filesystem::path& path, const std::string& what, const Begin& begin, const Add& add) {
+void read_image(const std::filesystem::path& path, const std::string& what, const BeginImage& begin,
+                const AddRows& add) {
     with_name(what, path.string(), [&] { read(path, begin, add); });
 }
 
-void read_image_in_memory(std::string_view bytes, const std::string& name, const std::string& what, const Begin& begin,
-                          const Add& add) {
+void read_image_in_memory(std::string_view bytes, const std::string& name, const std::string& what,
+                          const BeginImage& begin, const AddRows& add) {
     with_name(what, name, [&] { read(bytes, begin, add); });
+}
+
+void read_labels(const std::filesystem::path& path, const std::string& what, const BeginImage& begin,
+                 const AddRows& add) {
+    with_name(what, path.string(), [&] {
+        if (const auto palette = palette_header(beginning(path)))
+            read_indices(path, *palette, begin, add);
+        else
+            read(path, begin, add);
+    });
 }
 
 }  // namespace phasetree::tracer

@@ -76,17 +76,18 @@ class TakenImage {
   public:
     explicit TakenImage(ImageMeaning meaning) : meaning_(meaning) {}
 
-    int begin(const ImageHeader& read) {
+    ChannelRange begin(const ImageHeader& read) {
         if (read.width > largest_texture_image || read.height > largest_texture_image)
             throw std::runtime_error(fmt::format("it is larger than {0} × {0}", largest_texture_image));
         header_ = read;
-        if (meaning_ == ImageMeaning::alpha && read.channels % 2 != 0) throw std::runtime_error("it has no alpha");
-        return static_cast<int>(channels());
+        if (meaning_ != ImageMeaning::alpha) return static_cast<int>(channels());
+        if (read.channels % 2 != 0) throw std::runtime_error("it has no alpha");
+        return {read.channels < 4 ? 1 : 3, 1};
     }
     void add(std::span<const float> values) {
         for (std::size_t i = 0; i + channels() <= values.size(); i += channels()) {
-            const std::uint16_t first = linear(values[meaning_ == ImageMeaning::alpha ? i + channels() - 1 : i]);
-            if (channels() == 1 || meaning_ == ImageMeaning::alpha)
+            const std::uint16_t first = linear(values[i]);
+            if (channels() == 1)
                 pixels_.push_back({first, first, first});
             else
                 pixels_.push_back({first, linear(values[i + 1]), linear(values[i + 2])});
@@ -95,10 +96,7 @@ class TakenImage {
     TextureImage image() && { return {header_.width, header_.height, std::move(pixels_)}; }
 
   private:
-    std::size_t channels() const {
-        if (meaning_ == ImageMeaning::alpha) return header_.channels < 4 ? 2 : 4;
-        return header_.channels < 3 ? 1 : 3;
-    }
+    std::size_t channels() const { return meaning_ == ImageMeaning::alpha || header_.channels < 3 ? 1 : 3; }
     std::uint16_t linear(float v) const {
         const bool is_encoded = meaning_ == ImageMeaning::colors && !header_.is_floating_point;
         return stored(is_encoded ? linear_from_srgb(v) : v);

@@ -1,5 +1,5 @@
-// Voxels as a stack of grey images, one per layer. In a segmented scan the grey values are labels, which are integers.
-// Otherwise they are quantities: integers are scaled to 0 … 1, and floats are taken as they are.
+// Voxels as a stack of images, one per layer. Labels of a segmented scan are grey integers, or the indices of a PNG
+// file with a palette. Other voxels are quantities: integers are scaled to 0 … 1, and floats are taken as they are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,11 +79,11 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
 
 namespace {
 
-// Adds a layer's voxels to those of the layers below it. `check` is asked about the layer before its size is, which the
-// first one decides; `number` makes a voxel's number of a grey value.
-template <class T, class Check, class Number>
+// Adds a layer's voxels to those of the layers below it. The first layer sets the size, after `check` has accepted its
+// header; `number` makes a voxel's number of a grey value; `read` reads a file.
+template <class T, class Check, class Number, class Read>
 void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, std::vector<T>& voxels,
-               const Check& check, const Number& number) {
+               const Check& check, const Number& number, const Read& read) {
     const auto begin = [&](const ImageHeader& header) {
         check(header);
         if (is_first) {
@@ -96,7 +96,7 @@ void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, st
         return 1;
     };
     const std::size_t first = voxels.size();
-    read_image(file, "layer", begin, [&](std::span<const float> values) {
+    read(file, "layer", begin, [&](std::span<const float> values) {
         for (const float v : values) voxels.push_back(number(v));
     });
     // The first row is at the largest y; in the grid y rises.
@@ -105,9 +105,9 @@ void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, st
     for (; low < high; low += columns, high -= columns) std::swap_ranges(low, low + columns, high);
 }
 
-void check_is_grey(const ImageHeader& header, const char* what) {
+void check_is_grey(const ImageHeader& header, const char* must_be) {
     if (header.channels != 1)
-        throw std::runtime_error(fmt::format("{} are grey values, but it has {} channels", what, header.channels));
+        throw std::runtime_error(fmt::format("{}, but it has {} channels", must_be, header.channels));
 }
 
 }  // namespace
@@ -120,9 +120,12 @@ LabelGrid labels_of_images(const fs::path& path) {
     // The greatest integer of the images' type, by which read_image() divides.
     double greatest = 255;
     const auto check = [&](const ImageHeader& header) {
+        constexpr const char* must_be = "labels must be grey integers of at most 32 bits, or the palette of a PNG";
+        check_is_grey(header, must_be);
         if (header.is_floating_point || header.bits > 32)
-            throw std::runtime_error("labels are integers of at most 32 bits");
-        check_is_grey(header, "labels");
+            throw std::runtime_error(fmt::format("{}, but it has {} of {} bits", must_be,
+                                                 header.is_floating_point ? "floating-point numbers" : "values",
+                                                 header.bits));
         greatest = std::exp2(header.is_signed ? header.bits - 1 : header.bits) - 1;
     };
     // Floats tell integers of 32 bits apart as long as they are not greater.
@@ -134,7 +137,7 @@ LabelGrid labels_of_images(const fs::path& path) {
         return numbers.index_of(static_cast<std::int32_t>(number));
     };
     for (const fs::path& layer : layers)
-        add_layer(layer, layer == layers.front(), grid.lattice.size, grid.voxels, check, label);
+        add_layer(layer, layer == layers.front(), grid.lattice.size, grid.voxels, check, label, read_labels);
     return grid;
 }
 
@@ -143,9 +146,10 @@ VoxelGrid numbers_of_images(const fs::path& path, const glm::dvec3& spacing) {
     VoxelLattice lattice{.spacing = spacing};
     lattice.size[2] = static_cast<int>(layers.size());
     std::vector<float> values;
-    const auto check = [](const ImageHeader& header) { check_is_grey(header, "numbers"); };
+    const auto check = [](const ImageHeader& header) { check_is_grey(header, "numbers must be grey values"); };
     for (const fs::path& layer : layers)
-        add_layer(layer, layer == layers.front(), lattice.size, values, check, [](float v) { return v; });
+        add_layer(
+            layer, layer == layers.front(), lattice.size, values, check, [](float v) { return v; }, read_image);
     for (glm::length_t i = 0; i < 3; ++i)
         lattice.first[i] = -0.5 * (lattice.size[static_cast<std::size_t>(i)] - 1) * spacing[i];
     return number_grid(lattice, std::move(values));
