@@ -76,17 +76,21 @@ Material read_phase_material(const Document& document, Value phase) {
 
 namespace {
 
-// Adds a phase's material, unless the voxels of all would be more than a machine may hold.
-void add_material(const Document& document, Value phase, Scene& scene) {
-    constexpr std::size_t most_bytes_of_voxels = std::size_t{4} << 30;
-    scene.materials.push_back(read_phase_material(document, phase));
-    std::size_t bytes = 0;
-    for (const Material& material : scene.materials)
+// Counts the voxels of materials, of which all together must fit into a machine's memory.
+class VoxelBytes {
+  public:
+    // Throws SceneError at the phase whose material is too much.
+    void add(const Document& document, Value phase, const Material& material) {
+        constexpr std::size_t most = std::size_t{4} << 30;
         if (const Clear* clear = std::get_if<Clear>(&material))
-            if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes += varying->bytes();
-    if (bytes > most_bytes_of_voxels)
-        throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
-}
+            if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes_ += varying->bytes();
+        if (bytes_ > most)
+            throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
+    }
+
+  private:
+    std::size_t bytes_ = 0;
+};
 
 void refuse_places_of_nothing(const Document& document) {
     for (const char* const part : {"instances", "groups"})
@@ -97,18 +101,23 @@ void refuse_places_of_nothing(const Document& document) {
 void read_model_into(const Document& document, const FileParts& parts, const Shutter& shutter, NodePlaces* places,
                      Scene& scene) {
     scene.materials.push_back(vacuum());
+    VoxelBytes voxels;
+    const auto add_material = [&](const Document& source, Value phase) {
+        scene.materials.push_back(read_phase_material(source, phase));
+        voxels.add(source, phase, scene.materials.back());
+    };
     if (parts.objects) {
         ObjectsModel model = read_placed_objects(document, shutter, places);
         scene.phases = std::move(model.phases);
         scene.placed = std::move(model.placed);
-        for (const auto& source : model.materials) add_material(source.document, source.material, scene);
+        for (const auto& source : model.materials) add_material(source.document, source.material);
         return;
     }
     refuse_places_of_nothing(document);
     SceneTree tree = read_tree(document, file_readers(), places);
     scene.phases = std::move(tree.phases);
     scene.object = with_bounds(tree.object);
-    for (const Value phase : *parts.phases) add_material(document, phase, scene);
+    for (const Value phase : *parts.phases) add_material(document, phase);
 }
 
 }  // namespace
@@ -192,10 +201,14 @@ PhaseSet opaque_phases(const std::vector<Material>& materials) {
     return opaque;
 }
 
-PhaseSet opaque_phases(const Document& document) {
-    std::vector<Material> materials{vacuum()};
+std::vector<std::optional<Material>> read_materials(const Document& document) {
+    std::vector<std::optional<Material>> materials{vacuum()};
+    VoxelBytes voxels;
     const auto add = [&](const Document& source, Value phase) {
-        materials.push_back(phase.is_object() ? read_phase_material(source, phase) : vacuum());
+        std::optional<Material>& material = materials.emplace_back();
+        if (!phase.is_object()) return;
+        material = read_phase_material(source, phase);
+        voxels.add(source, phase, *material);
     };
     if (has_objects(document)) {
         for (const auto& source : read_placed_objects(document).materials) add(source.document, source.material);
@@ -203,7 +216,16 @@ PhaseSet opaque_phases(const Document& document) {
         ObjectReader root(document, document.root(), "the scene");
         for (const Value phase : needed(root, &FileParts::phases)) add(document, phase);
     }
-    return opaque_phases(materials);
+    return materials;
+}
+
+PhaseSet opaque_phases(const Document& document) {
+    PhaseSet opaque;
+    const std::vector<std::optional<Material>> materials = read_materials(document);
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i] && !is_clear(*materials[i]))
+            opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
+    return opaque;
 }
 
 }  // namespace phasetree::tracer
