@@ -197,4 +197,57 @@ TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     CHECK(bytes_of(shell.directory / "shader.glsl").empty());
 }
 
+TEST_CASE("what is exported depends on the object and its materials alone, and nothing else has to be there") {
+    const Shell shell;
+    const auto write = [&](const std::string& rest) {
+        write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {
+            "glass": {"clear": {"ior": 1.5, "absorption": [1, 2, 4]}},
+            "wood": {"diffuse": {"color": [0.8, 0.4, 0.1]}}, "bare": null},
+            "tree": {"over": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}},
+                {"set": {"phase": "wood", "of": {"translate": {"by": [3, 0, 0], "of": {"box": {"size": [1, 1, 1]}}}}}},
+                {"set": {"phase": "bare", "of": {"translate": {"by": [6, 0, 0], "of": {"box": {"size": [1, 1, 1]}}}}}}]})" +
+                                                       rest + "}");
+    };
+    const auto exported = [&](const std::string& extension) {
+        const Outcome o = shell.run({"export", "scene.json", "-o", "a." + extension, "--spacing", "0.2"});
+        CAPTURE(extension);
+        CHECK(o.err == "");
+        CHECK(o.code == 0);
+        return bytes_of(shell.directory / ("a." + extension)) +
+               (extension == "obj" ? bytes_of(shell.directory / "a.mtl") : "");
+    };
+    const char* const surroundings[]{
+        R"(, "camera": {"position": [0, -9, 0], "look_at": [0, 0, 0]}, "lights": [{"constant": {}}])",
+        R"(, "camera": {"position": [0, -9, 0], "look_at": [0, 0, 0]})",  // no light
+        R"(, "camera": {"position": [3, 0, 0], "look_at": [0, 0, 0]})",   // within the wood
+        R"(, "lights": [{"image": {"file": "nowhere.exr"}}], "render": {"view": "Nowhere"},
+             "meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])"};
+    for (const std::string extension : {"3mf", "obj", "glb", "ply", "stl"}) {
+        write("");
+        const std::string alone = exported(extension);
+        if (extension == "obj") CHECK(alone.find("Kd 0.8 0.4 0.1\n") != std::string::npos);
+        if (extension == "glb")
+            CHECK(alone.find("[0.800000011920929,0.4000000059604645,0.10000000149011612,1.0]") != std::string::npos);
+        for (const char* const rest : surroundings) {
+            write(rest);
+            CHECK(exported(extension) == alone);
+        }
+    }
+    // A page shows the object as the camera does, and needs nothing else of the scene either.
+    for (const char* const rest : surroundings) {
+        write(rest);
+        const Outcome o = shell.run({"export", "scene.json", "-o", "a.html"});
+        CHECK(o.err == "");
+        CHECK(o.code == 0);
+        CHECK(bytes_of(shell.directory / "a.html").find("rgb(231,170,89)") != std::string::npos);
+    }
+    // Without colours even the materials are not read.
+    write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {"wood": {"diffuse": {"color": {"image":
+        {"file": "nowhere.png"}}}}}, "tree": {"set": {"phase": "wood", "of": {"sphere": {"radius": 1}}}}})");
+    exported("stl");
+    const Outcome o = shell.run({"export", "scene.json", "-o", "a.3mf"});
+    CHECK(o.code == 2);
+    CHECK(o.err.find("nowhere.png") != std::string::npos);
+}
+
 }  // namespace test_export

@@ -101,6 +101,42 @@ TEST_CASE("$OCIO that leads nowhere is an error") {
     CHECK(shell.directory.size() == 1);
 }
 
+TEST_CASE("what holds linear light, or no light at all, is written whatever $OCIO is and views are called") {
+    Shell shell;
+    shell.environment = {{"OCIO", "/nowhere/config.ocio"}};
+    SceneText scene;
+    scene.rest = R"("render": {"width": 24, "height": 16, "samples": 2, "view": "Nowhere"})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const auto check_done = [&](const std::vector<std::string>& arguments, const std::string& input = "") {
+        const Outcome o = shell.run(arguments, input);
+        CAPTURE(arguments.front());
+        CAPTURE(o.err);
+        CHECK(o.code == 0);
+    };
+    check_done({"render", "scene.json", "-o", "a.exr", "-o", "a.part", "--quiet"});
+    check_done(
+        {"render", "scene.json", "-o", "b.{plane}.exr", "--planes", "albedo", "--spp", "4", "--denoise", "--quiet"});
+    check_done({"merge", "a.part", "-o", "c.exr", "--quiet"});
+    CHECK(bytes_of(shell.directory / "c.exr") == bytes_of(shell.directory / "a.exr"));
+    check_done({"export", "scene.json", "-o", "a.3mf", "--spacing", "0.2"});
+    check_done({"export", "scene.json", "-o", "a.html"});
+    check_done({"export", "scene.json", "-o", "a.glsl"});
+    check_done({"info", "scene.json", "--cells"});
+    check_done({"eval", "scene.json"}, "0 0 0\n");
+    check_done({"trace", "scene.json"}, "0 -5 0 0 1 0\n");
+    // What is shown needs the configuration, and so does who asks for a view by name.
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", "scene.json", "-o", "a.exr", "-o", "d.png"},
+          {"render", "scene.json", "-o", "a.exr", "--view", "Raw"},
+          {"merge", "a.part", "-o", "d.png"},
+          {"check", "scene.json"}}) {
+        const Outcome o = shell.run(arguments);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find("/nowhere/config.ocio") != std::string::npos);
+    }
+}
+
 TEST_CASE("lines of numbers that are none") {
     const Shell shell;
     write_text(shell.directory / "scene.json", SceneText().text());

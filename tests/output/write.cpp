@@ -178,7 +178,10 @@ TEST_CASE("equal pictures are equal files, whenever they are written") {
 TEST_CASE("EXR tells how it was made and what its numbers mean") {
     const OcioVariable none;
     const TemporaryDirectory folder;
-    write_image(noise(8, 6), folder / "a.exr", metadata, DisplayTransform());
+    // It holds linear light, so it needs no display transform.
+    CHECK_FALSE(needs_display("a.exr"));
+    for (const char* shown : {"a.png", "a.jpg", "a.TIF"}) CHECK(needs_display(shown));
+    write_image(noise(8, 6), folder / "a.exr", metadata, std::nullopt);
     const OIIO::ImageSpec spec = spec_of(folder / "a.exr");
     CHECK(std::string(spec.get_string_attribute("Software")) == std::string("phasetree ") + phasetree::version());
     CHECK(spec.get_string_attribute("phasetree:scene") == "hourglass.json");

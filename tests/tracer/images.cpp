@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -361,6 +362,30 @@ TEST_CASE("an environment is the display window of its image, whatever part of i
     CHECK(alpha->pixels() == 2);
     CHECK(alpha->at({0.25f, 0.5f}).x == 1.0f);
     CHECK(alpha->at({0.75f, 0.5f}).x == 0.0f);
+}
+
+TEST_CASE("small files with huge windows are rejected by the limits of their use") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    // Sets the last column and row of a window in the file's header.
+    const auto set_window = [&](const std::string& name, int column, int row) {
+        std::string bytes = phasetree::support::bytes_of(path);
+        const std::size_t at = bytes.find(name) + name.size() + 1 + std::strlen("box2i") + 1 + 4;
+        const std::array<std::int32_t, 2> last{column, row};
+        std::memcpy(bytes.data() + at + 8, last.data(), sizeof last);
+        phasetree::support::write_text(path, bytes);
+    };
+    write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2});
+    set_window("displayWindow", (1 << 29) - 1, (1 << 28) - 1);
+    CHECK(said([&] { return load_environment_image(path); }) == "it is larger than 16384 × 8192");
+    CHECK(said([&] { return load_texture_image(path); }) == "it is larger than 4096 × 4096");
+    // The same of the data window, which is in memory a few rows at a time.
+    for (const int tile : {0, 16}) {
+        write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2}, tile);
+        set_window("dataWindow", (1 << 26) - 1, 3);
+        CHECK(said([&] { return load_texture_image(path); }) ==
+              "its data window of 67108864 × 4 pixels is much larger than its display window of 4 × 2; crop it");
+    }
 }
 
 TEST_CASE("numbers that are not finite are rejected: how many pixels have them, and where the first is") {

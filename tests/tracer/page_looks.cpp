@@ -1,6 +1,8 @@
 // How an exported page shows the materials of a scene: each kind by what it has.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "page/page.hpp"
 #include "paths.hpp"
 
@@ -55,6 +57,24 @@ TEST_CASE("a page shows each kind of material as what it is") {
     CHECK(ember.kind == Look::glowing);
     CHECK(ember.color.x == doctest::Approx(3));
     CHECK(ember.color.z == doctest::Approx(0.3));
+}
+
+TEST_CASE("swatches are sRGB codes, each the nearest") {
+    const auto exact = [](double v) {
+        return std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055));
+    };
+    for (int i = 0; i <= 1000; ++i) {
+        const float v = static_cast<float>(i) / 1000;
+        Look look;
+        look.kind = Look::diffuse;
+        look.color = {v, v * v, v / 100};
+        const std::array<int, 3> codes = shown_color(look);
+        for (int c = 0; c < 3; ++c) CHECK(codes[static_cast<std::size_t>(c)] == exact(look.color[c]));
+    }
+    Look glowing;
+    glowing.kind = Look::glowing;
+    glowing.color = {3, 1, -1};
+    CHECK(shown_color(glowing) == std::array<int, 3>{255, 255, 0});
 }
 
 }  // namespace test_page_looks

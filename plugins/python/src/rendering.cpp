@@ -211,7 +211,9 @@ void save(const std::string& path, const Pixels& pixels, const py::dict& planes,
         image.crop = Crop{x0, y0, width, height};
     }
     const py::gil_scoped_release unlocked;
-    write_image(image, path, metadata, DisplayTransform({}, view, exposure));
+    std::optional<DisplayTransform> display;
+    if (needs_display(path)) display.emplace(std::nullopt, view, exposure);
+    write_image(image, path, metadata, display);
 }
 
 }  // namespace

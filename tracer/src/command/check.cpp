@@ -56,6 +56,8 @@ int check(const SceneFile& file) {
     if (document.root().is_object() && !document.root().find("camera"))
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
+    // A view is only known where its configuration is, so a broken $OCIO is an error for scenes that name a view.
+    if (scene.settings.view) (void)display_of(document, scene.settings, {}, {}, {});
     warn_of_unused_names(document, scene.phases, phases_of(scene.object, scene.placed));
     warn_of_what_is_not_shown(scene);
     if (!scene.placed.empty()) {

@@ -19,6 +19,8 @@
 #include "phasetree/glsl/shader.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "scene/mesh_kinds.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -46,32 +48,37 @@ constexpr std::size_t largest_page = 500'000;
 constexpr int page_grids[] = {32, 24, 16, 12, 8, 5};
 constexpr float bracket_on_page = 3e-5f;
 
+// The height of the last floor among the scene's meshes. The meshes themselves are not read.
+std::optional<float> floor_height(const Document& document) {
+    std::optional<float> height;
+    const std::optional<Value> meshes = document.root().find("meshes");
+    if (!meshes || !meshes->is_array()) return height;
+    for (const Value mesh : *meshes) {
+        const std::optional<Value> floor = mesh.is_object() ? mesh.find(FloorParameters::info.name) : std::nullopt;
+        if (!floor || !floor->is_object()) continue;
+        const std::optional<Value> given = floor->find("height");
+        height = given ? as<float>(document, *given, "\"height\"") : FloorParameters().height;
+    }
+    return height;
+}
+
 int export_page(const SceneFile& file, const ExportOptions& chosen) {
     const std::filesystem::path path = chosen.output;
     check_file_writable(path);
     const Document document = read_document(file);
-    const bool is_whole = document.root().find("camera").has_value();
-    std::optional<Scene> scene;
-    SceneTree tree;
-    if (is_whole)
-        scene = load_scene(document);
-    else
-        (void)read_scene_without_camera(document);
-    tree = read_model(document, chosen.object);
+    const SceneTree tree = read_model(document, chosen.object);
+    const std::vector<std::optional<Material>> materials = read_materials(document);
     const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
     print_warning(file.shown(), traceable.warning);
     const Bounds& bounds = traceable.bounds;
     const Program program = record_tree(document, tree.object);
-    std::vector<Look> looks;
+    const std::vector<Look> looks = looks_of(tree.phases, materials, bounds);
     PageView view{bounds.centre() + 1.4f * bounds.diagonal() * glm::vec3(0.45f, -0.8f, 0.4f), bounds.centre(), 40};
     float floor = bounds.low.z;
-    if (scene) {
-        looks = looks_of(tree.phases, scene->materials, bounds);
-        view = view_of(scene->camera);
-        for (const Mesh& mesh : scene->meshes)
-            if (mesh.name.starts_with("floor") && !mesh.vertices.empty()) floor = mesh.vertices.front().z;
-    } else {
-        looks = looks_without_materials(tree.phases);
+    if (const auto camera = document.root().find("camera")) {
+        FilmSettings unused;
+        view = view_of(read_camera(document, *camera, unused));
+        floor = floor_height(document).value_or(floor);
     }
     GlslOptions options;
     options.phase_names = tree.phases.names;

@@ -23,6 +23,7 @@
 #include "phasetree/io/suggest.hpp"
 #include "phasetree/model/handle.hpp"
 #include "render/threads.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -53,6 +54,10 @@ PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
         chosen = chosen | PhaseSet::of(Phase{static_cast<std::uint8_t>(found - names.begin())});
     }
     return chosen;
+}
+
+bool has_colors(const MeshExport& wanted) {
+    return path(wanted.output).extension() != ".stl";
 }
 
 bool is_file_for_each_phase(const MeshExport& wanted) {
@@ -136,11 +141,9 @@ void say_what_is_lost(const MeshedObject& object) {
 MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Document& document, const SceneTree& tree) {
     MeshedObject object;
     object.chosen = chosen_phases(wanted, tree);
-    std::optional<Scene> scene;
-    if (document.root().find("camera"))
-        scene = load_scene(document);
-    else
-        (void)read_scene_without_camera(document);
+    // Nothing else of the scene matters to a mesh, so nothing else is read: it may have no camera and no lights.
+    std::vector<std::optional<Material>> materials;
+    if (has_colors(wanted)) materials = read_materials(document);
     if (is_file_for_each_phase(wanted))
         for (const auto& [phase, name] : stl_files(wanted, object.chosen, tree.phases)) check_file_writable(name);
     else
@@ -157,7 +160,7 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
         made_of_tree(document, [&] { return std::make_unique<const embree::PreparedObject>(tree.object, cells); });
     print_warning(file.shown(), prepared->cells().warning());
     const Bounds& bounds = prepared->cells().bounds();
-    object.looks = scene ? looks_of(tree.phases, scene->materials, bounds) : looks_without_materials(tree.phases);
+    object.looks = has_colors(wanted) ? looks_of(tree.phases, materials, bounds) : looks_without_materials(tree.phases);
     MeshOptions options;
     options.spacing = wanted.spacing;
     options.cancelled = [] { return interrupted(); };
@@ -214,7 +217,7 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     say_what_is_lost(object);
     check_scale(object.mesh, wanted.scale);
     for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
-    for (Look& look : object.looks) look.absorption /= wanted.scale;  // which is per unit of length
+    object.scale = wanted.scale;
     try {
         write_mesh(object, wanted, tree.phases);
     } catch (const std::length_error& e) {

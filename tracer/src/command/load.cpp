@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
+#include "film_file/write.hpp"
 #include "output/error.hpp"
+#include "output/write.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "scene/one_tree.hpp"
@@ -63,6 +66,11 @@ DisplayTransform display_of(const Document& document, const RenderSettings& sett
     }
 }
 
+bool need_display(const std::vector<std::string>& outputs) {
+    return std::ranges::any_of(
+        outputs, [](const std::string& output) { return !is_film_file(output) && needs_display(output); });
+}
+
 void print_warning(const std::string& file, const std::string& warning) {
     if (!warning.empty()) say("{}: warning: {}\n", file, warning);
 }
@@ -102,7 +110,6 @@ Scene load_scene(const Document& document, NodePlaces* places) {
                              fmt::format("the camera is inside \"{}\", which is opaque", scene.phases[phase]));
     if (scene.lights.empty() && !scene.shines())
         throw document.error(document.root(), "the scene has no lights, so every image of it would be black");
-    if (scene.settings.view) (void)display_of(document, scene.settings, {}, {}, {});
     return scene;
 }
 

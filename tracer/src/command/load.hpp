@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command/scene_file.hpp"
 #include "output/display.hpp"
@@ -10,15 +11,19 @@
 
 namespace phasetree::tracer {
 
-// Reads a scene and makes sure that it can be rendered: beside what read_scene finds, that the object is neither too
-// large nor too small nor too far away, that the camera is not inside an opaque phase, that something shines, and that
-// there is the view that the scene names. Throws SceneError. `places` is told where the object's nodes stand.
+// Reads a scene and makes sure that it can be rendered. Beyond what read_scene checks, the object must be neither too
+// large nor too small nor too far away, the camera must not be inside an opaque phase, and something must shine. Throws
+// SceneError. `places` receives where the object's nodes stand in the text.
 Scene load_scene(const Document&, NodePlaces* places = nullptr);
 
-// How a scene is shown: as the options say, which come before what the scene says. Throws DisplayError for the options,
-// SceneError for the scene.
+// How a scene is shown. Options take precedence over the scene's settings. Throws DisplayError for the options or the
+// configuration in $OCIO, SceneError for the scene's view.
 DisplayTransform display_of(const Document&, const RenderSettings&, const std::optional<std::string>& display,
                             const std::optional<std::string>& view, std::optional<float> exposure);
+
+// Whether any of these outputs shows the picture as a display does, so that it needs display_of. Film files and EXR
+// files hold linear light, and are written whatever $OCIO is.
+bool need_display(const std::vector<std::string>& outputs);
 
 // The same for a subcommand that reads something else from standard input, so that the scene cannot come from there.
 // Throws InputError.

@@ -4,10 +4,11 @@
 
 namespace phasetree::tracer {
 
-std::vector<Look> looks_of(const PhaseNames& phases, std::span<const Material> materials, const Bounds& bounds) {
-    std::vector<Look> looks;
-    for (std::size_t i = 0; i < phases.names.size(); ++i)
-        looks.push_back(look_of(phases.names[i], materials[i], bounds));
+std::vector<Look> looks_of(const PhaseNames& phases, std::span<const std::optional<Material>> materials,
+                           const Bounds& bounds) {
+    std::vector<Look> looks = looks_without_materials(phases);
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        if (materials[i]) looks[i] = look_of(phases.names[i], *materials[i], bounds);
     return looks;
 }
 

@@ -1,6 +1,7 @@
 // What the phases of a scene look like in files for other programs.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,9 +10,11 @@
 
 namespace phasetree::tracer {
 
-// By their materials, of which there is one for each phase.
-std::vector<Look> looks_of(const PhaseNames&, std::span<const Material>, const Bounds&);
-// Of a tree alone: colours that differ.
+// The looks of all phases, by their materials alone. A phase without a material gets a colour that tells it from the
+// others.
+std::vector<Look> looks_of(const PhaseNames&, std::span<const std::optional<Material>>, const Bounds&);
+
+// The same if no phase has a material.
 std::vector<Look> looks_without_materials(const PhaseNames&);
 
 }  // namespace phasetree::tracer

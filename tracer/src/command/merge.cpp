@@ -5,6 +5,7 @@
 
 #include "command/commands.hpp"
 #include "command/denoising.hpp"
+#include "command/load.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -71,7 +72,7 @@ Joined join(const Parts& parts, const std::vector<std::string>& film_files, bool
 }
 
 bool write_pictures(const MergeOptions& options, const Parts& parts, const std::vector<std::string>& images,
-                    const Joined& joined, const DisplayTransform& display) {
+                    const Joined& joined, const std::optional<DisplayTransform>& display) {
     Metadata metadata;
     metadata.scene = parts.header().scene;
     metadata.samples_per_pixel = static_cast<int>(joined.samples / parts.header().shown.size());
@@ -108,7 +109,9 @@ int merge_parts(const MergeOptions& options) {
     const Denoiser denoiser = denoiser_of(options.denoise.value_or("best"));
     if (options.denoise) check_denoising(parts.header().film.planes, !images.empty());
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;
-    const DisplayTransform display(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
+    std::optional<DisplayTransform> display;
+    if (need_display(options.outputs) || options.display || options.view)
+        display.emplace(options.display, view, options.exposure.value_or(parts.header().exposure_ev));
     Progress progress(static_cast<std::uint64_t>(parts.header().bands()), ProgressOutput::standard_error(options.quiet),
                       "merging");
     Joined joined = join(parts, film_files, !images.empty(), progress);

@@ -113,7 +113,7 @@ struct Everything {
     const RenderOptions& options;
     const Scene& scene;
     const World& world;
-    const DisplayTransform& display;
+    const std::optional<DisplayTransform>& display;  // unless no output needs one
     const std::vector<std::string>& outputs;
     const FilmFileHeader& header;
     const Film& film;
@@ -316,8 +316,9 @@ int render_scene(const RenderOptions& options) {
     job.cancelled = [] { return interrupted(); };
     const std::vector<std::string> outputs = checked_outputs(options, *job.samples);
     warn_of_alpha(scene, document.name(), outputs);
-    const DisplayTransform display =
-        display_of(document, scene.settings, options.display, options.view, options.exposure);
+    std::optional<DisplayTransform> display;
+    if (need_display(outputs) || options.display || options.view)
+        display = display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())
         say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
     auto [header, found] = read_checkpoint(options, document, scene, job);

@@ -56,7 +56,7 @@ class GltfDocument {
         for (const char* part : {"meshes", "materials", "accessors", "bufferViews"}) json_[part] = Json::array();
     }
 
-    void add(const Look& look, const ClosedMesh& mesh) {
+    void add(const Look& look, const ClosedMesh& mesh, float scale) {
         const Corners corners(mesh);
         json_["nodes"][0]["children"].push_back(json_["nodes"].size());
         json_["nodes"].push_back({{"name", look.name}, {"mesh", json_["meshes"].size()}});
@@ -65,7 +65,7 @@ class GltfDocument {
                              {"indices", add_numbers(corners.numbers)},
                              {"material", json_["materials"].size()}};
         json_["meshes"].push_back({{"name", look.name}, {"primitives", Json::array({primitive})}});
-        add_material(look, std::cbrt(std::abs(mesh.volume())));
+        add_material(look, std::cbrt(std::abs(mesh.volume())), scale);
     }
 
     std::string bytes() {
@@ -123,7 +123,7 @@ class GltfDocument {
         return json_["accessors"].size() - 1;
     }
 
-    void add_material(const Look& look, double thickness) {
+    void add_material(const Look& look, double thickness, float scale) {
         const bool glows = look.kind == Look::glowing;
         const glm::vec3 color = look.kind == Look::clear ? glm::vec3(1)
                                 : glows                  ? glm::vec3(0)
@@ -148,7 +148,7 @@ class GltfDocument {
             Json volume{{"thicknessFactor", thickness}};
             const float most = std::max({look.absorption.x, look.absorption.y, look.absorption.z});
             if (most > 0) {
-                volume["attenuationDistance"] = 1 / most;
+                volume["attenuationDistance"] = scale / most;
                 volume["attenuationColor"] = as_list(glm::exp(-look.absorption / most));
             }
             extend(material, "KHR_materials_volume", volume);
@@ -170,7 +170,7 @@ class GltfDocument {
 std::string glb_of(const MeshedObject& object) {
     GltfDocument document;
     for (const Phase phase : object.phases())
-        document.add(object.look(phase), surface_of(object.mesh, PhaseSet::of(phase)));
+        document.add(object.look(phase), surface_of(object.mesh, PhaseSet::of(phase)), object.scale);
     return document.bytes();
 }
 

@@ -13,6 +13,7 @@ struct MeshedObject {
     PhaseMesh mesh;
     std::vector<Look> looks;  ///< of all phases, the vacuum first
     PhaseSet chosen;          ///< the phases that a file is to have; the vacuum is none of them
+    float scale = 1;          ///< how much larger the mesh is than the scene, in whose unit of length the looks are
 
     /// Those of the chosen ones that have triangles, in their order.
     std::vector<Phase> phases() const {

@@ -53,10 +53,13 @@ Format checked_format(const std::filesystem::path& path) {
 }  // namespace
 
 void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
-                 const DisplayTransform& transform) {
+                 const std::optional<DisplayTransform>& transform) {
     const Format format = checked_format(path);
     if (is_for_each_plane(path)) return write_layers(image, path, metadata);
-    write_encoded(path, [&] { return encode(image, format, metadata, transform); });
+    write_encoded(path, [&] {
+        if (format == Format::exr) return encode_layer(image, whole(image), metadata);
+        return encode(image, format, metadata, transform.value());
+    });
 }
 
 void check_writable(const std::filesystem::path& path) {

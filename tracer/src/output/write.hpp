@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "film/image.hpp"
 #include "output/display.hpp"
@@ -10,13 +11,18 @@
 
 namespace phasetree::tracer {
 
-/// Writes an image; the extension chooses the format (encode.hpp). EXR keeps the linear values as they are; for the
-/// others the transform is applied. "{plane}" in the name of an EXR file makes a file for each plane, with the plane's
-/// name in its place (layers.hpp); where one cannot be written, the others are. The file appears complete or not at
-/// all, as any of write_file's (file.hpp). Throws OutputError; then an existing file is untouched and no temporary is
-/// left.
+/// Whether files of this name hold what a display shows, so that write_image needs a transform for them. EXR keeps the
+/// linear values as they are. Throws OutputError as format_of does.
+inline bool needs_display(const std::filesystem::path& path) {
+    return format_of(path) != Format::exr;
+}
+
+/// Writes an image; the extension chooses the format (encode.hpp). The transform may be empty unless needs_display.
+/// "{plane}" in the name of an EXR file makes a file for each plane, with the plane's name in its place (layers.hpp).
+/// If one of these cannot be written, the others still are. The file appears complete or not at all, like any file of
+/// write_file (file.hpp). Throws OutputError; then an existing file is untouched and no temporary is left.
 void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
-                 const DisplayTransform& transform);
+                 const std::optional<DisplayTransform>& transform);
 
 /// Throws the OutputError that write_image would, as far as it can be known before there is an image: to be called
 /// before an hour of rendering. Leaves the directory as it was.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/srgb.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -114,8 +116,7 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
 
 std::array<int, 3> shown_color(const Look& look) {
     const glm::vec3 c = look.kind == Look::clear ? glm::exp(-0.3f * look.absorption) : look.color;
-    const auto byte = [](float v) { return static_cast<int>(255 * std::pow(std::clamp(v, 0.f, 1.f), 1 / 2.2f)); };
-    return {byte(c.x), byte(c.y), byte(c.z)};
+    return {srgb_code(c.x), srgb_code(c.y), srgb_code(c.z)};
 }
 
 }  // namespace phasetree::tracer

@@ -24,8 +24,8 @@ struct Look {
 /// Of a phase's material in an object of these bounds.
 Look look_of(const std::string& name, const Material&, const Bounds&);
 
-/// The colour of a swatch of it, from 0 to 255 as screens take them. Of what is clear, how 0.3 units of length of it
-/// look.
+/// The colour of a swatch of it, as sRGB codes from 0 to 255. A clear phase has the colour of light that has passed 0.3
+/// units of length of it.
 std::array<int, 3> shown_color(const Look&);
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,7 @@
 // The readers of a scene's parts. All throw SceneError.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "phasetree/io/document.hpp"
@@ -10,6 +11,8 @@
 namespace phasetree::tracer {
 
 Material read_material(const Document& document, Value value);
+// The materials of all phases, the vacuum first. Phases that are given none have nothing.
+std::vector<std::optional<Material>> read_materials(const Document& document);
 // Without clusters: lamps may still be added.
 Lights read_lights(const Document& document, Value root);
 // Sets the pixel filter of the film, too.

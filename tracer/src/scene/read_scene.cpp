@@ -72,17 +72,21 @@ Material read_phase_material(const Document& document, Value phase) {
     return material;
 }
 
-// Adds a phase's material, unless the voxels of all would be more than a machine may hold.
-void add_material(const Document& document, Value phase, Scene& scene) {
-    constexpr std::size_t most_bytes_of_voxels = std::size_t{4} << 30;
-    scene.materials.push_back(read_phase_material(document, phase));
-    std::size_t bytes = 0;
-    for (const Material& material : scene.materials)
+// Counts the voxels of materials, of which all together must fit into a machine's memory.
+class VoxelBytes {
+  public:
+    // Throws SceneError at the phase whose material is too much.
+    void add(const Document& document, Value phase, const Material& material) {
+        constexpr std::size_t most = std::size_t{4} << 30;
         if (const Clear* clear = std::get_if<Clear>(&material))
-            if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes += varying->bytes();
-    if (bytes > most_bytes_of_voxels)
-        throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
-}
+            if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes_ += varying->bytes();
+        if (bytes_ > most)
+            throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
+    }
+
+  private:
+    std::size_t bytes_ = 0;
+};
 
 void refuse_places_of_nothing(const Document& document) {
     for (const char* const part : {"instances", "groups"})
@@ -121,11 +125,11 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         for (const Value phase : *parts.phases) materials.push_back({document, phase});
     }
     scene.materials.push_back(vacuum());
-    for (const auto& [source, material] : materials) {
-        if (must_be_whole(parts, purpose) || material.is_object())
-            add_material(source, material, scene);
-        else
-            scene.materials.push_back(vacuum());
+    VoxelBytes voxels;
+    for (const auto& [source, phase] : materials) {
+        const bool has_material = must_be_whole(parts, purpose) || phase.is_object();
+        scene.materials.push_back(has_material ? read_phase_material(source, phase) : vacuum());
+        voxels.add(source, phase, scene.materials.back());
     }
 }
 
@@ -199,6 +203,24 @@ PhaseSet opaque_phases(const std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (!is_clear(materials[i])) opaque = opaque | PhaseSet::of(Phase{static_cast<std::uint8_t>(i)});
     return opaque;
+}
+
+std::vector<std::optional<Material>> read_materials(const Document& document) {
+    std::vector<std::optional<Material>> materials{vacuum()};
+    VoxelBytes voxels;
+    const auto add = [&](const Document& source, Value phase) {
+        std::optional<Material>& material = materials.emplace_back();
+        if (!phase.is_object()) return;
+        material = read_phase_material(source, phase);
+        voxels.add(source, phase, *material);
+    };
+    if (has_objects(document)) {
+        for (const auto& source : read_placed_objects(document).materials) add(source.document, source.material);
+    } else {
+        ObjectReader root(document, document.root(), "the scene");
+        for (const Value phase : needed(root, &FileParts::phases)) add(document, phase);
+    }
+    return materials;
 }
 
 }  // namespace phasetree::tracer
