@@ -6,6 +6,7 @@
 #include "scene/file_parts.hpp"
 #include "scene/glowing.hpp"
 #include "scene/image_parameters.hpp"
+#include "scene/meshes_alone.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/read_parts.hpp"
 
@@ -105,6 +106,11 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         return;
     }
     refuse_places_of_nothing(document);
+    if (has_meshes_alone(document)) {
+        scene.object = object_beside_meshes_alone();
+        scene.materials.push_back(vacuum());
+        return;
+    }
     SceneTree tree = read_tree(document, file_readers(), places);
     scene.phases = std::move(tree.phases);
     scene.object = with_bounds(tree.object);
@@ -135,6 +141,7 @@ SceneModel read_scene_model(const Document& document) {
         return {std::move(model.phases), {}, std::move(model.placed)};
     }
     refuse_places_of_nothing(document);
+    refuse_meshes_alone(document);
     SceneTree tree = read_tree(document, file_readers());
     return {std::move(tree.phases), std::move(tree.object), {}};
 }
@@ -176,8 +183,14 @@ SceneModel read_scene_without_camera(const Document& document) {
     const FileParts parts = parts_of(root);
     check_schema(document, parts);
     if (parts.version) check_version(document, *parts.version);
-    SceneModel model = read_scene_model(document);
-    (void)opaque_phases(document);
+    SceneModel model;
+    if (has_meshes_alone(document)) {
+        refuse_places_of_nothing(document);
+        model.object = object_beside_meshes_alone();
+    } else {
+        model = read_scene_model(document);
+        (void)opaque_phases(document);
+    }
     (void)read_lights(document, document.root());
     if (parts.meshes) (void)read_meshes(document, *parts.meshes);
     FilmSettings unused;
