@@ -263,5 +263,8 @@ VoxelGrid numbers_of_openvdb(const std::filesystem::path& path, const std::strin
 bool can_read_openvdb() {
     return true;
 }
+std::string openvdb_version() {
+    return OPENVDB_LIBRARY_VERSION_STRING;
+}
 
 }  // namespace phasetree::tracer

@@ -204,7 +204,7 @@ PHASETREE_API PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geome
  *
  * PHASETREE_ERROR_CELLS_FILE  there is no such file; it is something else, or damaged (its size, its checksums and all
  *                             indices in it are looked at); or its cells are those of another tree, of other options,
- *                             of another version of the library or for another kind of machine. The message says which.
+ *                             of another build of the library or for another kind of machine. The message says which.
  *                             Build then, and write the file anew.
  *
  * The file is for the machine's processor architecture and byte order; its instruction set (SSE2 … AVX-512) does not
