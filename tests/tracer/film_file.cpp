@@ -19,7 +19,7 @@ namespace {
 
 FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
     FilmFileHeader h;
-    h.settings = {{"version", "1.2.3"}, {"scene", "0123"}, {"seed", "4"}};
+    h.settings = {{"version", "1.2.3+aa"}, {"commit", "12ab"}, {"scene", "0123"}, {"seed", "4"}};
     h.film = settings;
     h.subjects = {{"vacuum", "gläss", ""}, {"lamp"}, {"object", "floor"}};
     h.area = h.shown = area;
@@ -114,10 +114,21 @@ TEST_CASE("a film with all planes is read as it was written, and says what it is
 TEST_CASE("what differs is named") {
     const FilmFileHeader wanted = header_of({.width = 8, .height = 8}, {0, 0, 8, 8});
     FilmFileHeader found = wanted;
-    found.settings[0].second = "1.2.4";
-    CHECK(difference(wanted, found) == "it was written by phasetree 1.2.4, not 1.2.3");
+    found.settings[0].second = "1.2.3+bb";
+    found.settings[1].second = "34cd with changes";
+    CHECK(difference(wanted, found) ==
+          "it was rendered by phasetree 1.2.3+bb (commit 34cd with changes), not by phasetree 1.2.3+aa (commit 12ab); "
+          "render all samples of a picture with the same build");
+    found.settings[0].second = "1.2.2\n";
+    found.settings.erase(found.settings.begin() + 1);  // as older versions wrote it
+    CHECK(difference(wanted, found) ==
+          "it was rendered by phasetree 1.2.2?, not by phasetree 1.2.3+aa (commit 12ab); render all samples of a "
+          "picture with the same build");
     found = wanted;
-    found.settings[2].second = "5\n\x1b[2J";
+    found.settings[1].second = "";  // an archive of the same sources
+    CHECK(difference(wanted, found) == "");
+    found = wanted;
+    found.settings[3].second = "5\n\x1b[2J";
     CHECK(difference(wanted, found) == "it has seed 5??[2J, not 4");
     found = wanted;
     found.settings.pop_back();

@@ -15,4 +15,8 @@ bool can_read_fonts() {
     return false;
 }
 
+std::string harfbuzz_version() {
+    return "";
+}
+
 }  // namespace phasetree::tracer

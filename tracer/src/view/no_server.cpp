@@ -9,6 +9,10 @@ bool can_serve() {
     return false;
 }
 
+std::string server_library() {
+    return "";
+}
+
 void serve(Session&, const ServeOptions&) {
     throw std::logic_error("this build cannot serve pages");
 }

@@ -217,6 +217,10 @@ bool can_serve() {
     return true;
 }
 
+std::string server_library() {
+    return "cpp-httplib " CPPHTTPLIB_VERSION;
+}
+
 void serve(Session& session, const ServeOptions& options) {
     Server server;
     server.new_task_queue = [] { return new Workers; };

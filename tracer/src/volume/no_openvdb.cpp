@@ -27,5 +27,8 @@ PlacedVoxels numbers_of_openvdb(const std::filesystem::path&, const std::string&
 bool can_read_openvdb() {
     return false;
 }
+std::string openvdb_version() {
+    return "";
+}
 
 }  // namespace phasetree::tracer

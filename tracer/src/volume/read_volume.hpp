@@ -48,5 +48,7 @@ std::vector<std::filesystem::path> layers_of_stack(const std::filesystem::path& 
 
 // Whether this program was built with OpenVDB.
 bool can_read_openvdb();
+/// OpenVDB's version; empty if this program was built without it.
+std::string openvdb_version();
 
 }  // namespace phasetree::tracer

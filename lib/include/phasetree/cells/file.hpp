@@ -16,7 +16,7 @@ class CellsFileError : public std::runtime_error {
         missing,    ///< there is no such file
         unusable,   ///< it cannot be opened, read or written
         foreign,    ///< it is not a file of cells
-        differing,  ///< it is of another object, other options, another version of the library or another machine
+        differing,  ///< it is of another object, other options, another build of the library or another machine
         damaged     ///< it is too short or long, or was changed since it was written
     };
     CellsFileError(Reason reason, const std::filesystem::path&, const std::string& what);
@@ -35,7 +35,7 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 /// Reads the cells of an object. They are to the last bit those that InterfaceCells(object, options) would build; the
 /// functions of the options are not called. The file says of which object it is (by its recorded program: names and
 /// materials do not matter), with which resolution, quality, divisions, limit of memory and opaque phases it was built,
-/// by which version of the library and for which kind of machine; it is rejected if any of these differs. A file whose
+/// by which build of the library and for which kind of machine; it is rejected if any of these differs. A file whose
 /// size or checksums are wrong is rejected before anything of its size is allocated, and so is one with an index that
 /// is out of range.
 ///

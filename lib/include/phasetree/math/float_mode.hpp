@@ -2,6 +2,8 @@
 
 #if defined(__SSE__) || defined(_M_X64)
 #include <xmmintrin.h>
+#elif defined(__aarch64__)
+#include <cstdint>
 #endif
 
 namespace phasetree {
@@ -9,6 +11,9 @@ namespace phasetree {
 /// While an object of this class lives, its thread takes subnormal numbers for zero, as operands and as results,
 /// because they cost time and carry no information in a distance. Every task that traces rays must hold one, so that
 /// all threads compute alike.
+///
+/// x86-64 and arm64 differ in one case: a result that is subnormal before it is rounded, and the least normal number
+/// afterwards. Only arm64 flushes it to zero.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)
@@ -23,8 +28,24 @@ class FlushSubnormals {
     unsigned before_;
 
   public:
+#elif defined(__aarch64__)
+    FlushSubnormals() {
+        asm volatile("mrs %0, fpcr" : "=r"(before_));
+        set(before_ | std::uint64_t{1} << 24);  // FZ
+    }
+    ~FlushSubnormals() {
+        set(before_);
+    }
+
+  private:
+    static void set(std::uint64_t mode) {
+        asm volatile("msr fpcr, %0" : : "r"(mode) : "memory");
+    }
+    std::uint64_t before_;
+
+  public:
 #else
-    FlushSubnormals() = default;
+    FlushSubnormals() {}  // not defaulted, or every object would be an unused variable
 #endif
     FlushSubnormals(const FlushSubnormals&) = delete;
     FlushSubnormals& operator=(const FlushSubnormals&) = delete;
