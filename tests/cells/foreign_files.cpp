@@ -1,4 +1,4 @@
-// Files that hold no cells, or not those that are asked for, are refused for that reason.
+// Files that hold no cells, or not those that are asked for, are rejected for that reason.
 #include <sys/stat.h>
 
 #include "cells/cells_files.hpp"
@@ -10,7 +10,7 @@ namespace test_foreign_files {
 using namespace phasetree;
 using namespace phasetree::tests;
 
-TEST_CASE("a file of other cells is refused, and says in what it differs") {
+TEST_CASE("a file of other cells is rejected, and says in what it differs") {
     const Written w;
     std::string message;
     const auto expect = [&](const Phased& object, const CellOptions& options, const char* part) {

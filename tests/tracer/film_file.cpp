@@ -74,7 +74,7 @@ struct Written {
         film.add(film_of(header));
         write_film(path, header, film);
     }
-    // The message with which a file of these bytes is refused, or nothing.
+    // The message with which a file of these bytes is rejected, or nothing.
     std::string refusal(const std::string& of) const {
         support::write_text(path, of);
         try {
@@ -139,7 +139,7 @@ TEST_CASE("what differs is named") {
     CHECK(difference(wanted, found) == "it is of another picture");
 }
 
-TEST_CASE("wherever a file ends too early, it is refused") {
+TEST_CASE("wherever a file ends too early, it is rejected") {
     const Written written(header_of({.width = 5, .height = 20, .planes = Planes::all()}, {0, 0, 5, 20}));
     for (std::size_t count = 0; count < written.bytes.size(); count += count < 400 ? 1 : 17) {
         CAPTURE(count);
@@ -151,7 +151,7 @@ TEST_CASE("wherever a file ends too early, it is refused") {
     CHECK(written.refusal(written.bytes) == "");
 }
 
-TEST_CASE("whichever byte is another one, the file is refused") {
+TEST_CASE("whichever byte is another one, the file is rejected") {
     const Written written(header_of({.width = 5, .height = 20, .planes = Planes::all()}, {0, 0, 5, 20}));
     Uniform random(1);
     for (std::size_t at = 0; at < written.bytes.size(); at += at < 400 || at + 200 > written.bytes.size() ? 1 : 13) {

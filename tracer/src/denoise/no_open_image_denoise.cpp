@@ -1,4 +1,4 @@
-// In place of open_image_denoise.cpp where the library is not there.
+// Instead of open_image_denoise.cpp where the library is not there.
 #include "denoise/open_image_denoise.hpp"
 
 namespace phasetree::tracer {

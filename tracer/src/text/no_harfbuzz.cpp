@@ -1,4 +1,4 @@
-// What stands in for harfbuzz.cpp where the library is missing.
+// What replaces harfbuzz.cpp where the library is missing.
 #include <stdexcept>
 
 #include "text/read_text.hpp"

@@ -1,4 +1,4 @@
-// In place of server.cpp in a build without cpp-httplib.
+// Instead of server.cpp in a build without cpp-httplib.
 #include "view/server.hpp"
 
 #include <stdexcept>

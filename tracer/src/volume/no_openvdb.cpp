@@ -1,4 +1,4 @@
-// What stands in for openvdb.cpp where the library is missing.
+// What replaces openvdb.cpp where the library is missing.
 #include <stdexcept>
 
 #include "volume/formats.hpp"
