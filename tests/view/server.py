@@ -545,6 +545,12 @@ class Refusals(unittest.TestCase):
 
 
 class Ends(unittest.TestCase):
+    def test_a_signal_ends_it_as_soon_as_the_address_is_there(self):
+        # The thread that listens may not have begun to.
+        for _ in range(20):
+            with View() as view:
+                self.assertEqual(view.end(signal.SIGTERM), 0)
+
     def test_it_ends_while_requests_are_open(self):
         with View() as view:
             state = view.ready().state

@@ -23,6 +23,10 @@ def view(arguments: list[str]) -> int:
     with subprocess.Popen([COMMAND, *words, "--width", "24"], stdout=subprocess.PIPE, text=True) as process:
         address = process.stdout.readline()
         process.terminate()
+        try:
+            process.wait(timeout=30)
+        except subprocess.TimeoutExpired:
+            process.kill()
     return 0 if "http://127.0.0.1" in address else 1
 
 

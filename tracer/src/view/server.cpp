@@ -252,13 +252,19 @@ void serve(Session& session, const ServeOptions& options) {
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
         Answers::refuse(response, 500, "this cannot be answered: memory may have run out");
     });
-    std::thread listening([&] { server.listen_after_bind(); });
+    std::atomic<bool> has_ended{false};
+    std::thread listening([&] {
+        server.listen_after_bind();
+        has_ended = true;
+    });
     options.serving(access.url());
     while (!options.is_over()) {
         session.look_at_files();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     session.stop();
+    // Before the thread listens, stop() does nothing, and join() would wait forever.
+    while (!server.is_running() && !has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server.stop();
     server.end_connections();
     listening.join();
