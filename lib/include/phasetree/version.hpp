@@ -2,7 +2,7 @@
 
 namespace phasetree {
 
-/// The library's version, "major.minor.patch". The string lives as long as the program.
+/// The library's version, "major.minor.patch". The string is valid for the lifetime of the program.
 const char* version();
 
 }  // namespace phasetree
