@@ -6,9 +6,9 @@
 
 namespace phasetree {
 
-/// While an object of this class lives, its thread takes subnormal numbers for zero, as operands and as results,
-/// because they cost time and carry no information in a distance. Every task that traces rays must hold one, so that
-/// all threads compute alike.
+/// Makes its thread treat subnormal numbers as zero, as operands and as results, for the lifetime of the object.
+/// Subnormals are slow, and carry no information in a distance. Every task that traces rays must hold one, so that all
+/// threads compute the same results.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)
