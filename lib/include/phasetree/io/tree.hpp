@@ -59,7 +59,7 @@ SirenNetwork read_siren(const std::filesystem::path&);
 ///     "tree":   {"under": [{"set": {"phase": "glass", "of": "bulb"}}, …]}
 ///
 /// A node is an object with one member: the node's name and its parameters. A node whose only required parameter is a
-/// list of children or a text accepts that value in place of the parameters. A string is a named shape. A phase is a
+/// list of children or a text accepts that value instead of the parameters. A string is a named shape. A phase is a
 /// string, a set of phases a list of strings.
 ///
 /// Files are resolved relative to the scene file's folder. `places`, if given, receives the position of every node.
