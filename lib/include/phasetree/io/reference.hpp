@@ -32,8 +32,8 @@ struct KindPage {
     /// Path of the example without extension; may be empty. The picture has the extension .jpg, its scene .json.
     std::string example;
     std::vector<ParameterPage> parameters;
-    bool list_alone =
-        false;  ///< the only required parameter is a list or a text, which may replace the object of parameters
+    /// Whether the only required parameter is a list or a text, which may be written instead of the parameters.
+    bool list_alone = false;
 };
 
 struct Chapter {

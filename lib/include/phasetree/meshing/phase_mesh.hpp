@@ -73,8 +73,8 @@ inline constexpr int most_cubes_along = 1024;
 
 /// Mesh the interfaces within the bounds.
 ///
-/// bounds   must contain everything that is not vacuum.
-/// lines    called from many threads.
+/// bounds  must contain everything that is not vacuum.
+/// lines   called from many threads at once.
 ///
 /// Uses all threads of TBB's arena; the mesh does not depend on their number. Labels take one byte per point of the
 /// grid, 1.1 GB for the finest grid.

@@ -48,9 +48,8 @@ class InterfaceTracer {
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in; by default, the label at the start. If the label at the start
     ///               differs from the carried phase by more than rounding explains, there is a crossing at the start.
-    /// counters      optional; added to.
     ///
-    /// Returns nullopt if there is no crossing.
+    /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,
                                            float t_max, std::optional<Phase> carried, Evaluator::Workspace&,
                                            TraceCounters* = nullptr) const;

@@ -4,8 +4,7 @@
 
 namespace phasetree {
 
-/// g = sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z
-///
+///     g = sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z
 ///       = sin x cos A + cos x sin B,  A = y − z, B = y + z.
 ///
 /// With s = |sin x|, c = |cos x|, a = |cos A|, b = |sin B|: (∂g/∂x)² = (cos x cos A − sin x sin B)² ≤ (ca + sb)², and
