@@ -64,7 +64,7 @@ nlohmann::ordered_json machine() {
             {"cores", std::thread::hardware_concurrency()},
             {"load", load},
             {"simd", simd_target()},
-            {"version", std::string(version())}};
+            {"version", std::string(build_id())}};
 }
 
 // "640x480"

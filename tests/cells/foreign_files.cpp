@@ -1,4 +1,4 @@
-// Files that hold no cells, or not those that are asked for, are refused for that reason.
+// Files that hold no cells, or not those that are asked for, are rejected for that reason.
 #include <sys/stat.h>
 
 #include "cells/cells_files.hpp"
@@ -10,7 +10,7 @@ namespace test_foreign_files {
 using namespace phasetree;
 using namespace phasetree::tests;
 
-TEST_CASE("a file of other cells is refused, and says in what it differs") {
+TEST_CASE("a file of other cells is rejected, and says in what it differs") {
     const Written w;
     std::string message;
     const auto expect = [&](const Phased& object, const CellOptions& options, const char* part) {
@@ -35,7 +35,7 @@ TEST_CASE("a file of other cells is refused, and says in what it differs") {
         CAPTURE(message);
         CHECK(message.find(part) != std::string::npos);
     };
-    with([](CellsFileHeader& h) { h.library = {'9', '.', '9', '\n'}; }, "version 9.9? of the library");
+    with([](CellsFileHeader& h) { h.library = {'9', '.', '9', '\n'}; }, "written by phasetree 9.9?, and this is ");
     with([](CellsFileHeader& h) { h.machine = {'p', 'd', 'p', '1', '1'}; }, "written for pdp11");
     with([](CellsFileHeader& h) { h.layout += 1; }, "other nodes");
     with([](CellsFileHeader& h) { h.format += 1; }, "format is version 2");

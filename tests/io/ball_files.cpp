@@ -70,7 +70,7 @@ TEST_CASE("balls are read from PLY, of words and of numbers in either order of b
     }
 }
 
-TEST_CASE("files that hold no balls are refused, with the place or the row") {
+TEST_CASE("files that hold no balls are rejected, with the place or the row") {
     const Files files(read_balls);
     CHECK(said_of(files, "a.csv", "") == "has no lines");
     // More tables, and more mistakes in them, are in tests/command/tables.cpp.

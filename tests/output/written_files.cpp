@@ -142,7 +142,7 @@ TEST_CASE("a full disk leaves the old file and no other") {
     CHECK(folder.size() == names.size());
 }
 
-TEST_CASE("a file of any kind is written whole or not at all, and never in place of what is no file") {
+TEST_CASE("a file of any kind is written whole or not at all, and never instead of what is no file") {
     const TemporaryDirectory folder;
     write_text(folder / "numbers", "precious");
     std::string message;

@@ -43,6 +43,10 @@ class ListOfNodes(unittest.TestCase):
                     if p["optional"] and p["type"] == "number":
                         self.assertEqual(argument.default, json.loads(p["default"]))
 
+    def test_build_is_that_of_the_command(self):
+        self.assertEqual(run("--version").splitlines()[0], f"phasetree {pt.build_id}")
+        self.assertTrue(pt.build_id.startswith(pt.__version__ + "+"))
+
     def test_names_do_not_clash(self):
         nodes = set(_trees.functions)
         for module in ("materials",):

@@ -140,6 +140,23 @@ class Files(unittest.TestCase):
         scene.save(self.folder / "small.json")
         self.assertEqual(pt.load(self.folder / "small.json"), scene)
 
+    def test_a_scene_may_have_meshes_alone(self):
+        scene = pt.Scene(
+            meshes=pt.meshes.floor(pt.diffuse((0.5, 0.5, 0.5)), height=0),
+            camera=pt.camera((0, -5, 1), (0, 0, 0)),
+            lights=pt.lights.gradient(zenith=(1, 1, 1), horizon=(0.5, 0.5, 0.5), ground=(0.2, 0.2, 0.2)),
+            image=pt.image(width=8, height=6, samples=1),
+        )
+        self.assertIn("no object", repr(scene))
+        scene.save(self.folder / "meshes.json")
+        run("check", self.folder / "meshes.json")
+        again = pt.load(self.folder / "meshes.json")
+        self.assertEqual(again, scene)
+        self.assertIsNone(again.object)
+        self.assertGreater(again.render().pixels.min(), 0)
+        with self.assertRaisesRegex(pt.Error, "meshes alone"):
+            scene.with_(meshes=())
+
     def test_a_medium_s_density_and_temperature_are_voxels(self):
         for i in (1, 2):
             (self.folder / f"layer_{i}.pgm").write_bytes(b"P5 2 1 255\n\x40\xff")

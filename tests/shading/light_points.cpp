@@ -1,9 +1,11 @@
 // Lights without an extent, photometric files, and portals.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "light_checks.hpp"
 #include "lights/lights.hpp"
@@ -174,6 +176,44 @@ TEST_CASE("photometric files: what is wrong is said with its line") {
     CHECK(problem_of(file).empty());
     // Tilts of the lamp are read over.
     CHECK(problem_of(replaced(file, "TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9")).empty());
+}
+
+TEST_CASE("photometric files: the headings of all standards are read, however TILT is written and lines end") {
+    const std::string numbers = file.substr(file.find("1 1000"));
+    const std::string include = "\n1\n2\n0 90\n1 0.9\n";
+    const std::vector<std::string> headings{"",
+                                            "A LUMINAIRE, 1986\nTILT of the lamp: none\n\n",
+                                            "IESNA91\n[TEST] 1\n[MANUFAC] A. Smith\n[MORE] TILT=INCLUDE\n",
+                                            "IESNA:LM-63-1995\n[TEST] 1\n[BLOCK]\n[ENDBLOCK]\n",
+                                            "IESNA:LM-63-2002\n[TEST] 1\n_TILT=3\n",
+                                            "IES:LM-63-2019\n[TEST] 1\n",
+                                            "iesna:lm-63-2002\n[test] 1\n"};
+    const std::vector<std::string> tilts{"TILT=NONE\n",
+                                         "Tilt=None\n",
+                                         "tilt=none\n",
+                                         "TILT = NONE\n",
+                                         " \tTILT\t= NONE \n",
+                                         "TILT= none  \n",
+                                         "TILT=NONE\n\n",
+                                         "TILT=INCLUDE" + include,
+                                         "tilt = Include " + include};
+    for (const std::string& heading : headings)
+        for (const std::string& tilt : tilts)
+            for (const std::string end : {"\n", "\r\n", "\r"})
+                for (const std::string mark : {"", "\xef\xbb\xbf"}) {
+                    std::string text = mark;
+                    for (const char c : heading + tilt + numbers) text += c == '\n' ? end : std::string(1, c);
+                    CAPTURE(text);
+                    CHECK(problem_of(text) == "");
+                    CHECK((problem_of(text) != "" || IesProfile(text).greatest_candelas() == 200.0));
+                    // The line is told whatever lines end with.
+                    const auto lines = std::ranges::count(heading + tilt, '\n');
+                    CHECK(problem_of(replaced(text, "1 1000", "one 1000")) ==
+                          "line " + std::to_string(lines + 1) + ": the number of lamps should be a number");
+                }
+    CHECK(problem_of(replaced(file, "TILT=NONE", "TILT NONE")).starts_with("there is no line TILT="));
+    CHECK(problem_of(replaced(file, "TILT=NONE", "TILTED=NONE")).starts_with("there is no line TILT="));
+    CHECK(problem_of(replaced(file, "TILT=NONE", "tilt = lamp.tlt")).starts_with("line 3: TILT should be NONE or"));
 }
 
 TEST_CASE("photometric files: random changes give a light or a reason") {

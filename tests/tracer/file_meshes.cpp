@@ -115,7 +115,7 @@ TEST_CASE("corners of STL files that differ by rounding have one normal") {
     CHECK(apart.mesh().vertices.size() == 6);
 }
 
-TEST_CASE("a file of another kind, or of none, is refused with a hint") {
+TEST_CASE("a file of another kind, or of none, is rejected with a hint") {
     const auto said = [](const std::string& kind, const std::string& file) {
         try {
             (void)scene_of(R"("a": {"diffuse": {"color": [1, 1, 1]}})", far_away,

@@ -19,7 +19,7 @@ namespace {
 
 FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
     FilmFileHeader h;
-    h.settings = {{"version", "1.2.3"}, {"scene", "0123"}, {"seed", "4"}};
+    h.settings = {{"version", "1.2.3+aa"}, {"commit", "12ab"}, {"scene", "0123"}, {"seed", "4"}};
     h.film = settings;
     h.subjects = {{"vacuum", "gläss", ""}, {"lamp"}, {"object", "floor"}};
     h.area = h.shown = area;
@@ -74,7 +74,7 @@ struct Written {
         film.add(film_of(header));
         write_film(path, header, film);
     }
-    // The message with which a file of these bytes is refused, or nothing.
+    // The message with which a file of these bytes is rejected, or nothing.
     std::string refusal(const std::string& of) const {
         support::write_text(path, of);
         try {
@@ -114,10 +114,21 @@ TEST_CASE("a film with all planes is read as it was written, and says what it is
 TEST_CASE("what differs is named") {
     const FilmFileHeader wanted = header_of({.width = 8, .height = 8}, {0, 0, 8, 8});
     FilmFileHeader found = wanted;
-    found.settings[0].second = "1.2.4";
-    CHECK(difference(wanted, found) == "it was written by phasetree 1.2.4, not 1.2.3");
+    found.settings[0].second = "1.2.3+bb";
+    found.settings[1].second = "34cd with changes";
+    CHECK(difference(wanted, found) ==
+          "it was rendered by phasetree 1.2.3+bb (commit 34cd with changes), not by phasetree 1.2.3+aa (commit 12ab); "
+          "render all samples of a picture with the same build");
+    found.settings[0].second = "1.2.2\n";
+    found.settings.erase(found.settings.begin() + 1);  // as older versions wrote it
+    CHECK(difference(wanted, found) ==
+          "it was rendered by phasetree 1.2.2?, not by phasetree 1.2.3+aa (commit 12ab); render all samples of a "
+          "picture with the same build");
     found = wanted;
-    found.settings[2].second = "5\n\x1b[2J";
+    found.settings[1].second = "";  // an archive of the same sources
+    CHECK(difference(wanted, found) == "");
+    found = wanted;
+    found.settings[3].second = "5\n\x1b[2J";
     CHECK(difference(wanted, found) == "it has seed 5??[2J, not 4");
     found = wanted;
     found.settings.pop_back();
@@ -128,7 +139,7 @@ TEST_CASE("what differs is named") {
     CHECK(difference(wanted, found) == "it is of another picture");
 }
 
-TEST_CASE("wherever a file ends too early, it is refused") {
+TEST_CASE("wherever a file ends too early, it is rejected") {
     const Written written(header_of({.width = 5, .height = 20, .planes = Planes::all()}, {0, 0, 5, 20}));
     for (std::size_t count = 0; count < written.bytes.size(); count += count < 400 ? 1 : 17) {
         CAPTURE(count);
@@ -140,7 +151,7 @@ TEST_CASE("wherever a file ends too early, it is refused") {
     CHECK(written.refusal(written.bytes) == "");
 }
 
-TEST_CASE("whichever byte is another one, the file is refused") {
+TEST_CASE("whichever byte is another one, the file is rejected") {
     const Written written(header_of({.width = 5, .height = 20, .planes = Planes::all()}, {0, 0, 5, 20}));
     Uniform random(1);
     for (std::size_t at = 0; at < written.bytes.size(); at += at < 400 || at + 200 > written.bytes.size() ? 1 : 13) {

@@ -172,7 +172,7 @@ TEST_CASE("a JPEG file is asked for its size before anything is decoded") {
             REQUIRE(good.values.size() == 256);
             CHECK(good.values[100] == doctest::Approx(128 / 255.0));
         }
-        // Without tables it cannot be decoded, and is refused by its size all the same.
+        // Without tables it cannot be decoded, and is rejected by its size all the same.
         const Jpeg huge{.width = 65500, .height = 65500, .has_tables = false};
         const Read refused = read(huge.bytes(), file);
         CHECK(refused.error == "it is not wanted");
@@ -183,7 +183,7 @@ TEST_CASE("a JPEG file is asked for its size before anything is decoded") {
     }
 }
 
-TEST_CASE("a JPEG file of very many scans is refused") {
+TEST_CASE("a JPEG file of very many scans is rejected") {
     CHECK(read(Jpeg{.scans = 100}.bytes()).error == "");
     for (const bool is_progressive : {false, true})
         for (const char* const file : places)
@@ -191,7 +191,7 @@ TEST_CASE("a JPEG file of very many scans is refused") {
                   "it has more than a hundred scans; save it as a JPEG of one scan");
 }
 
-TEST_CASE("a JPEG file that is cut off is refused, wherever that is") {
+TEST_CASE("a JPEG file that is cut off is rejected, wherever that is") {
     for (const bool is_progressive : {false, true}) {
         const std::string whole = Jpeg{.is_progressive = is_progressive, .scans = 2}.bytes();
         for (std::size_t n = 2; n < whole.size(); ++n) {

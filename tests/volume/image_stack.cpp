@@ -137,10 +137,10 @@ TEST_CASE("labels of any other kind of integers are what they were") {
     }
 }
 
-TEST_CASE("what is no stack is refused, with the image and what is wrong") {
+TEST_CASE("what is no stack is rejected, with the image and what is wrong") {
     Stack stack;
     CHECK(stack.said_of("no_###.png") ==
-          "cannot use the labels \"no_###.png\": there is no file of such a name with digits in place of #");
+          "cannot use the labels \"no_###.png\": there is no file of such a name with digits instead of #");
     CHECK(stack.said_of("nowhere/no_###.png").find("there is no file of such a name") != std::string::npos);
     CHECK(stack.said_of("a_##_##.png") ==
           "cannot use the labels \"a_##_##.png\": the # in its name must stand side by side, for one number");
@@ -230,7 +230,7 @@ TEST_CASE("numbers of a stack stand about the origin, the first row at the large
     CHECK(of_floats(1, 0, 0) == 12.5f);
 }
 
-TEST_CASE("what a stack of numbers is refused for") {
+TEST_CASE("what a stack of numbers is rejected for") {
     Stack stack;
     stack.write<unsigned char>("rgb.png", 2, 2, Bytes(12), 3);
     stack.write<unsigned char>("b_1.png", 2, 2, Bytes(4));
@@ -369,7 +369,7 @@ TEST_CASE("labels with and without a palette stand in one stack, filtered and co
     CHECK(grid.numbers[grid.voxels[0]] == 255);
 }
 
-TEST_CASE("files with a palette that are damaged, or claim too much, are refused") {
+TEST_CASE("files with a palette that are damaged, or claim too much, are rejected") {
     Stack stack;
     const std::string whole = palette_png(9, 9, 4, false, Bytes(81, 3));
     for (std::size_t n = 26; n < whole.size(); ++n) {

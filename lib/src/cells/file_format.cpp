@@ -106,7 +106,7 @@ CellsFileHeader header_of(const Program& program, std::size_t own_constants, con
     h.magic = CellsFileHeader::known_magic;
     h.format = CellsFileHeader::known_format;
     h.byte_order = CellsFileHeader::own_byte_order;
-    h.library = as_chars(version());
+    h.library = as_chars(build_id());
     h.machine = as_chars(machine());
     h.layout = layout_of_tables();
     h.program = fingerprint(program, own_constants);

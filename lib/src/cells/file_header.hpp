@@ -28,7 +28,7 @@ struct CellsFileHeader {
 
     std::array<char, 8> magic;
     std::uint32_t format, byte_order;
-    std::array<char, 24> library;  ///< the version of the library
+    std::array<char, 24> library;  ///< the build of the library: build_id()
     std::array<char, 24> machine;
     std::uint64_t layout;   ///< a hash of what gives the tables their meaning (file_format.cpp)
     std::uint64_t program;  ///< a hash of the object's program

@@ -109,8 +109,9 @@ class CellsReader {
     void require_same(const Header& h, const Header& wanted) const {
         const auto differs = [&](const std::string& what) { return error(Reason::differing, what); };
         if (h.library != wanted.library)
-            throw differs(fmt::format("it was written by version {} of the library, and this is {}", as_text(h.library),
-                                      as_text(wanted.library)));
+            throw differs(
+                fmt::format("it was written by phasetree {}, and this is {}; write the cells again with this build",
+                            as_text(h.library), as_text(wanted.library)));
         if (h.machine != wanted.machine)
             throw differs(fmt::format("it was written for {}, and this is {}", as_text(h.machine), machine()));
         if (h.layout != wanted.layout) throw differs("it was written by a library with other nodes");

@@ -44,10 +44,10 @@ std::array<std::string_view, 3> parts_of(std::string_view corner) {
     return parts;
 }
 
-// In place of the indices of normals, of a face that has none.
+// Instead of the indices of normals, of a face that has none.
 constexpr std::uint32_t no_normal = 0xFFFFFFFF;
 
-// In place of the colour of a vertex that has none: no file has this number.
+// Instead of the colour of a vertex that has none: no file has this number.
 const glm::vec3 no_color(std::numeric_limits<float>::quiet_NaN());
 
 class ObjReader {

@@ -171,8 +171,7 @@ double Ply::read(const Element& element, Type type) {
     const std::size_t count = bytes_of(type);
     if (rest_.size() < count) fail(element, "the file ends too early");
     std::array<char, 8> bytes{};
-    std::copy_n(rest_.begin(), count, bytes.begin());
-    if (format_ == Format::big_endian) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count; ++i) bytes[format_ == Format::big_endian ? count - 1 - i : i] = rest_[i];
     rest_.remove_prefix(count);
     return as_number(bytes, type);
 }

@@ -341,7 +341,8 @@ PhaseNames read_phases(const Document& document, Value root) {
             throw document.error(phase.key_offset(), fmt::format("more than {} phases", Phase::capacity - 1));
         names.names.emplace_back(phase.key());
     }
-    if (names.size() == 0) throw document.error(*phases, "\"phases\" must not be empty");
+    if (names.size() == 0)
+        throw document.error(*phases, "\"phases\" must not be empty; leave it out if the scene has no \"tree\"");
     return names;
 }
 

@@ -45,7 +45,7 @@ inline bool has_local_primitive(const WorkingProgram& program) {
     return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_local; });
 }
 
-/// The program with specialised primitives in place of local ones. Their data are appended to `floats`. Such an
+/// The program with specialised primitives instead of local ones. Their data are appended to `floats`. Such an
 /// instruction (OpTraits::is_specialised) no longer refers to the whole program's constants: its index is `first` plus
 /// the offset in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
 /// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data an offset

@@ -24,6 +24,8 @@ from phasetree._trees import Closest, Crossings, Field, Hits, Object, PhaseMesh
 from phasetree._view import View, view
 
 __version__ = _phasetree.version
+# The version and a hash of the sources, as in the first line of `phasetree --version`.
+build_id = _phasetree.build_id
 
 # The functions that are made from the lists: of nodes, of materials, of the image, and the usual camera.
 nodes = dict(_trees.functions)
@@ -37,7 +39,7 @@ camera = cameras.thin_lens
 
 __all__ = [
     "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
-    "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view", "voxels",
+    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

@@ -6,6 +6,7 @@ from typing import Any, Literal, NamedTuple, Sequence, overload
 import numpy as np
 
 __version__: str
+build_id: str
 
 class Error(ValueError): ...
 

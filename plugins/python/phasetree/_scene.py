@@ -85,6 +85,7 @@ class Image:
 
 class Scene(Value):
     """An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
+    A scene of meshes alone has neither object nor objects.
 
     object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
     a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
@@ -97,8 +98,8 @@ class Scene(Value):
         self, object=None, camera=None, lights=(), meshes=(), background=None, image=None, name="scene", *,
         objects=None, groups=None, instances=(),
     ):  # fmt: skip
-        if (object is None) == (objects is None):
-            raise Error("a scene shows either an object or objects")
+        if (object is None) == (objects is None) and (object is not None or not meshes):
+            raise Error("a scene shows either an object or objects, or meshes alone")
         if object is not None and not isinstance(object, Object):
             raise Error(f"a scene shows an object of phases, but this is {object!r}")
         self.object = object
@@ -107,7 +108,7 @@ class Scene(Value):
             name: _placed.place_lists(places, f'the group "{name}"') for name, places in dict(groups or {}).items()
         }
         self.instances = _placed.place_lists(instances, "instances")
-        if object is not None and (self.groups or self.instances):
+        if objects is None and (self.groups or self.instances):
             raise Error("groups and instances are of objects, which have names: Scene(objects={…}, instances=…)")
         self.phases = object.phases if object is not None else _placed.phases_of(self.objects)
         self.camera = None if camera is None else _part(camera, "Cameras", "a camera")
@@ -125,7 +126,7 @@ class Scene(Value):
 
     def _arguments(self):
         """The arguments that make an equal scene."""
-        shown = ("object",) if self.object is not None else ("objects", "groups", "instances")
+        shown = ("objects", "groups", "instances") if self.objects else ("object",)
         own = ("camera", "lights", "meshes", "background", "image", "name")
         return {name: getattr(self, name) for name in (*shown, *own)}
 
@@ -148,6 +149,8 @@ class Scene(Value):
         if self.object is not None:
             materials = [_material(p) for p in self.phases[1:]]
             return self.object._handle.text(self.object._materials, materials).rstrip()[:-1].rstrip()
+        if not self.objects:
+            return '{"version": 1'
         shapes, objects = _placed.written(self.objects)
         parts = {"version": 1, "phases": {p.name: json.loads(_material(p)) for p in self.phases[1:]}}
         if shapes:
@@ -254,7 +257,8 @@ class Scene(Value):
     __hash__ = None
 
     def __repr__(self):
-        shown = repr(self.object) if self.object is not None else f"{len(self.objects)} objects"
+        count = len(self.objects)
+        shown = repr(self.object) if self.object is not None else f"{count} objects" if count else "no object"
         return f"<Scene of {shown}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
 
 
@@ -367,8 +371,8 @@ def load(path):
     absolute = _phasetree.with_files(text, path, lambda file: os.path.join(folder, file))
     if absolute != text:
         handle, parts = _phasetree.read_text(absolute, path)
-    parts = _with_nodes(parts, list(parts["phases"]))
-    return _scene_of(parts, path, object=Object(handle, _phases_of(parts)))
+    parts = _with_nodes(parts, list(parts.get("phases", ())))
+    return _scene_of(parts, path, object=None if handle is None else Object(handle, _phases_of(parts)))
 
 
 def _scene_of(parts, path, **shown):

@@ -148,7 +148,7 @@ def text():
     """The stub file."""
     out = '"""Written by python3 -m phasetree._stubs from the library\'s lists; see plugins/python/README.md."""\n\n'
     out += "from os import PathLike\nfrom typing import Any, Literal, NamedTuple, Sequence, overload\n\n"
-    out += "import numpy as np\n\n__version__: str\n\n"
+    out += "import numpy as np\n\n__version__: str\nbuild_id: str\n\n"
     out += "class Error(ValueError): ...\n\nclass SceneError(Error):\n    file: str\n    line: int\n    column: int\n"
     out += "    message: str\n    suggestion: str | None\n\n"
     for name in _CLASSES.values():

@@ -35,7 +35,7 @@ def _as_scene(what):
     if isinstance(what, Scene):
         if what.object is not None:
             what = what.with_(object=_with_materials(what.object))
-        else:
+        elif what.objects:
             what = what.with_(objects={n: (_with_materials(o), m) for n, (o, m) in what.objects.items()},
                               groups=what.groups, instances=what.instances)  # fmt: skip
     elif isinstance(what, Object):
@@ -43,7 +43,7 @@ def _as_scene(what):
     else:
         raise Error(f"what is viewed is an object of phases or a scene, but this is {what!r}")
     if what.camera is None and what.object is None:
-        raise Error("a scene of several objects needs a camera to be viewed")
+        raise Error("a scene of several objects, or of meshes alone, needs a camera to be viewed")
     if what.camera is None:
         low, high = np.array(what.object.bounds, dtype=float)
         if not (np.all(np.isfinite(low)) and np.all(low < high)):

@@ -53,6 +53,7 @@ py::list chapters() {
 
 void add_reference(py::module_& module) {
     module.attr("version") = version();
+    module.attr("build_id") = build_id();
     module.def("chapters", &chapters, "The chapters of the reference: all kinds with their parameters.");
 }
 

@@ -14,6 +14,7 @@
 #include "phasetree/io/document.hpp"
 #include "phasetree/io/parameter_type.hpp"
 #include "phasetree/io/tree.hpp"
+#include "scene/meshes_alone.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/reference.hpp"
 #include "scene/scene.hpp"
@@ -58,7 +59,8 @@ py::object as_python(Value value, const Document* document = nullptr) {
     return dict;
 }
 
-// The object, and all else that the scene says but for its tree. A scene that has a camera must be whole.
+// The object, which is None in a scene of meshes alone, and all else that the scene says but for its tree. A scene that
+// has a camera must be whole.
 py::tuple parts_of(const Document& document) {
     SceneTree tree;
     const Value root = document.root();
@@ -73,6 +75,7 @@ py::tuple parts_of(const Document& document) {
     for (const Value part : root)
         if (part.key() != "tree" && part.key() != "shapes" && part.key() != "version")
             rest[py::str(std::string(part.key()))] = as_python(part, &document);
+    if (tracer::has_meshes_alone(document)) return py::make_tuple(py::none(), rest);
     return py::make_tuple(tree.object, rest);
 }
 

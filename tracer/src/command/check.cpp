@@ -12,6 +12,7 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
+#include "scene/meshes_alone.hpp"
 
 namespace phasetree::tracer {
 
@@ -29,6 +30,10 @@ PhaseSet phases_of(const Phased& object, const PlacedObjects& placed) {
 int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
     warn_of_unused_names(document, model.phases, phases_of(model.object, model.placed));
+    if (has_meshes_alone(document)) {
+        put("{}: the meshes are sound, for info; the scene has no \"camera\", so it cannot be rendered\n", shown);
+        return only_a_tree;
+    }
     if (!model.placed.empty()) {
         warn_of_unplaced_groups(document, model.placed);
         warn_of_overlaps(document, model.placed);
@@ -60,6 +65,7 @@ int check(const SceneFile& file) {
     if (scene.settings.view) (void)display_of(document, scene.settings, {}, {}, {});
     warn_of_unused_names(document, scene.phases, phases_of(scene.object, scene.placed));
     warn_of_what_is_not_shown(scene);
+    if (has_meshes_alone(scene)) return 0;
     if (!scene.placed.empty()) {
         warn_of_unplaced_groups(document, scene.placed);
         warn_of_overlaps(document, scene.placed);

@@ -20,7 +20,9 @@ std::vector<std::pair<std::string, std::string>> settings_of(const RenderOptions
     for (std::size_t i = 0; i < Planes::size; ++i)
         if (chosen[i]) planes.push_back(Planes::names[i]);
     std::vector<std::pair<std::string, std::string>> settings{
-        {"version", fmt::format("{} with Embree {}", version(), PHASETREE_EMBREE_MAJOR)},
+        {"version", build_id()},
+        {"commit", source_commit()},
+        {"Embree", fmt::format("{}", PHASETREE_EMBREE_MAJOR)},
         {"scene", fmt::format("{:016x}", fingerprint_showing(document, options.quiet))},
         {"size", fmt::format("{}x{}", scene.film.width, scene.film.height)},
         {"crop", fmt::format("{},{},{},{}", pixels.x0, pixels.y0, pixels.x1, pixels.y1)},

@@ -8,6 +8,7 @@
 #include "command/empty_object.hpp"
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
+#include "command/meshes_report.hpp"
 #include "command/numbers.hpp"
 #include "command/objects_report.hpp"
 #include "command/streams.hpp"
@@ -17,7 +18,8 @@
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
-#include "scene/scene.hpp"
+#include "scene/meshes_alone.hpp"
+#include "scene/read_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -54,9 +56,31 @@ int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const Scen
     return 0;
 }
 
+// Of a scene that has no object.
+int info_of_meshes(const SceneFile& file, const InfoOptions& chosen, const Document& document) {
+    if (chosen.with_cells || chosen.with_carving || chosen.object)
+        throw InputError(fmt::format("{} is for objects, but the scene has only meshes", chosen.with_cells ? "--cells"
+                                                                                         : chosen.with_carving
+                                                                                             ? "--carve"
+                                                                                             : "--object"));
+    (void)read_scene_without_camera(document);
+    const MeshGroup group = read_meshes(document, document.root().find("meshes").value());
+    if (chosen.as_json) {
+        nlohmann::ordered_json json;
+        json["scene"] = file.shown();
+        json["meshes"] = meshes_as_json(group.meshes);
+        put("{}\n", json.dump(2));
+        return 0;
+    }
+    put("{:<14}{}\n", "scene", file.shown());
+    print_meshes(group.meshes);
+    return 0;
+}
+
 int info(const SceneFile& file, const InfoOptions& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
+    if (has_meshes_alone(document)) return info_of_meshes(file, chosen, document);
     const SceneModel model = read_scene_model(document);
     if (!model.placed.empty() && !chosen.object) return info_of_objects(file, chosen, model);
     const SceneTree tree = tree_of_model(document, model, chosen.object);
@@ -136,9 +160,9 @@ void add_info(CLI::App& app, Run& run) {
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<InfoOptions>();
     command->footer(
-        "Lists the objects of a scene of several; --object describes one of them. The whole scene\n"
-        "file is checked, but needs no camera and no lights, and the files of lights, meshes,\n"
-        "textures and voxels are not opened.");
+        "For a scene of several objects, info lists them; --object chooses one. For a scene of\n"
+        "meshes alone, it lists the meshes. The whole scene file is checked, but needs no camera and\n"
+        "no lights, and the files of lights, meshes, textures and voxels are not opened.");
     add_object(*command, options->object);
     command->add_flag("--json", options->as_json, "As JSON");
     auto* const with_cells = command->add_flag(

@@ -13,6 +13,7 @@
 #include "output/write.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "scene/meshes_alone.hpp"
 #include "scene/one_tree.hpp"
 #include "scene/read_parts.hpp"
 
@@ -29,6 +30,7 @@ Document read_document_beside_input(const SceneFile& file) {
 }
 
 Value model_in(const Document& document) {
+    if (has_meshes_alone(document)) return document.root().find("meshes").value();
     return document.root().find(has_objects(document) ? "objects" : "tree").value();
 }
 

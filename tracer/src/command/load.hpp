@@ -38,7 +38,7 @@ SceneTree tree_of_model(const Document&, const SceneModel&, const std::optional<
 
 // Makes of a scene of several objects one of one tree. Throws SceneError if there are too many.
 void make_one_tree(const Document&, Scene&);
-// What errors of the scene's object point to: "tree", or "objects".
+// What errors of the scene's object point to: "tree", "objects", or "meshes" if there are only those.
 Value model_in(const Document&);
 
 // What `make` makes of the document's tree; where the object allows of none (unbounded, too large), that is an error at

@@ -6,11 +6,11 @@
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
+#include "command/version_report.hpp"
 #include "film_file/error.hpp"
 #include "output/error.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/version.hpp"
 
 namespace {
 
@@ -19,7 +19,7 @@ using tracer::say;
 
 int run_command(int argc, char** argv) {
     CLI::App app("Multiphase signed distance fields, path traced.", "phasetree");
-    app.set_version_flag("--version", fmt::format("phasetree {}", version()));
+    app.set_version_flag("--version", tracer::version_report, "Print the build, and which libraries it was built with");
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 for success; 1 if the run was interrupted or something could not be written;\n"

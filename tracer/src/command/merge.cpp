@@ -12,6 +12,7 @@
 #include "film_file/merge.hpp"
 #include "output/interrupt.hpp"
 #include "output/progress.hpp"
+#include "phasetree/version.hpp"
 #include "render/threads.hpp"
 
 namespace phasetree::tracer {
@@ -77,6 +78,7 @@ bool write_pictures(const MergeOptions& options, const Parts& parts, const std::
     metadata.scene = parts.header().scene;
     metadata.samples_per_pixel = static_cast<int>(joined.samples / parts.header().shown.size());
     metadata.seed = parts.header().seed;
+    metadata.build = parts.header().build();
     Writing writing;
     std::string written;
     for (const std::string& output : images)
@@ -100,6 +102,9 @@ int merge_parts(const MergeOptions& options) {
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
     const Parts parts = opened(options);
+    if (!options.quiet && parts.header().build() != build_id())
+        say("phasetree: the parts were rendered by phasetree {}, and are joined by {}\n", parts.header().build(),
+            build_id());
     if (const std::string missing = parts.missing(); !missing.empty() && !images.empty() && !options.may_have_gaps)
         throw FilmFileError(
             fmt::format("{} of the {} of each pixel; --allow-gaps makes a picture of those that there are", missing,

@@ -29,6 +29,7 @@
 #include "output/late_progress.hpp"
 #include "phasetree/cells/file.hpp"
 #include "render/threads.hpp"
+#include "scene/meshes_alone.hpp"
 
 namespace phasetree::tracer {
 
@@ -225,7 +226,8 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
 
 // What people should know of what was prepared.
 void warn_of_object(const RenderOptions& options, const Document& document, const Scene& scene, const World& world) {
-    if (world.geometry().statistics().cells == 0) say("{}\n", empty_object_warning(document));
+    if (world.geometry().statistics().cells == 0 && !has_meshes_alone(scene))
+        say("{}\n", empty_object_warning(document));
     if (options.quiet) return;
     if (world.geometry().statistics().is_coarser)
         say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");

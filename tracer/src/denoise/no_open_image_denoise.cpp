@@ -1,10 +1,14 @@
-// In place of open_image_denoise.cpp where the library is not there.
+// Instead of open_image_denoise.cpp where the library is not there.
 #include "denoise/open_image_denoise.hpp"
 
 namespace phasetree::tracer {
 
 bool has_open_image_denoise() {
     return false;
+}
+
+std::string open_image_denoise_version() {
+    return "";
 }
 
 std::optional<std::vector<glm::vec3>> denoise_by_network(const Image&, const DenoiseJob&) {

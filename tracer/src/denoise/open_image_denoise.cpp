@@ -37,6 +37,10 @@ bool has_open_image_denoise() {
     return true;
 }
 
+std::string open_image_denoise_version() {
+    return fmt::format("{}.{}.{}", OIDN_VERSION_MAJOR, OIDN_VERSION_MINOR, OIDN_VERSION_PATCH);
+}
+
 std::optional<std::vector<glm::vec3>> denoise_by_network(const Image& image, const DenoiseJob& job) {
     std::vector<glm::vec3> color = image.pixels, clean(image.pixels.size());
     std::vector<glm::vec3> albedo = joined(image, {"albedo_behind.R", "albedo_behind.G", "albedo_behind.B"});

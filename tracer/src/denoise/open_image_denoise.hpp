@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "denoise/denoise.hpp"
@@ -11,6 +12,8 @@
 namespace phasetree::tracer {
 
 bool has_open_image_denoise();
+/// The version of Open Image Denoise; empty if this program was built without it.
+std::string open_image_denoise_version();
 
 /// As denoise(). Throws DenoiseError, also if has_open_image_denoise() is false.
 std::optional<std::vector<glm::vec3>> denoise_by_network(const Image& image, const DenoiseJob& job);

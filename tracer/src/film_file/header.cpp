@@ -66,14 +66,31 @@ Planes::Choice read_planes(ByteReader& in) {
 }
 
 // A text of a file that may be anything, for people.
-std::string shown(const std::string& text) {
+std::string printable(const std::string& text) {
     std::string safe = text.substr(0, 60);
     for (char& c : safe)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
     return safe;
 }
 
+// A setting as the file has it; empty if there is none of that name.
+std::string setting(const FilmFileHeader& header, std::string_view name) {
+    const auto found =
+        std::ranges::find(header.settings, name, [](const auto& s) { return std::string_view(s.first); });
+    return found == header.settings.end() ? "" : found->second;
+}
+
+// "phasetree 0.9.0+3f2a91c04d7e (commit 8f1d19c6a3b2)"
+std::string build_and_commit(const FilmFileHeader& header) {
+    const std::string commit = printable(setting(header, "commit"));
+    return fmt::format("phasetree {}{}", header.build(), commit.empty() ? "" : fmt::format(" (commit {})", commit));
+}
+
 }  // namespace
+
+std::string FilmFileHeader::build() const {
+    return printable(setting(*this, "version"));
+}
 
 void FilmFileHeader::write(ByteWriter& out) const {
     write_int(out, static_cast<int>(settings.size()));
@@ -129,10 +146,12 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
             return "it is of another version of phasetree";
         const auto& [name, value] = wanted.settings[i];
         const std::string& other = found.settings[i].second;
-        if (value == other) continue;
+        if (value == other || name == "commit") continue;
         if (name == "scene") return "it is of another scene: the scene, or a file that it names, is not the same";
-        if (name == "version") return fmt::format("it was written by phasetree {}, not {}", shown(other), value);
-        return fmt::format("it has {} {}, not {}", shown(name), shown(other), shown(value));
+        if (name == "version")
+            return fmt::format("it was rendered by {}, not by {}; render all samples of a picture with the same build",
+                               build_and_commit(found), build_and_commit(wanted));
+        return fmt::format("it has {} {}, not {}", printable(name), printable(other), printable(value));
     }
     const auto same_range = [](const PixelRange& a, const PixelRange& b) {
         return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;

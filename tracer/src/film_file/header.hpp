@@ -32,9 +32,12 @@ inline constexpr std::uint32_t film_file_format = 2;
 inline constexpr int band_rows = 16;
 
 struct FilmFileHeader {
-    /// What the pixels depend on beside the numbers of the samples, by the names that people know: the version of the
-    /// program, the scene, options. Films are of the same picture if all these are equal.
+    /// What the pixels depend on beside the numbers of the samples, by the names that people know: the build of the
+    /// program ("version"), the scene, options. Films are of the same picture if all these are equal, except "commit",
+    /// which is for messages.
     std::vector<std::pair<std::string, std::string>> settings;
+    /// The build of phasetree that rendered the samples, safe to print.
+    std::string build() const;
 
     FilmSettings film;  ///< but for the filter, of which there is only one
     PlaneSubjects subjects;

@@ -17,6 +17,21 @@ namespace {
 // More than any instrument measures; a file cannot claim more memory than that.
 constexpr int most_angles = 1441;  // a quarter of a degree all around
 
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+bool is_blank_in_line(char c) {
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+// Removes the first line and returns it. Lines end with a line feed, a carriage return, or both.
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
+    return line;
+}
+
 // Reads numbers one by one, and knows in which line it is. They are set apart by blanks, commas and ends of lines.
 class Numbers {
   public:
@@ -51,11 +66,12 @@ class Numbers {
     }
 
   private:
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
+    static bool is_blank(char c) { return is_blank_in_line(c) || c == '\r' || c == '\n' || c == ','; }
 
     void skip_blanks() {
         while (!text_.empty() && is_blank(text_.front())) {
-            line_ += text_.front() == '\n';
+            const bool ends_line = text_.front() == '\n' || (text_.front() == '\r' && !text_.starts_with("\r\n"));
+            line_ += ends_line ? 1 : 0;
             text_.remove_prefix(1);
         }
     }
@@ -64,20 +80,37 @@ class Numbers {
     int line_;
 };
 
-// What stands before the numbers: everything up to the line that says TILT. Gives what it says of it.
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank_in_line(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank_in_line(text.back())) text.remove_suffix(1);
+    return text;
+}
+bool is_word(std::string_view text, std::string_view upper_case) {
+    return std::ranges::equal(text, upper_case, {}, [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+}
+
+// What "TILT=" is followed by in a line; nothing of any other line. The standards write it in upper case and without
+// blanks, but not all programs do.
+std::optional<std::string_view> tilt_in(std::string_view line) {
+    constexpr std::string_view keyword = "TILT";
+    line = trimmed(line);
+    if (!is_word(line.substr(0, keyword.size()), keyword)) return std::nullopt;
+    line = trimmed(line.substr(keyword.size()));
+    if (!line.starts_with('=')) return std::nullopt;
+    return trimmed(line.substr(1));
+}
+
+// What stands before the numbers: everything up to the line that says TILT. Labels are free, and so are keywords such
+// as [TEST], which came in 1991. What it says of the tilt.
 struct Heading {
     std::string_view tilt, rest;
     int lines;
 };
 
 Heading heading_of(std::string_view text) {
-    for (int line = 1; !text.empty(); ++line) {
-        const std::size_t end = text.find('\n');
-        std::string_view here = text.substr(0, end);
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        if (here.ends_with('\r')) here.remove_suffix(1);
-        if (here.starts_with("TILT=")) return {here.substr(5), text, line};
-    }
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    for (int line = 1; !text.empty(); ++line)
+        if (const auto tilt = tilt_in(take_line(text))) return {*tilt, text, line};
     throw std::runtime_error("there is no line TILT=…, so it is no photometric file of the IES");
 }
 
@@ -100,13 +133,13 @@ std::pair<std::size_t, double> place_among(std::span<const double> angles, doubl
 IesProfile::IesProfile(std::string_view text) {
     const Heading heading = heading_of(text);
     Numbers numbers(heading.rest, heading.lines + 1);
-    if (heading.tilt == "INCLUDE") {
+    if (is_word(heading.tilt, "INCLUDE")) {
         // How lamps dim when the luminaire is tilted, which we take to hang as it was measured.
         (void)numbers.whole("the lamp's position", 1, 3);
         const int pairs = numbers.whole("the number of tilts", 1, most_angles);
         (void)numbers.list("a tilt", pairs);
         (void)numbers.list("the factor of a tilt", pairs);
-    } else if (heading.tilt != "NONE") {
+    } else if (!is_word(heading.tilt, "NONE")) {
         throw std::runtime_error(
             fmt::format("line {}: TILT should be NONE or INCLUDE; tilts in a file of their own are "
                         "not read",

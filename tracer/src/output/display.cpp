@@ -227,4 +227,8 @@ bool DisplayTransform::is_srgb() const {
     return lower(display_).find("srgb") != std::string::npos;
 }
 
+std::string opencolorio_version() {
+    return ocio::GetVersion();
+}
+
 }  // namespace phasetree::tracer

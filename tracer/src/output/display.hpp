@@ -43,4 +43,7 @@ class DisplayTransform {
     float exposure_ev_;
 };
 
+/// OpenColorIO's version.
+std::string opencolorio_version();
+
 }  // namespace phasetree::tracer

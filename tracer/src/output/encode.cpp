@@ -54,9 +54,9 @@ void check(const Image& image) {
 }
 
 // What files of all formats say.
-OIIO::ImageSpec common_spec(const Image& image, OIIO::TypeDesc type) {
+OIIO::ImageSpec common_spec(const Image& image, OIIO::TypeDesc type, const std::string& build) {
     OIIO::ImageSpec spec(image.width, image.height, 3, type);
-    spec.attribute("Software", fmt::format("phasetree {}", version()));
+    spec.attribute("Software", fmt::format("phasetree {}", build));
     // Left out, EXR and TIFF get today's date; an empty one keeps equal pictures equal files.
     spec.attribute("DateTime", "");
     return spec;
@@ -67,7 +67,7 @@ std::string scene_name(const Metadata& metadata) {
 }
 
 OIIO::ImageSpec exr_spec(const Image& image, const Layer& layer, const Metadata& metadata) {
-    OIIO::ImageSpec spec = common_spec(image, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec = common_spec(image, OIIO::TypeDesc::FLOAT, metadata.build);
     if (image.crop) {
         spec.x = image.crop->x0;
         spec.y = image.crop->y0;
@@ -90,7 +90,8 @@ OIIO::ImageSpec exr_spec(const Image& image, const Layer& layer, const Metadata&
 // Of the formats that hold what is shown.
 OIIO::ImageSpec shown_spec(const Image& image, Format format, const Metadata& metadata,
                            const DisplayTransform& transform) {
-    OIIO::ImageSpec spec = common_spec(image, format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec =
+        common_spec(image, format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8, metadata.build);
     spec.attribute("ImageDescription",
                    fmt::format("{}, {} samples per pixel, seed {}, {} {:+g} EV", scene_name(metadata),
                                metadata.samples_per_pixel, metadata.seed, transform.view(), transform.exposure_ev()));
@@ -219,7 +220,7 @@ std::vector<unsigned char> encode_png(std::span<const std::uint8_t> pixels, int 
     if (pixels.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
         throw std::invalid_argument("a picture must have width × height pixels");
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("Software", fmt::format("phasetree {}", version()));
+    spec.attribute("Software", fmt::format("phasetree {}", build_id()));
     spec.attribute("DateTime", "");
     spec.attribute("ImageDescription", description);
     return encoded(spec, name_for_format(Format::png), pixels.data());
@@ -232,6 +233,11 @@ std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, 
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenImageIO as packed floats");
     if (layer.has_picture && layer.channels.empty()) return encoded(spec, name, image.pixels.data());
     return encoded(spec, name, interleaved(image, layer).data());
+}
+
+std::string openimageio_version() {
+    const int version = OIIO::openimageio_version();  // 10000 × major + 100 × minor + patch
+    return fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
 }
 
 }  // namespace phasetree::tracer

@@ -11,6 +11,7 @@
 #include "film/image.hpp"
 #include "output/display.hpp"
 #include "output/layers.hpp"
+#include "phasetree/version.hpp"
 
 namespace phasetree::tracer {
 
@@ -19,6 +20,7 @@ struct Metadata {
     std::string scene;  ///< the scene's file name; its folder is left out
     int samples_per_pixel = 0;
     std::uint64_t seed = 0;
+    std::string build = build_id();  ///< of phasetree, which rendered the picture
 };
 
 enum class Format { exr, png, jpeg, tiff };
@@ -45,5 +47,8 @@ std::vector<unsigned char> encode_png(std::span<const std::uint8_t> pixels, int 
 
 /// The same of an EXR file that has one layer alone (layers.hpp).
 std::vector<unsigned char> encode_layer(const Image& image, const Layer& layer, const Metadata& metadata);
+
+/// OpenImageIO's version.
+std::string openimageio_version();
 
 }  // namespace phasetree::tracer

@@ -37,7 +37,9 @@ struct FileParts {
                                     R"({"type": "string"})"});
         v(&P::version, PartParameter{{"version", "", "The version of this format."}, "1", R"({"const": 1})"});
         v(&P::phases,
-          PartParameter{{"phases", "", "The phases by their names, and the material of each: all that the tree names.",
+          PartParameter{{"phases", "",
+                         "The phases by their names, and the material of each: all that the tree names. A scene of "
+                         "meshes alone has neither phases nor a tree.",
                          limits::any, true},
                         "object of materials",
                         R"({"type": "object", "minProperties": 1, "maxProperties": 63,
@@ -69,9 +71,10 @@ struct FileParts {
           PartParameter{{"instances", "", "Where objects and groups stand, as often as wanted.", limits::any, true},
                         "list of instances",
                         R"({"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/instance"}})"});
-        v(&P::meshes, PartParameter{{"meshes", "", "What stands beside the object.", limits::any, true},
-                                    "list of meshes",
-                                    R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});
+        v(&P::meshes,
+          PartParameter{{"meshes", "", "What stands beside the object, or without one in a vacuum.", limits::any, true},
+                        "list of meshes",
+                        R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});
         v(&P::lights,
           PartParameter{{"lights", "", "What shines. An image needs one light at least.", limits::any, true},
                         "list of lights",

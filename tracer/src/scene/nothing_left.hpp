@@ -10,13 +10,18 @@
 
 namespace phasetree::tracer {
 
-/// The object, or, if its bounds are empty, another one that is empty and whose bounds are not.
-inline Phased with_bounds(const Phased& object) {
-    if (!bounds(object).empty()) return object;
+/// An object that is empty and whose bounds, of about twice this size, are not.
+inline Phased nothing_of_size(float size) {
     // The ball and the capsule do not touch, but their boxes overlap. So the intersection is empty, and its bounds are
     // not.
-    const Field beside = Capsule{.from = {1.8f, 1, -0.1f}, .to = {1.8f, 1, 0.1f}, .radius = 1};
-    return phasetree::Set{.phase = Phase{1}, .of = Intersection{.of = {Sphere{.radius = 1}, beside}}};
+    const Field beside =
+        Capsule{.from = size * glm::vec3(1.8f, 1, -0.1f), .to = size * glm::vec3(1.8f, 1, 0.1f), .radius = size};
+    return phasetree::Set{.phase = Phase{1}, .of = Intersection{.of = {Sphere{.radius = size}, beside}}};
+}
+
+/// The object, or, if its bounds are empty, another one that is empty and whose bounds are not.
+inline Phased with_bounds(const Phased& object) {
+    return bounds(object).empty() ? nothing_of_size(1) : object;
 }
 
 }  // namespace phasetree::tracer

@@ -6,6 +6,7 @@
 #include "scene/file_parts.hpp"
 #include "scene/glowing.hpp"
 #include "scene/image_parameters.hpp"
+#include "scene/meshes_alone.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/read_parts.hpp"
 
@@ -119,10 +120,14 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         read_placed_into(document, shutter, places, purpose, scene, materials);
     } else {
         refuse_places_of_nothing(document);
-        SceneTree tree = read_tree(document, file_readers(), places);
-        scene.phases = std::move(tree.phases);
-        scene.object = purpose == Purpose::picture ? with_bounds(tree.object) : std::move(tree.object);
-        for (const Value phase : *parts.phases) materials.push_back({document, phase});
+        if (has_meshes_alone(document)) {
+            scene.object = object_beside_meshes_alone();
+        } else {
+            SceneTree tree = read_tree(document, file_readers(), places);
+            scene.phases = std::move(tree.phases);
+            scene.object = purpose == Purpose::picture ? with_bounds(tree.object) : std::move(tree.object);
+            for (const Value phase : *parts.phases) materials.push_back({document, phase});
+        }
     }
     scene.materials.push_back(vacuum());
     VoxelBytes voxels;
@@ -195,7 +200,9 @@ SceneModel read_scene_without_camera(const Document& document) {
 }
 
 SceneModel read_scene_model(const Document& document) {
-    return read_scene_without_camera(document.without_assets());
+    SceneModel model = read_scene_without_camera(document.without_assets());
+    refuse_meshes_alone(document);
+    return model;
 }
 
 PhaseSet opaque_phases(const std::vector<Material>& materials) {

@@ -177,4 +177,8 @@ bool can_read_fonts() {
     return true;
 }
 
+std::string harfbuzz_version() {
+    return hb_version_string();
+}
+
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// What stands in for harfbuzz.cpp where the library is missing.
+// What replaces harfbuzz.cpp where the library is missing.
 #include <stdexcept>
 
 #include "text/read_text.hpp"
@@ -13,6 +13,10 @@ TextOutlines read_text(const std::filesystem::path& font, const std::string&) {
 
 bool can_read_fonts() {
     return false;
+}
+
+std::string harfbuzz_version() {
+    return "";
 }
 
 }  // namespace phasetree::tracer

@@ -16,4 +16,7 @@ TextOutlines read_text(const std::filesystem::path& font, const std::string& tex
 // Whether this program was built with HarfBuzz.
 bool can_read_fonts();
 
+// HarfBuzz's version; empty if this program was built without it.
+std::string harfbuzz_version();
+
 }  // namespace phasetree::tracer

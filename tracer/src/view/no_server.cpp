@@ -1,4 +1,4 @@
-// In place of server.cpp in a build without cpp-httplib.
+// Instead of server.cpp in a build without cpp-httplib.
 #include "view/server.hpp"
 
 #include <stdexcept>
@@ -7,6 +7,10 @@ namespace phasetree::tracer::view {
 
 bool can_serve() {
     return false;
+}
+
+std::string server_library() {
+    return "";
 }
 
 void serve(Session&, const ServeOptions&) {

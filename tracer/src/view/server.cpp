@@ -44,7 +44,7 @@ std::uint64_t number(const httplib::Request& request, const char* name) {
     return error == std::errc() && end == text.data() + text.size() ? value : 0;
 }
 
-// cpp-httplib with connections of our own in place of its.
+// cpp-httplib with connections of our own instead of its.
 class Server : public httplib::Server {
   public:
     /// Ends all connections.
@@ -217,12 +217,16 @@ bool can_serve() {
     return true;
 }
 
+std::string server_library() {
+    return "cpp-httplib " CPPHTTPLIB_VERSION;
+}
+
 void serve(Session& session, const ServeOptions& options) {
     Server server;
     server.new_task_queue = [] { return new Workers; };
     server.set_payload_max_length(Connection::most_bytes_of_body);
     server.set_tcp_nodelay(true);
-    // In place of the library's SO_REUSEPORT, with which another program could take a share of the requests.
+    // Instead of the library's SO_REUSEPORT, with which another program could take a share of the requests.
     server.set_socket_options([](socket_t socket) {
         const int yes = 1;
         ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);

@@ -10,6 +10,8 @@ namespace phasetree::tracer::view {
 
 /// Whether this build can serve pages: it had the library for it.
 bool can_serve();
+/// That library and its version, "cpp-httplib 0.11.4"; empty if this build cannot serve pages.
+std::string server_library();
 
 struct ServeOptions {
     int port = 0;  ///< 0: any that is free

@@ -10,6 +10,7 @@
 #include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
 #include "scene/camera_text.hpp"
+#include "scene/meshes_alone.hpp"
 #include "view/session.hpp"
 
 namespace phasetree::tracer::view {
@@ -154,7 +155,8 @@ void Session::build(const Wishes& wishes) {
     const InterfaceCells& object = prepared_->world().geometry().object();
     std::string warning = viewed_->warnings;
     if (!object.warning().empty()) warning += fmt::format("{}: warning: {}\n", options_.name, object.warning());
-    if (object.size() == 0)
+    const bool is_of_meshes = has_meshes_alone(viewed_->scene);
+    if (object.size() == 0 && !is_of_meshes)
         warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
     if (!warning.empty()) options_.tell(warning);
     warning_ = warning;
@@ -168,7 +170,8 @@ void Session::build(const Wishes& wishes) {
         shown.phases = shown_phases(viewed_->scene);
         shown.layers = layers_of_film(subjects_of(viewed_->scene));
         // Hiding a part must not move what the camera turns around.
-        const Bounds bounds = phasetree::bounds(viewed_->scene.object);
+        const Bounds bounds =
+            is_of_meshes ? bounds_of(viewed_->scene.meshes) : phasetree::bounds(viewed_->scene.object);
         if (bounds.empty() || !bounds.finite()) return;
         shown.centre = bounds.centre();
         shown.radius = 0.5f * bounds.diagonal();

@@ -64,7 +64,7 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
         }
         return true;
     });
-    if (found.empty()) throw std::runtime_error("there is no file of such a name with digits in place of #");
+    if (found.empty()) throw std::runtime_error("there is no file of such a name with digits instead of #");
     std::vector<fs::path> layers;
     long next = found.begin()->first;
     for (const auto& [n, file] : found) {

@@ -1,4 +1,4 @@
-// What stands in for openvdb.cpp where the library is missing.
+// What replaces openvdb.cpp where the library is missing.
 #include <stdexcept>
 
 #include "volume/formats.hpp"
@@ -26,6 +26,9 @@ PlacedVoxels numbers_of_openvdb(const std::filesystem::path&, const std::string&
 }
 bool can_read_openvdb() {
     return false;
+}
+std::string openvdb_version() {
+    return "";
 }
 
 }  // namespace phasetree::tracer

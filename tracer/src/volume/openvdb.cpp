@@ -227,5 +227,8 @@ PlacedVoxels numbers_of_openvdb(const std::filesystem::path& path, const std::st
 bool can_read_openvdb() {
     return true;
 }
+std::string openvdb_version() {
+    return OPENVDB_LIBRARY_VERSION_STRING;
+}
 
 }  // namespace phasetree::tracer

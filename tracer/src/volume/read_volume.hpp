@@ -42,11 +42,13 @@ VoxelGrid read_number_stack(const std::filesystem::path& path, const glm::dvec3&
 // Whether the name of a file is that of an OpenVDB file, and not of images.
 bool has_ending_of_openvdb(const std::filesystem::path& path);
 
-// The images that a name with # in place of a number stands for, from the lowest layer to the highest; a name without
+// The images that a name with # instead of a number stands for, from the lowest layer to the highest; a name without
 // is one image. std::runtime_error where there is none, or where a number is left out between two.
 std::vector<std::filesystem::path> layers_of_stack(const std::filesystem::path& path);
 
 // Whether this program was built with OpenVDB.
 bool can_read_openvdb();
+/// OpenVDB's version; empty if this program was built without it.
+std::string openvdb_version();
 
 }  // namespace phasetree::tracer

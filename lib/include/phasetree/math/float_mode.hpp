@@ -2,6 +2,8 @@
 
 #if defined(__SSE__) || defined(_M_X64)
 #include <xmmintrin.h>
+#elif defined(__aarch64__)
+#include <cstdint>
 #endif
 
 namespace phasetree {
@@ -9,6 +11,9 @@ namespace phasetree {
 /// Makes its thread treat subnormal numbers as zero, as operands and as results, for the lifetime of the object.
 /// Subnormals are slow, and carry no information in a distance. Every task that traces rays must hold one, so that all
 /// threads compute the same results.
+///
+/// x86-64 and arm64 differ in one case: only arm64 flushes a result that is subnormal before rounding, but would round
+/// to the smallest normal number.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)
@@ -23,8 +28,24 @@ class FlushSubnormals {
     unsigned before_;
 
   public:
+#elif defined(__aarch64__)
+    FlushSubnormals() {
+        asm volatile("mrs %0, fpcr" : "=r"(before_));
+        set(before_ | std::uint64_t{1} << 24);  // FZ
+    }
+    ~FlushSubnormals() {
+        set(before_);
+    }
+
+  private:
+    static void set(std::uint64_t mode) {
+        asm volatile("msr fpcr, %0" : : "r"(mode) : "memory");
+    }
+    std::uint64_t before_;
+
+  public:
 #else
-    FlushSubnormals() = default;
+    FlushSubnormals() {}  // not defaulted, because compilers would report every object as unused
 #endif
     FlushSubnormals(const FlushSubnormals&) = delete;
     FlushSubnormals& operator=(const FlushSubnormals&) = delete;

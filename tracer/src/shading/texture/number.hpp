@@ -39,7 +39,7 @@ struct FieldNumber {
     float greatest() const { return greatest_of(ramp); }
 };
 
-/// Those that a scene file names in place of a number.
+/// Those that a scene file names instead of a number.
 using NumberTextures = TypeList<FieldNumber, MeshImageNumber, PerCopyNumber>;
 
 using Number = std::variant<float, FieldNumber, MeshImageNumber, PerCopyNumber>;
