@@ -11,8 +11,8 @@ const char* version();
 /// compute different bits.
 const char* build_id();
 
-/// The latest commit that changed the sources, for display only: "8f1d19c6a3b2", "8f1d19c6a3b2 with changes", or "" if
-/// the sources came without their history.
+/// The latest commit that changed the sources, for display only and never compared: "8f1d19c6a3b2", "8f1d19c6a3b2 with
+/// changes", or "" if the sources came without their history.
 const char* source_commit();
 
 /// The compiler's name and version: "GNU 12.2.0".
