@@ -104,8 +104,8 @@ class ValueIterator {
 /// A parsed JSON text (RFC 8259) with // and /* */ comments. Immutable, cheap to copy, and safe to share between
 /// threads.
 ///
-/// The text must be UTF-8, at most 256 MiB, and nested at most max_depth levels deep. The keys of an object must
-/// differ, numbers must be finite, and strings must not contain null characters. Anything else throws SceneError.
+/// The text must be UTF-8, at most 256 MiB, and nested at most max_depth levels deep. The keys of an object must be
+/// unique, numbers must be finite, and strings must not contain null characters. Anything else throws SceneError.
 class Document {
   public:
     static constexpr std::size_t max_bytes = std::size_t{256} << 20;

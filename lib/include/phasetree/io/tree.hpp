@@ -28,7 +28,7 @@ struct PhaseNames {
     std::size_t size() const { return names.size() - 1; }
 };
 
-/// The model in a scene file: the names in "phases", and the "tree".
+/// The model in a scene file: the names in "phases", and the "tree" with the "shapes" that it uses.
 struct SceneTree {
     PhaseNames phases;
     Phased object;

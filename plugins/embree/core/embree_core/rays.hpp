@@ -70,8 +70,8 @@ inline glm::vec3 unit_direction(const glm::vec3& direction, float length) {
 struct UnitRay {
     glm::vec3 origin{0}, direction{0};
     float near = 0, far = 0;
-    float length =
-        1;  ///< length of the original direction; divide a distance by it to get the units of the original ray
+    /// The length of the original direction. A distance divided by it is in units of the original ray.
+    float length = 1;
 
     /// Make a unit ray; nullopt if the ray cannot hit anything, or ends before it begins.
     static std::optional<UnitRay> of(const glm::vec3& origin, const glm::vec3& direction, float t_near, float t_far) {

@@ -1,6 +1,6 @@
 /// C++17 wrapper of phasetree_embree.h: handles are reference-counted objects, and errors are exceptions. Each member
 /// function calls the C function of the same name, whose documentation describes units, thread safety and lifetimes.
-/// All of them throw Error on failure.
+/// Failed calls throw Error.
 #pragma once
 
 #include <array>
