@@ -1,6 +1,6 @@
-// PhaseTree: multiphase signed distance fields. This header has the nodes of trees, programs, tracing, cells and
-// meshes. Files of cells are in phasetree/cells/file.hpp, scene files in phasetree/io, Embree's geometry in
-// phasetree/phasetree_embree.h.
+// phasetree: multiphase signed distance fields. This header includes the nodes of trees, programs, tracing, cells and
+// meshes. Include separately: phasetree/cells/file.hpp for cell files, phasetree/io for scene files,
+// phasetree/phasetree_embree.h for Embree geometries.
 #pragma once
 
 #include "phasetree/carving/carve.hpp"

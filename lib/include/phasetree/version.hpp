@@ -1,18 +1,18 @@
 #pragma once
 
-/// Which phasetree this is. All strings live as long as the program.
+/// Version and build of the library. All strings are valid for the lifetime of the program.
 namespace phasetree {
 
 /// The library's version, "major.minor.patch".
 const char* version();
 
-/// The version and a hash of the sources, the compiler and the processor architecture: "0.9.0+3f2a91c04d7e". Files of
-/// cells, parts and checkpoints fit together only if their build_id() is the same, because another build may compute
-/// other bits.
+/// The version and a hash of the sources, the compiler and the processor architecture: "0.9.0+3f2a91c04d7e". Cell
+/// files, parts and checkpoints can only be combined if their build_id() is the same, because different builds may
+/// compute different bits.
 const char* build_id();
 
-/// The latest commit that changed the sources, for people: "8f1d19c6a3b2", "8f1d19c6a3b2 with changes", or "" if the
-/// sources came without their history. Never compared.
+/// The latest commit that changed the sources, for display only and never compared: "8f1d19c6a3b2", "8f1d19c6a3b2 with
+/// changes", or "" if the sources came without their history.
 const char* source_commit();
 
 /// The compiler's name and version: "GNU 12.2.0".

@@ -15,55 +15,54 @@ struct CellsFile;
 }
 
 /// An object divided into cells: boxes around its interfaces, each with the few instructions that matter there. A ray
-/// meets a change of phase only inside a cell. The caller finds the cells along a ray, with Embree for instance.
+/// changes phase only inside a cell. The caller finds the cells along a ray, for example with Embree.
 ///
-/// A cell's program gives the labels of the whole object within the cell and up to reach() beyond it, and distances
-/// within which the label stays the same there. Cells are immutable; any thread may read them.
+/// Within a cell and up to reach() beyond it, the cell's program gives the labels of the whole object, and distances
+/// within which the label stays the same. Immutable; any thread may read it.
 class InterfaceCells {
   public:
-    /// Builds the cells, with all threads that TBB gives it. Throws ModelError if the object is unbounded, empty, too
-    /// large, or too far from the origin for its size, and BuildCancelled if CellOptions::cancelled has ended the
-    /// build.
+    /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too
+    /// large, or too far from the origin for its size, and BuildCancelled if CellOptions::cancelled returned true.
     explicit InterfaceCells(const Phased& object, const CellOptions& options = {});
     ~InterfaceCells();
 
     /// The number of cells.
     std::size_t size() const;
-    /// A cell's box, which reaches beyond its share of space by reach(), so that no ray passes between two cells.
+    /// A cell's box. It extends beyond the cell's share of space by reach(), so that no ray passes between two cells.
     Bounds bounds(std::size_t cell) const;
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;
 
-    /// The first change of phase along a ray within one cell: as InterfaceTracer::first_crossing. The hint must be that
-    /// of this cell.
+    /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). The hint
+    /// must come from this cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
                                            std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;
-    /// The same for a ray that is used for one cell only, without a hint.
+    /// The same without a hint, for a ray that is used for one cell only.
     std::optional<Crossing> first_crossing(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction,
                                            float t_min, float t_max, std::optional<Phase> carried,
                                            Evaluator::Workspace&, TraceCounters&) const;
-    /// The normal of a crossing that was found in this cell.
+    /// The normal of a crossing found in this cell.
     CrossingNormal normal(std::size_t cell, const Crossing&, const glm::vec3& direction) const;
 
-    /// The phases and interface distances at points origin + t·direction, which must be in the cell, by its program.
+    /// Evaluate the cell's program at points origin + t·direction, which must be in the cell.
     void sample_ray(std::size_t cell, const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t,
                     Samples&, Evaluator::Workspace&) const;
 
-    /// The phase at a point, by the program of the whole object; the vacuum outside of bounds().
+    /// The phase at a point, from the program of the whole object; the vacuum outside bounds().
     Phase label(const glm::vec3& p, Evaluator::Workspace&) const;
-    /// The phase at a point of the cell, by its program.
+    /// The phase at a point in the cell, from the cell's program.
     Phase label(std::size_t cell, const glm::vec3& p, Evaluator::Workspace&) const;
 
     /// The program of the whole object.
     const Evaluator& whole() const;
-    /// The resolution that is used, in the scene's unit of length.
+    /// The resolution in use, in the scene's unit of length.
     float resolution() const;
-    /// A sentence for people, mostly empty: see TraceableObject.
+    /// A sentence for people, usually empty; see TraceableObject.
     const std::string& warning() const;
-    /// How far a cell's box reaches beyond its share of space, in the scene's unit of length: a few resolutions.
+    /// How far a cell's box extends beyond its share of space, in the scene's unit of length: a few resolutions.
     float reach() const;
-    /// CellOptions::opaque.
+    /// The phases of CellOptions::opaque.
     PhaseSet opaque() const;
     CellStatistics statistics() const;
 

@@ -8,16 +8,15 @@
 
 namespace phasetree {
 
-/// Thrown for a file of cells that cannot be written or read, or does not fit the object. what() names the file and
-/// says why.
+/// Thrown if a cell file cannot be written or read, or does not match the object. what() names the file and the reason.
 class CellsFileError : public std::runtime_error {
   public:
     enum class Reason {
-        missing,    ///< there is no such file
+        missing,    ///< the file does not exist
         unusable,   ///< it cannot be opened, read or written
-        foreign,    ///< it is not a file of cells
-        differing,  ///< it is of another object, other options, another build of the library or another machine
-        damaged     ///< it is too short or long, or was changed since it was written
+        foreign,    ///< it is not a cell file
+        differing,  ///< it was written for another object, options, build of the library or kind of machine
+        damaged     ///< its size is wrong, or its content has changed since it was written
     };
     CellsFileError(Reason reason, const std::filesystem::path&, const std::string& what);
     Reason reason() const { return reason_; }
@@ -26,29 +25,29 @@ class CellsFileError : public std::runtime_error {
     Reason reason_;
 };
 
-/// Writes cells to a file, replacing one that is there. The file appears complete or not at all, because it is written
-/// under a temporary name in the same directory and renamed. Throws CellsFileError.
-///
-/// Neither the number of threads that have built the cells nor their instruction set changes the file.
+/// Write cells to a file, replacing an existing one. The file is written under a temporary name in the same folder and
+/// then renamed, so it appears complete or not at all. Its content does not depend on the number of threads or the
+/// instruction set that built the cells. Throws CellsFileError.
 void write_cells(const std::filesystem::path&, const InterfaceCells&);
 
-/// Reads the cells of an object. They are to the last bit those that InterfaceCells(object, options) would build; the
-/// functions of the options are not called. The file says of which object it is (by its recorded program: names and
-/// materials do not matter), with which resolution, quality, divisions, limit of memory and opaque phases it was built,
-/// by which build of the library and for which kind of machine; it is rejected if any of these differs. A file whose
-/// size or checksums are wrong is rejected before anything of its size is allocated, and so is one with an index that
-/// is out of range.
+/// Read the cells of an object. They are identical, to the last bit, to those that InterfaceCells(object, options)
+/// would build. The callbacks in the options are not called.
 ///
-/// The checksums find accidents. Who forges them can make cells that are wrong, but no ray reads memory outside of
-/// them, because every index of the file is checked.
+/// The file records the object's program (names and materials do not matter), the resolution, quality, divisions,
+/// memory limit and opaque phases for which the cells were built, the build of the library, and the kind of machine. It
+/// is rejected if any of these differ. A file with a wrong size or checksum is rejected before anything of its size is
+/// allocated, and so is one with an index out of range.
 ///
-/// Throws CellsFileError, and ModelError as InterfaceCells does.
+/// Checksums detect accidents, not forgery. A forged file can describe wrong cells, but no ray reads memory outside
+/// them, because every index in the file is checked.
+///
+/// Throws CellsFileError, and ModelError like InterfaceCells.
 std::shared_ptr<const InterfaceCells> read_cells(const std::filesystem::path&, const Phased& object,
                                                  const CellOptions& options = {});
 
-/// Whether cells are those that InterfaceCells(object, options) would build, so that they need not be built again.
-/// Compares the same data as read_cells(), in about the time it takes to record the object.
-/// Throws ModelError as InterfaceCells does.
+/// Whether these are the cells that InterfaceCells(object, options) would build, so that they need not be rebuilt.
+/// Compares the same data as read_cells(), in about the time needed to record the object. Throws ModelError like
+/// InterfaceCells.
 bool are_cells_of(const InterfaceCells&, const Phased& object, const CellOptions& options = {});
 
 }  // namespace phasetree

@@ -15,13 +15,13 @@ namespace evaluation {
 struct Assembly;
 }
 
-/// A program that is ready to run: each value has a register and each operation its code. It is immutable; any thread
-/// may run it, each with a Workspace of its own.
+/// An executable program: each value has a register, each operation its code. Immutable; any thread may run it, each
+/// with its own Workspace.
 class Evaluator {
   public:
     explicit Evaluator(Program program);
 
-    /// The registers of one thread. They grow to those of the largest evaluator that uses them.
+    /// The registers of one thread. They grow to fit the largest evaluator that uses them.
     class Workspace {
       public:
         float* registers(std::size_t slots) {
@@ -33,29 +33,29 @@ class Evaluator {
         std::vector<BatchOfFloats> values_;
     };
 
-    /// Evaluates Φ at the points of a batch. `out` must have a batch for each of program().outputs, and gets their
-    /// values in this order.
+    /// Evaluate Φ at the points of a batch. `out` must have one batch per entry of program().outputs, and receives
+    /// their values in the same order.
     void evaluate(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, std::span<BatchOfFloats> out,
                   Workspace&) const;
-    /// Evaluates the phase and the interface distance at the points of a batch.
+    /// Evaluate the phase and the interface distance at the points of a batch.
     void sample(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, Samples& out, Workspace&) const;
-    /// As sample(), at the points origin + t·direction of a ray (a multiplication and an addition, each rounded).
+    /// The same at the points origin + t·direction of a ray (a multiplication and an addition, each rounded).
     void sample_ray(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t, Samples& out,
                     Workspace&) const;
 
-    /// Φ at one point; it has the phases that are present in the object.
+    /// Φ at one point. It has the phases that are present in the object.
     Phases<float> distances(const glm::vec3& p, Workspace&) const;
     /// The phase at one point.
     Phase label(const glm::vec3& p, Workspace&) const;
 
     /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. Its
-    /// length may be below 1, because a warp divides by λ.
+    /// length may be less than 1, because a warp divides by λ.
     glm::vec3 gradient(const glm::vec3& p, Phase) const;
 
     const Program& program() const { return program_; }
     std::size_t bytes() const;
 
-    /// A workspace of the calling thread, which all tracing in this thread may share.
+    /// The calling thread's workspace. All tracing in this thread may share it.
     static Workspace& thread_workspace();
 
   private:
@@ -64,12 +64,13 @@ class Evaluator {
     std::shared_ptr<const evaluation::Assembly> assembly_;
 };
 
-/// The SIMD instruction sets that both this build and this machine have, best first: "AVX-512", "AVX2", "SSE4", "SSE2".
+/// The SIMD instruction sets supported by both this build and this machine, best first: "AVX-512", "AVX2", "SSE4",
+/// "SSE2".
 std::vector<std::string> simd_targets();
 /// The instruction set in use.
 std::string simd_target();
-/// Uses another of simd_targets(), for tests and benchmarks; no result depends on it. It must not be called while
-/// evaluators run. Throws std::invalid_argument for a name that is not among them.
+/// Select another of simd_targets(), for tests and benchmarks. Results do not depend on it. Must not be called while
+/// evaluators run. Throws std::invalid_argument for an unknown name.
 void use_simd_target(std::string_view name);
 
 }  // namespace phasetree

@@ -6,7 +6,8 @@
 
 namespace phasetree {
 
-/// The balls of a PLY or CSV file, which its name's ending tells. Throws SceneError, which quotes nothing of the file.
+/// Read balls from a PLY or CSV file, chosen by the file name extension. Throws SceneError; the message never contains
+/// text from the file.
 BallList read_balls(const std::filesystem::path&);
 
 }  // namespace phasetree

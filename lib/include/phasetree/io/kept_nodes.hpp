@@ -10,18 +10,19 @@
 
 namespace phasetree {
 
-/// The nodes that an earlier reading of a scene made from files, such as networks, meshes and scans, for one that reads
-/// the scene again and again while people change it: a node whose parameters and whose file are what they were is
-/// taken as it was made, and neither is its file read nor what it derives from it derived again. A document that is to
-/// be read so is made by Document::with_kept_nodes(). One reading at a time uses it.
+/// A cache of nodes that were made from files, such as networks, meshes and scans. It makes re-reading a scene fast
+/// while someone edits it: a node with unchanged parameters and an unchanged file is reused without reading the file
+/// again. Pass it to Document::with_kept_nodes().
 ///
-/// A file is known to be the same by its path, inode, size and time of change. One that was saved less than a second
-/// before it was read is read again the next time, because it may be saved twice within the clock's resolution.
+/// A file counts as unchanged if its path, inode, size and modification time are unchanged. A file saved less than a
+/// second before it was read is read again next time, because it may be saved twice within the clock's resolution.
+///
+/// Not thread-safe: only one reading at a time may use a cache.
 class KeptNodes {
   public:
     struct Node {
         std::variant<Field, Phased> handle;
-        std::uint64_t steps = 0;  ///< that making it took of the reading's budget of work, and takes again
+        std::uint64_t steps = 0;  ///< work of making the node, charged to the reading's work budget again on reuse
     };
     /// What a node was made from.
     struct Source {
@@ -29,14 +30,15 @@ class KeptNodes {
         std::string state;       ///< of the file
     };
 
-    /// A reading begins: it may take what the ones before left.
+    /// Start a reading. It can take what earlier readings kept.
     void start();
-    /// It ended well: forgets what it had no use for.
+    /// Finish a successful reading, and drop all nodes that it did not use.
     void finish();
 
-    /// The node that an earlier reading made of this. It is given once, because nodes at two places of a scene are two.
+    /// Take the node that an earlier reading made from this source. Each node is returned only once, because nodes at
+    /// two places in a scene are distinct.
     std::optional<Node> take(const Source& source);
-    /// Keeps a node for the readings after this.
+    /// Keep a node for later readings.
     void keep(const Source& source, Node node);
 
   private:

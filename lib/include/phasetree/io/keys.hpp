@@ -9,26 +9,28 @@
 
 namespace phasetree {
 
-/// What changes with time, as scene files write it: {"keys": [[0, 1], [2.5, 3]]}, where each key is a time in seconds,
-/// later than the one before, and what is there then. Before the first key it is as at the first, and after the last as
-/// at the last. "between" says how it goes from one to the next: "linear", or "smooth", which starts and ends slowly
-/// (3s² − 2s³ of the way, after the share s of the time).
+/// Values that change with time. Scene files write them as {"keys": [[0, 1], [2.5, 3]]}: pairs of a time in seconds and
+/// a value, with increasing times. The value is constant before the first key and after the last one.
+///
+/// "between" selects the interpolation: "linear", or "smooth", which starts and ends slowly (3s² − 2s³ for a fraction s
+/// of the interval).
 class Keys {
   public:
     static constexpr std::size_t most = 100'000;
 
-    /// Whether a value is meant as keys: an object that has "keys".
+    /// Whether a value is keyed: an object with a member "keys".
     static bool are_in(Value value) { return value.find("keys").has_value(); }
 
-    /// SceneError if something is wrong with them but for the values, which are for the caller to read. `what` names
-    /// what they stand for, as in as().
+    /// Check everything but the keyed values, which the caller reads. Throws SceneError. `what` names the value in
+    /// messages, as in as().
     Keys(const Document&, Value value, std::string_view what);
 
     std::size_t count() const { return list_.size(); }
     double seconds(std::size_t i) const { return list_[i][0].number(); }
     Value value(std::size_t i) const { return list_[i][1]; }
 
-    /// Where a time is: between the key `before` and the one after it, by a share in [0, 1). Of the last key the share
+    /// The position of a time between two keys. The value is a fraction `share`, in [0, 1), of the way from key
+    /// `before` to the next one; "smooth" is already applied. Before the first key and from the last one on, the share
     /// is 0.
     struct Place {
         std::size_t before;
@@ -41,10 +43,10 @@ class Keys {
     bool is_smooth_ = false;
 };
 
-/// The times of all keys within a value, in any order, some more than once.
+/// The times of all keys within a value, unsorted and possibly repeated.
 std::vector<double> times_of_keys(Value value);
 
-/// JSON Schemas as text: of keys whatever their values, and of a value or keys of such.
+/// JSON Schemas as text: of keys with any values, and of a value that may be keyed.
 std::string schema_of_keys();
 std::string schema_of_keyed(const std::string& schema);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a program declares what its scene files may contain beside the tree. A kind of thing, such as a sphere light, is
-/// a plain struct of what the file gives of it, written {"sphere": {…}}:
+/// Declares what a program's scene files may contain besides the tree. A kind of thing, such as a sphere light, is a
+/// plain struct of its parameters, written {"sphere": {…}}:
 ///
 ///     struct SphereLightParameters {
 ///         static constexpr KindInfo info{"sphere", "A ball that shines."};
@@ -17,8 +17,8 @@
 ///         }
 ///     };
 ///
-/// From this list follow the reader with its checks (io/read_kind.hpp), the reference page and the schema
-/// (io/reference.hpp). The members' initialisers are the defaults of what is optional.
+/// The reader and its checks (io/read_kind.hpp), the reference page and the schema (io/reference.hpp) are all derived
+/// from this list. The members' initialisers are the defaults of optional parameters.
 
 #include <optional>
 #include <stdexcept>
@@ -30,32 +30,32 @@
 
 namespace phasetree {
 
-/// What a kind says of itself.
+/// The description of a kind.
 struct KindInfo {
     std::string_view name;     ///< its key in the file
-    std::string_view summary;  ///< a sentence or two
+    std::string_view summary;  ///< one or two sentences
     std::string_view equation = {};
 };
 
-/// A glm::vec3 that is a colour: [r, g, b] in linear light, or "#rrggbb". The limits hold for each component.
+/// A glm::vec3 that is a colour: [r, g, b] in linear light, or "#rrggbb". The limits apply to each component.
 struct ColourParameter : Parameter {};
 
-/// A glm::vec3 of numbers for red, green and blue that is no colour to look at, such as an absorption: [r, g, b].
+/// A glm::vec3 of red, green and blue values that is not a displayable colour, such as an absorption: [r, g, b].
 struct RgbParameter : Parameter {};
 
-/// A glm::vec3 of which only the direction counts, so that it must not be zero.
+/// A glm::vec3 of which only the direction matters. It must not be zero.
 struct DirectionParameter : Parameter {};
 
-/// A std::string that is one of some names.
+/// A std::string that is one of a list of names.
 struct ChoiceParameter : Parameter {
     std::vector<std::string_view> (*choices)() = nullptr;
 };
 
-/// Thrown by a kind's own code: this parameter is within its limits, but does not go with the others, or names what
-/// cannot be used. A reader shows where it stands in the file; where it is missing, that it is needed.
+/// Thrown by a kind's own code if a parameter is within its limits but conflicts with others, or refers to something
+/// unusable. The reader reports the parameter's position in the file, or that it is required if it is missing.
 class ParameterError : public std::runtime_error {
   public:
-    /// Whether the parameter's value is wrong, or that it is there at all.
+    /// Whether to report the parameter's value, or its presence (at the key).
     enum class Place { value, key };
 
     ParameterError(std::string_view parameter, const std::string& message, Place place = Place::value)

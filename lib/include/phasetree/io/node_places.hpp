@@ -11,25 +11,25 @@
 
 namespace phasetree {
 
-/// Where a node stands in a scene file: at the quote before its name.
+/// The position of a node in a scene file: the opening quote of its name.
 struct NodePlace {
-    std::string file;        ///< as Document::name() gives it
+    std::string file;        ///< as returned by Document::name()
     std::size_t offset = 0;  ///< in bytes
     std::size_t line = 0;    ///< from 1
     std::size_t column = 0;  ///< from 1, in code points
 };
 
-/// Remembers for each node of the trees that are read where it stands. Nodes are known by their addresses, and live as
-/// long as this does, so that no other node comes to be where one of them was.
+/// Records the file position of every node that is read. Nodes are identified by address, and kept alive by this object
+/// so that addresses stay unique.
 class NodePlaces {
   public:
     using Node = std::variant<Field, Phased>;
 
     void add(const Node& node, const Document& document, std::size_t offset);
-    /// The copy was made of a node and stands where that stands, if it is known where. Addresses are those of
-    /// Field::node() and Phased::node().
+    /// Give a copy of a node the position of the original, if that is known. `of` is the address returned by
+    /// Field::node() or Phased::node().
     void add_copy(const void* of, const Node& copy);
-    /// Nothing for a node that was made otherwise, as by the program itself.
+    /// The position of a node; nullopt if it was not read from a file.
     std::optional<NodePlace> find(const void* node) const;
 
   private:

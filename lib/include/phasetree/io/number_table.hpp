@@ -10,16 +10,18 @@
 
 namespace phasetree {
 
-/// Rows of numbers in text: CSV as spreadsheets, ParaView, R and NumPy write it, or plain lines of numbers. It is read
-/// line by line, so that rows from a pipe can be used as they come.
+/// Reads rows of numbers from text: CSV as written by spreadsheets, ParaView, R and NumPy, or plain lines of numbers.
+/// Reads line by line, so that rows from a pipe can be used as they arrive.
 ///
-/// Lines end with LF, CR LF or CR. A byte order mark, empty lines and lines that begin with # are skipped.
+/// Lines end with LF, CR LF or CR. A byte order mark, empty lines, and lines that begin with # are skipped. Numbers
+/// have a decimal point.
 ///
-/// With a header, columns may be in any order, and others may stand among them. Names are matched without regard to
-/// case. Cells are separated by what separates the names: commas, or else semicolons, tabs or blanks. A cell may be
-/// quoted ("" stands for a quote in it), but must end on its line; blanks around cells do not count. Without a header,
-/// a row is the numbers of all columns in their order, separated by commas, semicolons or blanks; behind them, # begins
-/// a comment. Numbers have a decimal point.
+/// With a header, columns may be in any order, and other columns are ignored. Names are not case-sensitive. The
+/// separator is the one used in the header: a comma, or else a semicolon, tab or blank. Cells may be quoted ("" stands
+/// for a quote), but must end on the same line; blanks around cells are ignored.
+///
+/// Without a header, a row has the numbers of all columns in order, separated by commas, semicolons or blanks; # starts
+/// a comment after them.
 class NumberTable {
   public:
     struct Column {
@@ -28,12 +30,12 @@ class NumberTable {
     };
     enum class Header { required, optional };
 
-    /// `file` is what errors call the text. Column names must outlive the table.
+    /// `file` names the text in error messages. Column names must outlive the table.
     NumberTable(std::string file, std::span<const Column> columns, Header header)
         : file_(std::move(file)), columns_(columns.begin(), columns.end()), header_(header) {}
 
-    /// Reads the next line, given without its line feed, and calls use() if it is a row. (If it has carriage returns,
-    /// it is several lines.) Throws SceneError with line and column.
+    /// Read the next line, without its line feed, and call use() if it is a row. A line that contains carriage returns
+    /// is read as several lines. Throws SceneError with line and column.
     template <class Use>
     void read_line(std::string_view line, Use&& use) {
         if (line.ends_with('\r')) line.remove_suffix(1);
@@ -45,22 +47,22 @@ class NumberTable {
         }
     }
 
-    /// Whether the header was read that Header::required asks for.
+    /// Whether a header was read. Check this at the end with Header::required.
     bool has_header() const { return separator_ != no_header; }
-    /// Whether rows have this column. Without a header they have all of them.
+    /// Whether rows have this column. Without a header they have all columns.
     bool has(std::size_t column) const;
 
-    /// The number that the current row has in a column, which it must have. Throws SceneError unless it is finite.
-    /// Number is float or double; numbers that are too small for it are 0.
+    /// The number in a column of the current row, which must have that column. Number is float or double; numbers too
+    /// small for it become 0. Throws SceneError unless the number is finite.
     template <class Number>
     Number number(std::size_t column) const;
-    /// An error at the cell of a column in the current row.
+    /// Make an error at a cell of the current row.
     SceneError error(std::size_t column, std::string message) const;
 
   private:
     struct Cell {
         std::size_t at;         ///< offset in the line
-        std::string_view text;  ///< without blanks and quotes around it
+        std::string_view text;  ///< without quotes and surrounding blanks
     };
     static constexpr char no_header = '\0';
     static constexpr std::size_t missing = static_cast<std::size_t>(-1);
@@ -79,12 +81,12 @@ class NumberTable {
     std::string file_;
     std::vector<Column> columns_;
     Header header_;
-    bool has_begun_ = false;           ///< whether there was a line that is neither empty nor a comment
-    char separator_ = no_header;       ///< in rows below a header
-    std::vector<std::size_t> places_;  ///< below a header: for each column the number of its cell, or `missing`
+    bool has_begun_ = false;           ///< whether a line was read that is neither empty nor a comment
+    char separator_ = no_header;       ///< of rows below a header
+    std::vector<std::size_t> places_;  ///< below a header: the cell index of each column, or `missing`
     std::size_t cells_in_header_ = 0;
     std::size_t line_number_ = 0;
-    std::string_view line_;  ///< of the current row, valid while use() runs
+    std::string_view line_;  ///< of the current row; valid during use()
     std::size_t row_end_ = 0;
     std::vector<Cell> cells_;
 };

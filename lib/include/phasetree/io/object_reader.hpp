@@ -25,29 +25,30 @@ template <readable_item T>
 inline constexpr bool is_list<std::vector<T>> = true;
 }  // namespace io
 
-/// The types a value can be read as: bool, int, unsigned, float, double, std::string, glm vectors of float and double,
-/// and a std::vector of any of these.
+/// The types that a value can be read as: bool, int, unsigned, float, double, std::string, glm vectors of float and
+/// double, and a std::vector of any of these.
 template <class T>
 concept Readable = io::readable_item<T> || io::is_list<T>;
 
-/// The value as a T, or a SceneError at the value (at the item, for one inside an array) that says what is wrong.
-/// `what` begins the sentence, e.g. `"radius"`. Every number read, also those inside vectors and lists, must be in the
-/// range; a number must fit its type: an integer must be whole, a float must not become infinite.
+/// Read a value as a T.
+///
+/// Every number, including those in vectors and lists, must be in the range and must fit its type: integers must be
+/// whole, and floats must not overflow to infinity. Throws SceneError at the value, or at the item of an array. `what`
+/// begins the message, e.g. `"radius"`.
 template <Readable T>
 T as(const Document& document, Value value, std::string_view what, const Range& range = {});
 
-/// A colour in linear Rec.709 RGB. It is written as [r, g, b], three linear numbers, or as "#rrggbb", which is sRGB
-/// as image editors show it and is converted with the exact piecewise curve of IEC 61966-2-1. Each component must be
-/// in the range.
+/// Read a colour in linear Rec.709 RGB. It is written as [r, g, b], three linear numbers, or as "#rrggbb" in sRGB,
+/// which is decoded with the exact piecewise curve of IEC 61966-2-1. Each component must be in the range. Throws
+/// SceneError.
 glm::vec3 as_colour(const Document& document, Value value, std::string_view what,
                     const Range& range = Range::not_negative());
 
-/// Reads the members of one object by key, and remembers which keys it was asked for, so that finish() can tell a
-/// misspelt key from a known one.
+/// Reads the members of an object by key. It remembers all requested keys, so that finish() can report unknown ones.
 class ObjectReader {
   public:
-    /// `what` names the object in messages: "the camera", "the sphere". SceneError when the value is no object.
-    /// The document must outlive the reader.
+    /// `what` names the object in messages: "the camera", "the sphere". The document must outlive the reader. Throws
+    /// SceneError if the value is not an object.
     ObjectReader(const Document& document, Value object, std::string_view what);
 
     template <Readable T>
@@ -55,14 +56,14 @@ class ObjectReader {
         return as<T>(document(), required_value(key), quoted(key), range);
     }
 
-    /// The fallback, when the key is missing, is taken as it is, in the range or not.
+    /// Read an optional member. The fallback for a missing key is not checked against the range.
     template <Readable T>
     T optional(std::string_view key, T fallback, const Range& range = {}) {
         const std::optional<Value> found = value(key);
         return found ? as<T>(document(), *found, quoted(key), range) : fallback;
     }
 
-    /// The same for an optional member that has no fallback.
+    /// Read an optional member without a fallback.
     template <Readable T>
     std::optional<T> maybe(std::string_view key, const Range& range = {}) {
         const std::optional<Value> found = value(key);
@@ -73,14 +74,14 @@ class ObjectReader {
     glm::vec3 optional_colour(std::string_view key, const glm::vec3& fallback,
                               const Range& range = Range::not_negative());
 
-    /// The member itself, for what is read elsewhere.
+    /// The member itself, to be read by other code.
     std::optional<Value> value(std::string_view key);
     Value required_value(std::string_view key);
 
-    /// Names keys without reading them.
+    /// Mark keys as known without reading them.
     void allow(std::initializer_list<std::string_view> keys);
 
-    /// SceneError for the first key nobody asked for. Call it when everything was read.
+    /// Throw SceneError for the first unknown key. Call it when everything has been read.
     void finish() const;
 
     const Document& document() const { return *document_; }

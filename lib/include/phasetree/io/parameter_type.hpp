@@ -11,22 +11,24 @@
 
 namespace phasetree {
 
-/// What values a parameter takes: in words, such as "number" or "[x, y, z]", and as a JSON Schema, which is JSON text.
+/// The type of a parameter's value: in words, such as "number" or "[x, y, z]", and as a JSON Schema (JSON text).
 struct ValueType {
     std::string name;
     std::string schema;
 };
 
-/// How a member of type T that is listed as a P (Parameter, ColourParameter, …) is read and described: three static
-/// functions
-///     T read(const Document&, Value, std::string_view what, const P&);  // SceneError where it is wrong
+/// Defines how a member of type T that is listed as a P (Parameter, ColourParameter, …) is read and described, in three
+/// static functions:
+///
+///     T read(const Document&, Value, std::string_view what, const P&);  // throws SceneError
 ///     ValueType describe(const P&);
-///     std::string written(const T&);  // as in a file: JSON, or a word instead
-/// A program specialises it for types of its own; a list with a member of any other type does not compile.
+///     std::string written(const T&);  // JSON, as in a file, or a word instead
+///
+/// Programs specialise it for their own types. A parameter list with a member of any other type does not compile.
 template <class T, class P = Parameter>
 struct ParameterType;
 
-/// Values that say everything by themselves.
+/// Types that need no further description.
 template <class T>
 concept PlainParameter = io::one_of<T, bool, int, unsigned, float, double, std::string, glm::vec2, glm::vec3>;
 
@@ -67,7 +69,7 @@ struct ParameterType<std::string, ChoiceParameter> {
     static std::string written(const std::string&);
 };
 
-/// A file, sought from the scene's folder and, if there is one, within the folder that files must lie in.
+/// A file, resolved relative to the scene's folder and restricted by Document::with_files_within().
 template <>
 struct ParameterType<std::filesystem::path, Parameter> {
     static std::filesystem::path read(const Document&, Value, std::string_view what, const Parameter&);
@@ -75,7 +77,7 @@ struct ParameterType<std::filesystem::path, Parameter> {
     static std::string written(const std::filesystem::path&);
 };
 
-/// What may be left out, and is nothing then.
+/// An optional value; empty if it is missing.
 template <class T, class P>
 struct ParameterType<std::optional<T>, P> {
     static std::optional<T> read(const Document& document, Value value, std::string_view what, const P& p) {
@@ -85,7 +87,7 @@ struct ParameterType<std::optional<T>, P> {
     static std::string written(const std::optional<T>& v) { return v ? ParameterType<T, P>::written(*v) : "none"; }
 };
 
-/// A colour whose components are within these limits, as a schema.
+/// The schema of a colour whose components are within these limits.
 ValueType colour_type(const Limits&);
 
 }  // namespace phasetree

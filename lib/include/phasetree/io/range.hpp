@@ -8,13 +8,14 @@
 
 namespace phasetree {
 
-/// The numbers a key accepts. `description` finishes the sentence "… must be"; without one the bounds are spelt out.
+/// The numbers that a key accepts. `description` completes the sentence "… must be"; if it is empty, the bounds are
+/// written out.
 struct Range {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool min_is_open = false;  ///< min itself is outside
+    bool min_is_open = false;  ///< min itself is excluded
     bool max_is_open = false;
-    std::string_view description = {};  ///< must outlive the range: use a literal
+    std::string_view description = {};  ///< must outlive the range; use a literal
 
     static constexpr Range any() { return {}; }
     static constexpr Range positive() { return {.min = 0, .min_is_open = true, .description = "positive"}; }
@@ -30,11 +31,11 @@ struct Range {
     }
 };
 
-/// The numbers that a parameter accepts. A limit is the decimal number that its float is written as: a file's 0.1 is
-/// within limits that begin at 0.1f, though that float is a little more.
+/// The numbers that a parameter accepts. Each limit is converted to double through the shortest decimal form of its
+/// float. A file's 0.1 is therefore within limits that start at 0.1f, although that float is slightly larger.
 Range range_of(const Limits&);
 
-/// What finishes the sentence "… must be": the range's own description, or its bounds spelt out.
+/// The text that completes "… must be": the range's own description, or its bounds.
 std::string describe(const Range&);
 
 }  // namespace phasetree

@@ -10,11 +10,11 @@
 
 namespace phasetree {
 
-/// A choice between kinds is an object of one member, {"kind": {…}}, as nodes are. This is that member, whose key is
-/// one of `kinds`; SceneError otherwise. `what` names the choice in messages ("a material").
+/// Return the single member of a choice between kinds, which is written {"kind": {…}} as nodes are. Throws SceneError
+/// unless its key is one of `kinds`. `what` names the choice in messages ("a material").
 Value member_of_kind(const Document&, Value, std::string_view what, std::span<const std::string_view> kinds);
 
-/// The same, and calls f.template operator()<Kind>(member) for the kind that it is.
+/// Read a choice between kinds, and call f.template operator()<Kind>(member) for the one found.
 template <class... Kinds, class F>
 void with_kind(TypeList<Kinds...>, const Document& document, Value value, std::string_view what, F&& f) {
     const std::string_view names[] = {Kinds::info.name...};
@@ -22,11 +22,11 @@ void with_kind(TypeList<Kinds...>, const Document& document, Value value, std::s
     ((Kinds::info.name == member.key() ? f.template operator()<Kinds>(member) : void()), ...);
 }
 
-/// Reads the parameters that T lists into the members that it lists them for. What is optional and missing stays as
-/// it is. Other keys are not checked here; reader.finish() does that.
+/// Read the parameters listed by T into their members. Members of missing optional parameters are unchanged. Unknown
+/// keys are not checked here; call reader.finish().
 template <class T>
 void read_parameters(ObjectReader& reader, T& target) {
-    // All are named first, so that none of them is taken for a misspelling of one that is missing.
+    // Mark all names first, so that a present parameter is never suggested as the misspelling of a missing one.
     T::parameters([&](auto, const auto& p) { reader.allow({p.name}); });
     T::parameters([&](auto member, const auto& p) {
         auto& place = target.*member;
@@ -36,11 +36,11 @@ void read_parameters(ObjectReader& reader, T& target) {
     });
 }
 
-/// Locates an error at its parameter in what `reader` has read.
+/// Convert a ParameterError to a SceneError at the parameter's position in the object of `reader`.
 SceneError located(ObjectReader& reader, const ParameterError&);
 
-/// Calls make(), which makes something of what `reader` has read. A ParameterError becomes one at the parameter, a
-/// std::invalid_argument one at the object.
+/// Call make(), which builds something from what `reader` has read. A ParameterError is reported at the parameter, a
+/// std::invalid_argument at the object; both as SceneError.
 template <class Make>
 decltype(auto) with_place(ObjectReader& reader, Make&& make) {
     try {
@@ -52,8 +52,8 @@ decltype(auto) with_place(ObjectReader& reader, Make&& make) {
     }
 }
 
-/// Reads the object as a Kind and returns what make(kind) returns; refuses keys that the kind does not list. `what`
-/// names the object in messages ("the sphere light").
+/// Read an object as a Kind, and return make(kind). Throws SceneError for unknown keys. `what` names the object in
+/// messages ("the sphere light").
 template <class Kind, class Make>
 auto read_kind(const Document& document, Value object, std::string_view what, Make&& make) {
     ObjectReader reader(document, object, what);

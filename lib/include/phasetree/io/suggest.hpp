@@ -12,8 +12,8 @@
 
 namespace phasetree {
 
-/// The candidate a misspelt word was most likely meant to be, or nothing when none is near. Upper and lower case of
-/// ASCII letters count as equal. Of equally near candidates the first wins.
+/// The candidate closest to a misspelt word, or nullopt if none is close. ASCII letters are compared without case.
+/// Among equally close candidates the first one wins.
 std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
 
 inline std::optional<std::string> closest(std::string_view word, std::initializer_list<std::string_view> candidates) {

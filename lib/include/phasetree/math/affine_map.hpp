@@ -9,8 +9,8 @@
 
 namespace phasetree {
 
-/// The affine map p ↦ A (p − before) − after, computed in this order, where A has the given rows. A step that does
-/// nothing does not change how the others are rounded, so that maps can be composed without a change of their values.
+/// The affine map p ↦ A (p − before) − after, where A has the given rows. It is evaluated in this order. A step that
+/// does nothing does not affect the rounding of the others, so maps can be composed without changing values.
 struct AffineMap {
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     glm::vec3 before{0}, after{0};
@@ -36,8 +36,8 @@ struct AffineMap {
     bool turns() const {
         return row[0] != glm::vec3(1, 0, 0) || row[1] != glm::vec3(0, 1, 0) || row[2] != glm::vec3(0, 0, 1);
     }
-    /// The map that applies this one and then `next`; nothing if no single map gives the same values to the last bit
-    /// (except for the sign of a zero).
+    /// Compose this map with `next`, which is applied after it. Returns nullopt if no single map gives the same values
+    /// to the last bit (except for the sign of a zero).
     std::optional<AffineMap> then(const AffineMap& next) const {
         if (!turns() && !moves_after() && !(moves_before() && next.moves_before()))
             return AffineMap{

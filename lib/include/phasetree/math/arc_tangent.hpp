@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// The angle in radians from the x axis to the direction (x, y), in [−π, π], with an error of at most 3 ulp of π; 0 for
-/// the zero vector. It is computed here for the same reason as sine_cosine(): by a polynomial through the Chebyshev
-/// nodes of atan(√z)/√z on [0, 1], z = (y/x)², good to 5·10⁻⁹, its derivative to 7·10⁻⁸.
+/// The angle in radians from the x axis to the direction (x, y), in [−π, π]; 0 for the zero vector. The error is at
+/// most 3 ulp of π. Computed here for the same reason as sine_cosine(). The polynomial interpolates atan(√z)/√z, z =
+/// (y/x)², at the Chebyshev nodes of [0, 1]; its error is 5·10⁻⁹, that of its derivative 7·10⁻⁸.
 template <class T>
 T angle_of(const T& x, const T& y) {
     constexpr float pi = 3.14159265358979f;

@@ -11,7 +11,7 @@
 
 namespace phasetree {
 
-/// A closed axis-aligned box. It is empty if low > high on some axis, and its sides may be infinite.
+/// A closed axis-aligned box. It is empty if low > high on any axis. Sides may be infinite.
 struct Bounds {
     static constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -19,7 +19,7 @@ struct Bounds {
     glm::vec3 high{-infinity};
 
     static Bounds everything() { return {glm::vec3(-infinity), glm::vec3(infinity)}; }
-    /// The box of half extents h about the origin; empty for a negative extent.
+    /// The box with half extents h around the origin; empty if an extent is negative.
     static Bounds centred(const glm::vec3& h) { return {-h, h}; }
 
     bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
@@ -34,7 +34,7 @@ struct Bounds {
     bool contains(const glm::vec3& p) const {
         return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
     }
-    /// Grown by d on every side; an empty box stays empty.
+    /// Grow by d on every side. An empty box stays empty.
     Bounds inflated(float d) const {
         if (empty()) return {};
         return {low - d, high + d};
@@ -44,7 +44,7 @@ struct Bounds {
     }
 };
 
-/// The smallest box around both. If one of the two is empty it must be Bounds{}.
+/// The smallest box around both. An empty argument must be Bounds{}.
 inline Bounds unite(const Bounds& a, const Bounds& b) {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
@@ -53,8 +53,9 @@ inline Bounds intersect(const Bounds& a, const Bounds& b) {
     return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
-/// A box around the image of a box under a linear map, with a margin for rounding. A side at infinity makes only those
-/// sides infinite that the map makes depend on it: a profile without end in z stays bounded when it is turned about z.
+/// A box around the image of a box under a linear map, with a margin for rounding. An infinite side makes only those
+/// sides infinite that depend on it: a profile that is infinite only in z stays bounded in x and y when it is rotated
+/// about z.
 inline Bounds image_of(const Bounds& box, const glm::mat3& map) {
     if (box.empty()) return {};
     Bounds result{glm::vec3(0), glm::vec3(0)};

@@ -8,12 +8,12 @@
 
 namespace phasetree {
 
-/// While an object of this class lives, its thread takes subnormal numbers for zero, as operands and as results,
-/// because they cost time and carry no information in a distance. Every task that traces rays must hold one, so that
-/// all threads compute alike.
+/// Makes its thread treat subnormal numbers as zero, as operands and as results, for the lifetime of the object.
+/// Subnormals are slow, and carry no information in a distance. Every task that traces rays must hold one, so that all
+/// threads compute the same results.
 ///
-/// x86-64 and arm64 differ in one case: a result that is subnormal before it is rounded, and the least normal number
-/// afterwards. Only arm64 flushes it to zero.
+/// x86-64 and arm64 differ in one case: only arm64 flushes a result that is subnormal before rounding, but would round
+/// to the smallest normal number.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)
@@ -45,7 +45,7 @@ class FlushSubnormals {
 
   public:
 #else
-    FlushSubnormals() {}  // not defaulted, or every object would be an unused variable
+    FlushSubnormals() {}  // not defaulted, because compilers would report every object as unused
 #endif
     FlushSubnormals(const FlushSubnormals&) = delete;
     FlushSubnormals& operator=(const FlushSubnormals&) = delete;

@@ -7,17 +7,18 @@
 
 namespace phasetree {
 
-/// An equation whose constants a search finds: equation(search(p), p), where `search` is given plain numbers. It is for
-/// data of which so little matters at any one point that no loop should go over all of them. Other number types have
-/// functions of their own; one that cannot search calls otherwise(p), which is the same by a loop over all.
+/// Evaluate an equation whose constants are found by a search: equation(search(p), p). `search` receives plain numbers.
+/// Use it for data of which only a little matters at any point, so that a loop over all of it would be too slow. Other
+/// number types overload this function. One that cannot search calls otherwise(p), which gives the same result by a
+/// loop over everything.
 template <class Search, class Equation, class Otherwise>
 float found_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(p), p);
 }
 
-/// The same where the equation is one for all points, and the search finds its numbers alone: search(p, to, stride)
-/// writes them to to[0], to[stride] …, and equation(numbers, p) is given an array of them. So batches need not evaluate
-/// it lane by lane.
+/// The same where a single equation holds for all points, and the search finds only its numbers. search(p, to, stride)
+/// writes them to to[0], to[stride], …, and equation(numbers, p) receives an array of them. This lets batches evaluate
+/// the equation for all lanes at once.
 template <std::size_t count, class Search, class Equation, class Otherwise>
 float gathered_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
     std::array<float, count> numbers;
@@ -25,8 +26,8 @@ float gathered_equation(const Vec3<float>& p, const Search& search, const Equati
     return equation(numbers, p);
 }
 
-/// Where a loop is no hardship, but its derivatives are: it is otherwise(p) for all number types but those that carry
-/// derivatives, which are given equation(search(p), p).
+/// Evaluate otherwise(p), except for number types that carry derivatives: those evaluate equation(search(p), p). Use it
+/// where a loop is fast enough for values, but not for derivatives.
 template <class T, class Search, class Equation, class Otherwise>
 T equation_for_derivatives(const Vec3<T>& p, const Search&, const Equation&, const Otherwise& otherwise) {
     return otherwise(p);

@@ -1,10 +1,16 @@
-// The functions that every number type of the project provides, here for `float`.
+// The functions that every number type provides, here for `float`.
 //
-// An equation is written once, as a template over its number type T. T is `float` (the reference evaluator), `Batch`
-// (SIMD, eight points at once), `Dual` (value and gradient) or `Recorded` (emits instructions). `select` takes the
-// place of a branch. All four types give the same value bit for bit, because they do the same IEEE operations in the
-// same order. For the same reason min and max are defined here: their result for equal or unordered arguments is fixed.
-// The fifth type, `Enclosure`, gives the range of the value in a box.
+// Each equation is written once, as a template over its number type T:
+//
+//     float      the reference evaluator
+//     Batch      SIMD, eight points at once
+//     Dual       value and gradient
+//     Recorded   emits instructions
+//     Enclosure  the range of the values in a box
+//
+// `select` replaces branches. The first four types give identical values, bit for bit, because they do the same IEEE
+// operations in the same order. This is also why min and max are defined here: their results for equal or unordered
+// arguments are fixed.
 #pragma once
 
 #include <cmath>
@@ -18,7 +24,7 @@ namespace phasetree {
     return condition ? yes : no;
 }
 
-/// The result is the second operand if the comparison is false, as with the SSE instructions.
+/// Returns the second operand if the comparison is false, like the SSE instructions.
 [[gnu::always_inline]] inline float min(float a, float b) {
     return a < b ? a : b;
 }
@@ -35,25 +41,25 @@ namespace phasetree {
     return std::floor(a);
 }
 
-/// The largest whole number that is not above a, as a number without derivatives (of a Dual it is a float).
+/// floor(a) as a number without derivatives (for a Dual, a float).
 template <class T>
 T whole_part(const T& a) {
     return floor(a);
 }
 
-/// a·b + c, rounded once or twice, whichever is faster on the processor. It is only for numbers with which both give
-/// the same result, such as whole numbers below 2²⁴.
+/// a·b + c, rounded once or twice, whichever is faster on the processor. Use it only where both give the same result,
+/// for example for integers below 2²⁴.
 template <class T>
 T multiply_add(const T& a, float b, const T& c) {
     return a * b + c;
 }
 
-/// table[index] for a whole index within the table; see clamp() for one that may be NaN.
+/// table[index] for an integer index within the table. For an index that may be NaN, see clamp().
 [[gnu::always_inline]] inline float lookup(const float* table, float index) {
     return table[static_cast<int>(index)];
 }
 
-/// x limited to [low, high]. A NaN becomes `low`, because comparisons with it are false.
+/// x clamped to [low, high]. NaN becomes `low`, because comparisons with NaN are false.
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
     return min(max(x, low), high);
@@ -61,7 +67,7 @@ T clamp(const T& x, const T& low, const T& high) {
 
 /// Smooth union of two 1-Lipschitz fields with blending radius r (paper, Section 9.3, after Dekkers et al. 2004):
 ///     s(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
-/// 1-Lipschitz, and never more than r/6 below the plain minimum.
+/// The result is 1-Lipschitz, and at most r/6 below the plain minimum.
 template <class T>
 T smooth_min(const T& a, const T& b, float r) {
     const T d = max(1.f - abs(b - a) * (1.f / r), T(0.f));
@@ -73,34 +79,35 @@ T smooth_max(const T& a, const T& b, float r) {
     return -smooth_min(-a, -b, r);
 }
 
-/// A field above a discontinuity (lib/README.md): max(b, min(f, D − b)) for a bound {f ≤ 0} ⊂ {b ≤ 0}. It has the sign
-/// of f, is b where b ≥ D/2, and 1-Lipschitz if f is so where b < D/2, whatever f does elsewhere.
+/// A field f that is guarded against its discontinuities (lib/README.md): max(b, min(f, D − b)) for a bound {f ≤ 0} ⊂
+/// {b ≤ 0}. It has the sign of f, equals b where b ≥ D/2, and is 1-Lipschitz if f is 1-Lipschitz where b < D/2,
+/// whatever f does elsewhere.
 template <class T>
 T guarded(const T& bound, const T& f, float far) {
     return max(bound, min(f, far - bound));
 }
 
-/// A field f with a far bound b: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0} and b is larger than f far away. f alone has the
-/// sign, so near the surface b can be left out.
+/// A field f with a bound b for far points: max(f, b), where {f ≤ 0} ⊂ {b ≤ 0} and b exceeds f far away. f alone
+/// determines the sign, so b can be omitted near the surface.
 template <class T>
 T far_bound(const T& f, const T& bound) {
     return max(f, bound);
 }
-/// A field f with a far bound b of the inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
+/// A field f with a bound b for points far inside: min(f, b), where {f ≥ 0} ⊂ {b ≥ 0}.
 template <class T>
 T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 
-/// The solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than b, and
-/// as steep as the steeper of the two. Of infinities it is a, because a maximum with a first operand that is no number
-/// is the second.
+/// The part of solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than
+/// b, and as steep as the steeper of the two. If both are infinite it is a, because max() returns its second operand if
+/// the first is NaN.
 template <class T>
 T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
 }
 
-/// The contribution of a skeleton at the distance d to a blob of radius R: (1 − (d/R)²)³, zero beyond R (Wyvill et al.,
+/// The contribution of a skeleton at distance d to a blob of radius R: (1 − (d/R)²)³, and zero beyond R (Wyvill et al.,
 /// "Data Structure for Soft Objects", 1986, with the square for their cubic).
 template <class T>
 T falloff(const T& d, float radius) {
@@ -108,13 +115,13 @@ T falloff(const T& d, float radius) {
     const T y = max(1.f - x * x, T(0.f));
     return y * y * y;
 }
-/// The largest slope of falloff() times R, which is 6x(1 − x²)² at x² = 1/5.
+/// The maximum slope of falloff() times R: 6x(1 − x²)² at x² = 1/5.
 inline constexpr float steepest_falloff = 1.7172838f;
 
-/// The exact signed distance to an intersection of two solids, from their exact signed distances a and b, which vary
-/// along orthogonal directions: a profile and the slab of an extrusion, or the two sides of a rectangle. Its gradient
-/// is a combination of theirs with weights whose squares sum to at most 1, so it is no steeper than the steeper of the
-/// two. Its sign is that of max(a, b).
+/// The exact signed distance to an intersection of two solids, from their exact signed distances a and b, which must
+/// vary along orthogonal directions. Examples are a profile and the slab of an extrusion, or the two sides of a
+/// rectangle. The gradient combines theirs with weights whose squares sum to at most 1, so the result is no steeper
+/// than the steeper of the two. Its sign is that of max(a, b).
 template <class T>
 T corner(const T& a, const T& b) {
     const T zero(0.f);
@@ -122,7 +129,7 @@ T corner(const T& a, const T& b) {
     return sqrt(past_a * past_a + past_b * past_b) + min(max(a, b), zero);
 }
 
-/// The exact signed distance to an intersection of three solids, whose distances vary along orthogonal directions.
+/// The exact signed distance to an intersection of three solids whose distances vary along orthogonal directions.
 template <class T>
 T corner(const T& a, const T& b, const T& c) {
     const T zero(0.f);
@@ -130,14 +137,15 @@ T corner(const T& a, const T& b, const T& c) {
     return sqrt(past_a * past_a + past_b * past_b + past_c * past_c) + min(max(a, max(b, c)), zero);
 }
 
-/// As select(), but the caller vouches that both operands and their slopes agree where the condition changes. Number
-/// types that bound derivatives (Enclosure) make use of that.
+/// Like select(), but the caller guarantees that both operands and their slopes agree where the condition changes.
+/// Number types that bound derivatives (Enclosure) use this.
 template <class Condition, class T>
 T select_smoothly(const Condition& condition, const T& yes, const T& no) {
     return select(condition, yes, no);
 }
 
-/// As select_smoothly(), with functions that give the operands: if the condition is known only one of them is called.
+/// Like select_smoothly(), with functions that return the operands. If the condition is known, only one of them is
+/// called.
 template <class Condition, class Yes, class No>
 [[gnu::always_inline]] inline auto choose_smoothly(const Condition& condition, const Yes& yes, const No& no) {
     return select_smoothly(condition, yes(), no());
@@ -147,10 +155,10 @@ template <class Yes, class No>
     return condition ? yes() : no();
 }
 
-/// Returns f. `other` knows a second expression that equals f where certain comparisons are true. A number type that
-/// bounds values in a box (Enclosure) returns that expression instead if they are true all over the box. `other` is
-/// called with a function `certainly`, which says whether a comparison is, and returns a pair: whether all are, and
-/// the expression.
+/// Return f. Number types that bound values in a box (Enclosure) may instead return a second expression, which equals f
+/// wherever certain comparisons are true, if they are true throughout the box. `other` is called with a function
+/// `certainly`, which returns whether a comparison is true throughout the box. It returns a pair: whether all
+/// comparisons are, and the expression.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;
@@ -161,13 +169,13 @@ struct SineCosine {
     T sine, cosine;
 };
 
-/// The sine and cosine of x in radians, for |x| up to 10⁴ with an error of at most 2 ulp of 1. They are computed here
-/// because those of libraries differ between scalar and SIMD code: by Cody and Waite's reduction to |r| ≤ π/4, then by
-/// Taylor polynomials shortened by Chebyshev economisation.
+/// The sine and cosine of x in radians, for |x| up to 10⁴. The error is at most 2 ulp of 1. Computed here because
+/// library functions differ between scalar and SIMD code. Uses Cody and Waite's reduction to |r| ≤ π/4, then Taylor
+/// polynomials shortened by Chebyshev economisation.
 template <class T>
 SineCosine<T> sine_cosine(const T& x) {
     const T k = floor(x * 0.636619772367581343f + 0.5f);
-    // π/2 is split into three parts of few bits, so that k times the first two is exact.
+    // π/2 is split into three parts with few bits, so that k times each of the first two is exact.
     const T r = ((x - k * 1.5703125f) - k * 4.837512969970703125e-4f) - k * 7.549789948768648e-8f;
     const T z = r * r;
     const T s = r + r * z * (-1.6666654611e-1f + z * (8.3321608736e-3f + z * -1.9515295891e-4f));
@@ -182,8 +190,8 @@ SineCosine<T> sine_cosine(const T& x) {
     return {select(less(T(1.5f), quadrant), -sine, sine), select(less(abs(quadrant - 1.5f), T(1.f)), -cosine, cosine)};
 }
 
-/// The sine alone, with the same range and error at half the cost: x is reduced to |r| ≤ π/2, where a polynomial
-/// through the Chebyshev nodes of (sin √z/√z − 1)/z has an error of at most 3·10⁻⁸.
+/// The sine alone, with the same range and error at half the cost. x is reduced to |r| ≤ π/2. There a polynomial that
+/// interpolates (sin √z/√z − 1)/z at Chebyshev nodes has an error of at most 3·10⁻⁸.
 template <class T>
 T sine(const T& x) {
     const T k = floor(x * 0.318309886183790672f + 0.5f);

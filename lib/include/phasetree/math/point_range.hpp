@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// A box of points, given by its centre and half of its size along each axis.
+/// A box of points, given by its centre and half its size along each axis.
 struct PointRange {
     std::array<double, 3> centre{}, half_extents{};
 };

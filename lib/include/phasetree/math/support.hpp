@@ -1,4 +1,4 @@
-// Support functions of solids: the maximum of d·p over their points p, for a vector d of any length.
+// Support functions of solids: the maximum of d·p over all points p of the solid, for a vector d of any length.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace phasetree::detail {
 inline double disk_support(const glm::dvec3& d) {
     return std::sqrt(d.x * d.x + d.y * d.y);
 }
-/// The support of the box of half extents h about the origin.
+/// The support of the box with half extents h around the origin.
 inline double box_support(const glm::dvec3& d, const glm::dvec3& h) {
     return std::abs(d.x) * h.x + std::abs(d.y) * h.y + std::abs(d.z) * h.z;
 }
@@ -27,8 +27,8 @@ double hull_support(const glm::dvec3& d, const Points& points) {
 inline double hull_support(const glm::dvec3& d, std::initializer_list<glm::dvec3> points) {
     return hull_support<std::initializer_list<glm::dvec3>>(d, points);
 }
-/// The support of a solid that is the same at every z, from that of its section. It is infinite for any direction that
-/// is not in the xy plane.
+/// The support of a solid with the same cross section at every z, from the support of the section. Infinite for
+/// directions outside the xy plane.
 inline double section_support(const glm::dvec3& d, double of_section) {
     return d.z == 0 ? of_section : std::numeric_limits<double>::infinity();
 }

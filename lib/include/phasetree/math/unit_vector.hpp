@@ -6,10 +6,12 @@
 
 namespace phasetree {
 
-/// v at length 1, or the zero vector if v is zero. A vector whose length is 1 to within 10⁻⁶ stays as it is to the last
-/// bit, so that a tree that is written and read again is the same. The length is computed in double precision: squares
-/// of floats below 10⁻¹⁹ are subnormal or zero, and those above 10¹⁹ are infinite. Coordinates that would be subnormal
-/// are zero, as numbers that are read are.
+/// v scaled to length 1, or the zero vector if v is zero.
+///
+/// A vector whose length is within 10⁻⁶ of 1 is returned unchanged, so that writing and reading a tree preserves it to
+/// the last bit. The length is computed in double precision, because squares of floats below 10⁻¹⁹ are subnormal or
+/// zero, and those above 10¹⁹ are infinite. Subnormal coordinates of a scaled vector become zero, as they do when
+/// numbers are read.
 inline glm::vec3 unit_vector(const glm::vec3& v) {
     const glm::dvec3 exact(v);
     const double length = glm::length(exact);

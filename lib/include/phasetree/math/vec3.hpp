@@ -6,7 +6,7 @@
 
 namespace phasetree {
 
-/// A point or direction over any number type. The order of operations is fixed for the reason that number.hpp gives.
+/// A point or direction over any number type. The order of operations is fixed; number.hpp explains why.
 template <class T>
 struct Vec3 {
     T x, y, z;
@@ -44,7 +44,8 @@ template <class T>
 [[gnu::always_inline]] inline T length(const Vec3<T>& a) {
     return sqrt(dot(a, a));
 }
-/// The squared distance from q to the segment from the origin to `along`. `inverse` is 1/|along|², or 0 for a point.
+/// The squared distance from q to the segment from the origin to `along`. `inverse` is 1/|along|², or 0 if the segment
+/// is a point.
 template <class T>
 T squared_distance_to_segment(const Vec3<T>& q, const glm::vec3& along, float inverse) {
     const T s = clamp(dot(q, along) * inverse, T(0.f), T(1.f));

@@ -11,27 +11,26 @@ namespace phasetree {
 class Field;
 class Phased;
 
-/// Asks subtrees for a box around {f ≤ level}; for a multiphase object, around all points within `level` of a material
-/// (a phase that is not the vacuum).
-/// Answers are kept, so that a shared subtree is asked once for each level.
+/// Computes a box around {f ≤ level} of a field, or around all points within `level` of a material (a phase other than
+/// the vacuum) of an object. Answers are cached, so a shared subtree is evaluated once per level.
 ///
-/// There are two ways to answer. The result is the box by boxes, with those sides by directions that are tighter by
-/// more than a hundredth of its size.
+/// There are two methods. The result is the box of the first, with each side replaced by that of the second if it is
+/// tighter by more than a hundredth of the box's size.
 ///
-/// *By boxes:* each node makes its box from those of its children, along its own axes. That is fast, but each rotation
+/// *By boxes:* each node makes its box from those of its children, along its own axes. This is fast, but each rotation
 /// puts a box around a rotated box.
 ///
-/// *By directions:* let the root be the node that is asked first. Six directions, those of the outward normals of the
-/// sides of the root's box, are passed down the tree, and each node gives its support along them, the maximum of d·p. A
-/// map of space transforms the directions for its child, so that a chain of rotations loses nothing:
+/// *By directions:* six directions, the outward normals of the sides of the root's box, are passed down the tree, where
+/// the root is the node asked first. Each node returns its support along them, the maximum of d·p. A map of space
+/// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
-/// The six numbers are kept as a Bounds: a box along the root's axes, measured from where the node's own origin lies.
-/// Behind a map that folds space two opposite sides may be asked along the same direction, so a low side may lie above
-/// a high one; only Bounds{} means that there is nothing.
+/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. Behind a
+/// map that folds space, two opposite sides may be asked for along the same direction, so a low side may exceed the
+/// high one. Only Bounds{} means that there is nothing.
 class BoundsQuery {
   public:
     /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node
-    /// that is asked.
+    /// being asked.
     using Directions = std::array<glm::dvec3, 6>;
 
     BoundsQuery();
@@ -42,11 +41,11 @@ class BoundsQuery {
     Bounds operator()(const Field&, float level);
     Bounds operator()(const Phased&, float level);
 
-    /// Whether the box is wanted along the axes of the node that is asked. If not, a node must make its answer by one
-    /// of the functions below.
+    /// Whether the box is requested along the axes of the node being asked. If not, the node must produce its answer
+    /// with one of the functions below.
     bool is_by_boxes() const { return way_ != Way::by_directions; }
 
-    /// A child's box along its own axes, whichever way the parent is asked.
+    /// A child's box along its own axes, whichever method is used for the parent.
     Bounds own_box(const Field&, float level);
     Bounds own_box(const Phased&, float level);
 
@@ -60,8 +59,8 @@ class BoundsQuery {
         for (std::size_t i = 0; i < supports.size(); ++i) supports[i] = support(directions_[i]);
         return intersect(placed(box), gathered(supports));
     }
-    /// The answer of a node that maps space: its support along d is that of its child, which ask() asks, along
-    /// towards(d), plus beyond(d).
+    /// The answer of a node that maps space. Its support along d is that of its child along towards(d), plus beyond(d);
+    /// ask() asks the child.
     template <class Towards, class Beyond, class Ask>
     Bounds through(const Towards& towards, const Beyond& beyond, const Ask& ask) {
         const Directions outer = directions_;
@@ -80,8 +79,8 @@ class BoundsQuery {
         return through([&](const glm::dvec3& d) { return d * m; }, [&](const glm::dvec3& d) { return glm::dot(d, v); },
                        ask);
     }
-    /// The answer of a node that is an intersection. It is asked along the node's own axes as well, because along other
-    /// directions each child alone may be unbounded or large where several together are small.
+    /// The answer of an intersection. It is also evaluated along the node's own axes, because along other directions
+    /// each child alone may be large or unbounded although their intersection is small.
     template <class Ask>
     Bounds cut(const Ask& ask) {
         const Bounds here = ask();
@@ -99,8 +98,8 @@ class BoundsQuery {
     struct Memory;
 
     static constexpr Directions along_axes{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    /// At most this many subtrees of a root are bounded along directions; the others are bounded by boxes. A shape used
-    /// in many places needs other directions in each, which would be slow.
+    /// The maximum number of subtrees of a root that are bounded by directions; the rest are bounded by boxes. A shape
+    /// used in many places needs different directions in each, which would be slow.
     static constexpr std::size_t most_asked = 20'000;
 
     static Bounds gathered(const Supports&);

@@ -17,44 +17,45 @@ struct TypeList {
     static constexpr std::size_t size = sizeof...(Ts);
 };
 
-/// A primitive is a plain struct of floats with a distance template; the program evaluates it as one instruction.
+/// A primitive: a plain struct of floats with a distance template. Programs evaluate it as one instruction.
 template <class N>
 concept Primitive = std::is_trivially_copyable_v<N> && requires(const N& n, const Vec3<float>& p) {
     { n.distance(p) } -> std::same_as<float>;
 };
 
-/// A primitive with as many floats as it needs (a polygon's corners, a network's weights). It is one instruction too,
-/// and its static distance() sees only the floats that data() gave.
+/// A primitive with any number of floats (a polygon's corners, a network's weights). It is one instruction too, and its
+/// static distance() receives only the floats of data().
 template <class N>
 concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float>& p) {
     { n.data() } -> std::same_as<std::span<const float>>;
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
-/// A primitive whose equation is long. It counts for many instructions, and where its slope is enough to bound it in a
-/// box its equation is not enclosed.
+/// A primitive with a long equation. It counts as many instructions. In boxes where its Lipschitz bound suffices to
+/// bound its values, its equation is not evaluated as an Enclosure.
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
 /// A primitive whose features are about as large as period(), a length in the primitive's own space. In larger boxes
-/// little can be known of its values.
+/// its values cannot be bounded well.
 template <class N>
 concept PatternPrimitive = requires(const N& n) {
     { n.period() } -> std::same_as<float>;
 };
 
-/// A primitive whose data may come from a file of cells, which can be forged: is_sound() says whether these floats are
-/// complete data of this primitive, so that evaluating it reads no further. The floats may go on behind the data.
+/// A primitive whose data may come from a cell file, which can be forged. is_sound() returns whether these floats
+/// contain complete data of this primitive, so that evaluating it reads nothing beyond. More floats may follow the
+/// data.
 template <class N>
 concept CheckedData = DataPrimitive<N> && requires(std::span<const float> floats) {
     { N::is_sound(floats) } -> std::same_as<bool>;
 };
 
-/// A long primitive of which little matters in a small box. There N::Specialised, a primitive with data, gives the same
-/// values to the last bit: specialise() appends its floats for the points of `range`, or appends nothing and returns
-/// false if that would be no gain. `of` is empty, or holds the floats that it gave for a box around this one.
+/// A long primitive that simplifies in a small box. N::Specialised, a primitive with data, has the same values there,
+/// to the last bit. specialise() appends its floats for the points of `range`; if there is nothing to gain, it appends
+/// nothing and returns false. `of` is empty, or holds the floats from specialising for an enclosing box.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
@@ -65,33 +66,34 @@ concept LocalPrimitive = PatternPrimitive<N> &&
     { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
 };
 
-/// A primitive whose distance is a convex function, as that to a convex solid is if it is exact inside and outside.
+/// A primitive whose distance is a convex function. This holds for a convex solid whose distance is exact inside and
+/// outside.
 template <class N>
 concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. At every point of its surface that is
-/// nearest to some point within `reach` of p, a ball of at least rolling_radius(p, reach) touches the surface from
-/// inside; the radius is infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. Consider every surface point that is
+/// nearest to some point within `reach` of p: a ball of radius rolling_radius(p, reach) touches the surface there from
+/// inside. The radius is a lower bound, and infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;
 };
 
-/// A map of space: a plain struct of floats, p ↦ ω⁻¹(p), one instruction.
+/// A map of space: a plain struct of floats, p ↦ ω⁻¹(p). It is one instruction.
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {
     { m(p) } -> std::same_as<Vec3<float>>;
 };
 
-/// A map that is affine, and equal to affine() to the last bit, so that it can be composed with what follows it.
+/// An affine map that equals affine() to the last bit, so that it can be composed with the map that follows it.
 template <class M>
 concept AffinePointMap = PointMap<M> && requires(const M& m) {
     { m.affine() } -> std::same_as<AffineMap>;
 };
 
-/// Calls `n.prepare()` if the node has something to derive from its parameters.
+/// Call `n.prepare()` if the node derives something from its parameters.
 template <class N>
 void prepare(N& n) {
     if constexpr (requires { n.prepare(); }) n.prepare();

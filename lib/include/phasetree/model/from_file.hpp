@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// A parameter whose content is in a file: the file's name as the scene gives it, and what was read from it. A program
-/// that makes the content itself leaves the name empty.
+/// A parameter whose content is in a file: the file's name as in the scene, and its content. A program that creates the
+/// content itself leaves the name empty.
 template <class Content>
 struct FromFile {
     std::string path{};

@@ -19,24 +19,24 @@ namespace phasetree {
 struct FieldNode;
 struct PhasedNode;
 
-/// A node with an impossible parameter: what() says which and why.
+/// Thrown for a node with an invalid parameter. what() says which one and why.
 class ModelError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
 namespace detail {
-/// Makes the content of a handle from the node that `node` points to, which is of the given type and is moved from.
-/// Only the library knows the variant over all nodes, so that a program which makes a few needs no other headers than
-/// theirs.
+/// Make the content of a handle from the node that `node` points to. The node has the given type, and is moved from.
+/// Only the library knows the variant over all nodes, so a program needs only the headers of the nodes that it uses.
 std::shared_ptr<const FieldNode> make_field_node(const std::type_info& type, void* node);
 std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, void* node);
 }  // namespace detail
 
-/// A plain distance field: one 1-Lipschitz value in the scene's unit of length, negative inside. It is a cheap handle
-/// of an immutable tree, which copies share; any thread may read it. It is made from a node, `Field ball =
-/// Sphere{.radius = 2};`, and throws ModelError if a parameter of the node is out of its limits. A default-made handle
-/// is empty and means nothing.
+/// A distance field: one 1-Lipschitz value in the scene's unit of length, negative inside.
+///
+/// This is a handle of an immutable tree: cheap to copy, and safe to read from any thread. It is made from a node,
+/// `Field ball = Sphere{.radius = 2};`, which throws ModelError if a parameter of the node is outside its limits. A
+/// default-constructed handle is empty and must not be evaluated.
 class Field {
   public:
     Field() = default;
@@ -53,8 +53,7 @@ class Field {
     std::shared_ptr<const FieldNode> node_;
 };
 
-/// A multiphase object Φ = (φ₀ … φₙ), of which at most one component is negative at any point. It is a handle as Field
-/// is.
+/// A multiphase object Φ = (φ₀ … φₙ), of which at most one component is negative at any point. A handle like Field.
 class Phased {
   public:
     Phased() = default;
@@ -71,31 +70,31 @@ class Phased {
     std::shared_ptr<const PhasedNode> node_;
 };
 
-/// A box around the points where the field is not positive; sides are infinite where the field has no bounds.
+/// A box around the points where the field is not positive. Sides are infinite where the field is unbounded.
 Bounds bounds(const Field&);
-/// A box around all that is not vacuum.
+/// A box around everything that is not vacuum.
 Bounds bounds(const Phased&);
 
-/// The phases that the object may have anywhere; bit 0 is set if vacuum is one of them.
+/// The phases that can occur in the object. Bit 0 is set if the vacuum is one of them.
 PhaseSet phases(const Phased&);
 
-/// The values at a point, by walking the tree with arrays of phases as the paper does. This is slow, and the definition
-/// that the fast evaluators are tested against.
+/// The values at a point, computed by walking the tree with arrays of phases as in the paper. Slow: this is the
+/// reference that the fast evaluators are tested against.
 float distance(const Field&, const glm::vec3& p);
 Phases<float> distances(const Phased&, const glm::vec3& p);
 
-/// The label μ(p): the phase of the smallest component, the vacuum included; the lowest index among equal components.
+/// The label μ(p): the phase of the smallest component, including the vacuum. Among equal components, the lowest index.
 Phase label(const Phases<float>&);
 
 struct TreeStatistics {
     std::size_t nodes = 0;  ///< shared subtrees are counted once
     std::size_t depth = 0;
-    std::size_t bytes = 0;  ///< that the tree takes in memory
+    std::size_t bytes = 0;  ///< memory of the tree
 };
 TreeStatistics statistics(const Field&);
 TreeStatistics statistics(const Phased&);
 
-/// Deeper trees are rejected with a ModelError, because functions that walk a tree recurse.
+/// The maximum depth of a tree. Functions that walk a tree recurse, so deeper trees are rejected with a ModelError.
 inline constexpr std::size_t max_tree_depth = 400;
 
 }  // namespace phasetree

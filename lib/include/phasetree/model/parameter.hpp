@@ -27,12 +27,12 @@ inline constexpr Limits fraction{.low = 0, .high = 1};
 }  // namespace limits
 
 namespace detail {
-/// The limits as text for people: "positive", "at least 2 and less than 5".
+/// Describe limits as text: "positive", "at least 2 and less than 5".
 std::string describe(const Limits&);
 }  // namespace detail
 
-/// One parameter of a node, as the scene reader, the writer, the reference page and the checks see it. All of these are
-/// derived from the list that a node gives in a static function:
+/// One parameter of a node. The scene reader, the writer, the reference page and the checks are all derived from the
+/// list that a node provides in a static function:
 ///
 ///     template <class V>
 ///     static void parameters(V&& v) {
@@ -43,8 +43,8 @@ struct Parameter {
     std::string_view unit;  ///< "m", "degrees", "1/m"; empty for a count, a ratio or a child
     std::string_view description;
     Limits limits = limits::any;
-    bool optional = false;  ///< if it is absent the member keeps its default
-    /// For a list of numbers: a single number may be written instead, and is a list of one. The node and the
+    bool optional = false;  ///< if it is missing, the member keeps its default
+    /// For a list of numbers: whether a single number may be written instead of a list with one item. The node and the
     /// description say what that means.
     bool one_for_all = false;
 };
@@ -52,7 +52,7 @@ struct Parameter {
 /// The description of a node in the reference.
 struct NodeInfo {
     std::string_view name;
-    std::string_view section;  ///< of the paper; empty for the standard vocabulary of distance fields
+    std::string_view section;  ///< of the paper; empty for standard operations on distance fields
     std::string_view equation;
     std::string_view summary;
 };

@@ -8,7 +8,7 @@
 
 namespace phasetree {
 
-/// The index of a phase. 0 is the vacuum, which is carried explicitly; an object's materials are 1 … 63.
+/// The index of a phase. 0 is the vacuum, which has a component of its own; an object's materials are 1 … 63.
 struct Phase {
     std::uint8_t index = 0;
 
@@ -37,15 +37,15 @@ struct PhaseSet {
     constexpr bool operator==(const PhaseSet&) const = default;
 };
 
-/// Φ at a point: one value for each phase that is present. A phase that a subtree never mentions is *absent*, not
-/// infinite, because ∞ − ∞ and 0·∞ would make NaN in smooth and contact operators. Which phases are present depends on
-/// the tree alone and never on the point.
+/// Φ at a point: one value per phase that is present. A phase that a subtree never mentions is *absent*, not infinite,
+/// because ∞ − ∞ and 0·∞ would produce NaN in smooth and contact operators. Which phases are present depends only on
+/// the tree, never on the point.
 template <class T>
 struct Phases {
     std::array<T, Phase::capacity> value;
     std::uint64_t present = 0;
 
-    Phases() {}  // values stay unset where the phase is absent
+    Phases() {}  // values of absent phases stay uninitialised
     bool has(int i) const { return (present >> i) & 1; }
     const T& operator[](int i) const { return value[static_cast<std::size_t>(i)]; }
     void set(int i, const T& v) {
@@ -57,7 +57,7 @@ struct Phases {
     std::uint64_t materials() const { return present & ~std::uint64_t{1}; }
 };
 
-/// Calls f(i) for each set bit, in rising order.
+/// Call f(i) for each set bit, in ascending order.
 template <class F>
 void for_each_phase(std::uint64_t bits, F&& f) {
     while (bits != 0) {

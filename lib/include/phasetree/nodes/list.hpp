@@ -1,5 +1,5 @@
-// The one list of nodes. A new node is its own file, an #include and an entry here; the evaluators, the program, the
-// scene format, the node reference and the tests over all nodes follow.
+// The list of all nodes. To add a node, write its file, #include it here and add it to a list below. The evaluators,
+// the program, the scene format, the node reference and the tests over all nodes are derived from these lists.
 #pragma once
 
 #include <variant>
@@ -130,7 +130,7 @@ using Objects =
              PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, Labels, PhasedFibonacciDisk,
              PhasedFibonacciSphere, PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;
 
-// What follows is derived.
+// Everything below is derived.
 
 namespace detail {
 template <class... Lists>
@@ -167,7 +167,7 @@ template <class... Ts>
 struct OnlyPointMaps<TypeList<Ts...>>
     : Concat<TypeList<>, std::conditional_t<PointMap<Ts>, TypeList<Ts>, TypeList<>>...> {};
 
-/// The instructions of its own that a node names: `using Parts = TypeList<…>` of primitives and maps of space.
+/// The additional instructions that a node defines: `using Parts = TypeList<…>` of primitives and maps of space.
 template <class N>
 struct PartsOf {
     using type = TypeList<>;
@@ -198,21 +198,21 @@ using MapOf = typename W::Map;
 using FieldNodes = detail::Concat<PlainFields, detail::Map<WarpedField, Warps>::type>::type;
 using PhasedNodes = detail::Concat<Objects, detail::Map<WarpedPhased, Warps>::type>::type;
 
-/// The primitives, each one instruction of the program; so are a local warp's bound, the noise of displacements and
-/// nodes' parts.
+/// The primitives; each is one instruction of the program. They include a local warp's bound, the noise of
+/// displacements, and the nodes' parts.
 using Primitives = detail::Concat<TypeList<BoundingBox, FractalNoise>, detail::OnlyPrimitives<PlainFields>::type,
                                   detail::OnlyPrimitives<detail::AllParts<FieldNodes>::type>::type,
                                   detail::OnlyPrimitives<detail::AllParts<PhasedNodes>::type>::type>::type;
-/// Primitives with data of their own, each one instruction.
+/// Primitives with data of their own; each is one instruction.
 using DataPrimitives = detail::Concat<detail::OnlyDataPrimitives<PlainFields>::type,
                                       detail::OnlyDataPrimitives<detail::AllParts<FieldNodes>::type>::type,
                                       detail::OnlyDataPrimitives<detail::AllParts<PhasedNodes>::type>::type>::type;
-/// The maps of space, each one instruction.
+/// The maps of space; each is one instruction.
 using PointMaps = detail::Concat<TypeList<ClampToBox>, detail::Map<detail::MapOf, Warps>::type,
                                  detail::OnlyPointMaps<detail::AllParts<FieldNodes>::type>::type,
                                  detail::OnlyPointMaps<detail::AllParts<PhasedNodes>::type>::type>::type;
 
-/// Calls f.template operator()<T>() for each type of a list.
+/// Call f.template operator()<T>() for each type of a list.
 template <class... Ts, class F>
 void for_each_type(TypeList<Ts...>, F&& f) {
     (f.template operator()<Ts>(), ...);

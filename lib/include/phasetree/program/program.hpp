@@ -7,9 +7,8 @@
 
 namespace phasetree {
 
-/// The operations of a program, with operands a and b and a constant c. The operations of the primitives and maps of
-/// space follow from first_primitive on, one for each type in Primitives, then DataPrimitives, then PointMaps
-/// (nodes/list.hpp).
+/// The operations of a program, with operands a and b and a constant c. The operations of primitives and maps of space
+/// start at first_primitive: one per type in Primitives, then DataPrimitives, then PointMaps (nodes/list.hpp).
 enum class Op : std::uint16_t {
     input,              ///< the point itself
     negate,             ///< −a
@@ -17,8 +16,8 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
-    far_bound,          ///< max(a, b), where a alone has the sign (math/number.hpp)
-    far_bound_inside,   ///< min(a, b), where a alone has the sign (math/number.hpp)
+    far_bound,          ///< max(a, b), where a alone determines the sign (math/number.hpp)
+    far_bound_inside,   ///< min(a, b), where a alone determines the sign (math/number.hpp)
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a
@@ -37,35 +36,34 @@ struct Instruction {
     Op op{};
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    /// Where its constant, or its floats, start among the program's constants. They stand there in the order of the
-    /// instructions and without gaps, so they end where those of the next instruction start.
+    /// Offset of its constant or floats in the program's constants. They are stored in the order of the instructions
+    /// without gaps, so they end where those of the next instruction start.
     std::uint32_t data = 0;
 };
 
-/// One component of Φ, and the value that it is.
+/// One component of Φ, and the index of its value.
 struct Output {
     Phase phase;
     std::uint32_t value = 0;
 };
 
-/// A tree recorded as a flat list of instructions without duplicates. Absent phases never become instructions, and
-/// shared subtrees become instructions once for each map of space under which they stand. A program is immutable once
-/// it is recorded; any thread may read it.
+/// A tree recorded as a flat list of instructions without duplicates. Absent phases produce no instructions. A shared
+/// subtree is recorded once per map of space that applies to it. Immutable once recorded; any thread may read it.
 struct Program {
     std::vector<Instruction> instructions;  ///< instructions[0] is the input point
     std::vector<float> constants;
-    std::vector<Output> outputs;  ///< in rising order of phases
-    /// A Lipschitz bound of each value as a function of the input point; pruning uses it. For a value that is a point
+    std::vector<Output> outputs;  ///< in ascending order of phases
+    /// A Lipschitz bound of each value as a function of the input point, used for pruning. For a value that is a point,
     /// it bounds the map from the input.
     std::vector<float> lipschitz;
 
     std::size_t bytes() const;
 };
 
-/// Records an object. Throws ModelError if that takes more than `limit` instructions: a tree of shared subtrees under
-/// different transforms can have exponentially more of them than nodes.
+/// Record an object. Throws ModelError if that takes more than `limit` instructions. A tree that shares subtrees under
+/// different transforms can need exponentially more instructions than it has nodes.
 Program record(const Phased&, std::size_t limit = 500'000);
-/// Records a plain field as the object of phase 1 and the vacuum; otherwise the same.
+/// Record a field as an object of phase 1 and the vacuum; otherwise the same.
 Program record(const Field&, std::size_t limit = 500'000);
 
 }  // namespace phasetree

@@ -4,22 +4,23 @@
 
 namespace phasetree {
 
-/// From where levels of detail are chosen.
+/// The view for which levels of detail are chosen.
 struct DetailView {
-    glm::vec3 position{0};  ///< the camera's, in the object's space
-    /// How large an error may look, as a share of its distance: the number of pixels times the size of a pixel at
-    /// distance 1.
+    glm::vec3 position{0};  ///< of the camera, in the object's space
+    /// The acceptable error as a fraction of its distance: the acceptable number of pixels, times the size of a pixel
+    /// at distance 1. Must be positive.
     float angle = 1e-3f;
 };
 
-/// The object in which each level_of_detail node that says its levels' errors and no distances has those from which on
-/// the errors look no larger than the view allows: level i + 1 stands from errors[i] / angle on. The view is followed
-/// into nodes that are moved, turned and scaled. Below copies, below warps that bend and below those of some phases
-/// alone one node stands in several places or is distorted, and its finest level stays. All of an object without such
-/// nodes is kept as it is.
+/// Set the switching distances of level_of_detail nodes for a view.
 ///
-/// What results is an object like any other, the same for all rays. What is promised of it is no more than what the
-/// nodes' errors promise.
+/// Affects each level_of_detail node that has errors but no distances. Level i + 1 is used from the distance errors[i]
+/// / angle on, where its error looks no larger than the view allows. The view is transformed through nodes that
+/// translate, rotate and scale. Below copies, bending warps, and warps of only some phases, a node appears in several
+/// places or distorted, and its finest level is kept. Subtrees without such nodes are shared with the original.
+///
+/// The result is an ordinary object, the same for all rays. It is as accurate as the nodes' errors claim. Throws
+/// ModelError if the angle is not positive and finite.
 Phased with_levels_of_detail(const Phased&, const DetailView&);
 
 }  // namespace phasetree

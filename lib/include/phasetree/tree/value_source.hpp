@@ -7,18 +7,19 @@
 
 namespace phasetree {
 
-/// A node on the way from an object to a primitive.
+/// A node on the path from an object to a primitive.
 struct NodeOnPath {
     const void* node = nullptr;  ///< Field::node() or Phased::node() of its handle
-    std::string_view name;       ///< as scene files name it
+    std::string_view name;       ///< as in scene files
 };
 
-/// Which nodes give a component of Φ its value at a point: from the tree's root down to one primitive. Where minimum
-/// and maximum choose, it is the operand that they choose; where a blend or a sum has several parts, it is the largest
-/// one. The path is empty if no primitive does, as where the component is absent.
+/// Find the nodes that determine a component of Φ at a point: a path from the tree's root to one primitive.
 ///
-/// The tree is walked as by distances(), which is slow. Throws ModelError for a tree in which shared shapes stand for
-/// more nodes than can be walked within seconds.
+/// At a minimum or maximum, the path follows the operand that is chosen; at a blend or a sum, the largest part. The
+/// path is empty if no primitive determines the value, for example where the component is absent.
+///
+/// Slow: walks the tree like distances(). Throws ModelError if shared shapes expand to more nodes than can be walked
+/// within seconds.
 std::vector<NodeOnPath> value_source(const Phased&, const glm::vec3& p, Phase component);
 
 }  // namespace phasetree

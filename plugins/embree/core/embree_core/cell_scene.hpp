@@ -4,16 +4,16 @@
 
 namespace phasetree::embree {
 
-/// An object's cells in an Embree scene of their own: rays find their first crossing, whole and in order. Immutable;
-/// any thread may trace.
+/// An object's cells in an Embree scene of their own. It finds the first crossing of a ray; Walk finds all of them in
+/// order. Immutable; any thread may trace.
 ///
-/// Cells as primitives of the host's own scene (CellGeometry) are faster, by a tenth to a third. But Embree asks
-/// cells in any order and each knows only its own span of the ray. That tells which crossing is the first; it cannot
-/// tell a filter function each crossing once, because cells reach into each other, nor which phase a ray is in that a
-/// filter has let through. A scene within makes both simple.
+/// Cells as primitives of the host's scene (CellGeometry) are faster by a tenth to a third. But Embree visits cells in
+/// any order, and each cell knows only its own interval of the ray. That suffices to find the first crossing. It does
+/// not suffice to report each crossing once to a filter function, because cells overlap, or to know the phase of a ray
+/// that a filter has let through. A separate scene makes both simple.
 class CellScene {
   public:
-    /// Throws EmbreeError. Clears the thread's error code of the device.
+    /// Throws EmbreeError. Clears the device's error code of the calling thread.
     CellScene(RTCDevice device, std::shared_ptr<const InterfaceCells> cells);
     ~CellScene();
     CellScene(const CellScene&) = delete;
@@ -26,7 +26,7 @@ class CellScene {
         Crossing crossing;
     };
     std::optional<Hit> first_crossing(const UnitRay&, std::optional<Phase> carried) const;
-    /// Whether there is any.
+    /// Whether there is any crossing.
     bool any_crossing(const UnitRay&, std::optional<Phase> carried) const;
 
   private:

@@ -6,20 +6,22 @@
 
 namespace phasetree::embree {
 
-/// By how much a linear map stretches at most: its spectral norm, rounded up.
+/// The largest factor by which a linear map increases lengths: its spectral norm, rounded up.
 double largest_stretch(const glm::dmat3&);
 
 struct Closest {
     bool found = false;
-    float empty_radius = 0;  ///< no interface is nearer
-    float distance = 0;      ///< of `point`; without `found` the radius that was asked for
+    float empty_radius = 0;  ///< no interface is closer
+    float distance = 0;      ///< to `point`; if nothing was found, the requested radius
     glm::vec3 point{0};      ///< in the object's space
-    Phase here, there;       ///< on the side of the query's point, and beyond
+    Phase here, there;       ///< on the side of the query point, and on the other side
 };
 
-/// The closest interface to a point of the object's space, where distances are measured behind a linear map (that of an
-/// instance or a placement). Ends when the empty radius is within the share `tolerance` of the distance, or within four
-/// resolutions, or after 2¹⁴ divisions of boxes, each of which may trace a ray as well.
+/// Find the closest interface to a point in the object's space. Distances are measured after applying a linear map,
+/// that of an instance or a placement.
+///
+/// Stops when the empty radius is within the fraction `tolerance` of the distance or within four resolutions of it, or
+/// after 2¹⁴ subdivisions of boxes, each of which may also trace a ray.
 Closest find_closest(const CellScene&, const glm::vec3& point, const glm::dmat3& to_world, float radius,
                      float tolerance);
 

@@ -6,7 +6,7 @@
 
 namespace phasetree::embree {
 
-/// Embree refused to make something: which error it gave, or none if it does not tell.
+/// Thrown if Embree fails. The code is Embree's, or RTC_ERROR_NONE if it reports none.
 class EmbreeError : public std::runtime_error {
   public:
     EmbreeError(RTCError code, const char* what);
@@ -16,7 +16,7 @@ class EmbreeError : public std::runtime_error {
     RTCError code_;
 };
 
-/// Throws what the thread's last calls of Embree for the device have to complain of.
+/// Throw the error, if any, of the thread's last Embree calls for the device.
 void throw_device_error(RTCDevice device, const char* what);
 
 }  // namespace phasetree::embree

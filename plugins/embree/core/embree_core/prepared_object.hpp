@@ -7,11 +7,11 @@
 
 namespace phasetree::embree {
 
-/// An object prepared for rays, with a device of its own: for those who trace rays and render nothing. Immutable; any
-/// thread may trace.
+/// An object prepared for tracing, with its own device. Use it to trace rays without rendering. Immutable; any thread
+/// may trace.
 class PreparedObject {
   public:
-    /// Throws ModelError for an object that cannot be traced, BuildCancelled, and EmbreeError.
+    /// Throws ModelError if the object cannot be traced, BuildCancelled, and EmbreeError.
     PreparedObject(const Phased& object, const CellOptions& options);
 
     const CellScene& scene() const { return *scene_; }
@@ -22,7 +22,7 @@ class PreparedObject {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     };
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>
-        device_;  // first, so that it is destroyed after the scene
+        device_;  // first member, so that it is destroyed after the scene
     std::unique_ptr<const CellScene> scene_;
 };
 

@@ -16,19 +16,20 @@ struct CarriedPhase {
     Phase phase;
 };
 
-/// The phases that a ray is in, one for each object, which it carries from hit to hit. Objects may overlap; a
-/// hit changes the phase of its own object and of no other.
+/// The phases that a ray is in, one per object, carried from hit to hit. Objects may overlap; a hit changes only the
+/// phase of its own object.
 class RayPhases {
   public:
-    /// The ray carries nothing: every object takes the phase at the ray's start, which costs an evaluation and is not
-    /// certain within a resolution of an interface.
+    /// A ray that carries nothing. Every object uses the phase at the ray's start, which costs an evaluation and is
+    /// uncertain within a resolution of an interface.
     RayPhases() = default;
-    /// The ray is in this phase of all objects that set() does not list: vacuum, say, where it starts outside of all.
+    /// A ray that is in this phase of all objects for which set() was not called; for example in the vacuum, if it
+    /// starts outside all objects.
     explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
 
-    /// The phase for an object; nothing where it is that at the ray's start.
+    /// The phase for an object; nullopt for the phase at the ray's start.
     std::optional<Phase> of(const ObjectInstance& object) const { return find(carried_, elsewhere_, object); }
-    /// From here on the ray is in this phase of an object.
+    /// Set the phase of an object.
     void set(const ObjectInstance& object, Phase phase) {
         const auto known = std::ranges::find(carried_, object, &CarriedPhase::object);
         if (known == carried_.end())
@@ -40,7 +41,7 @@ class RayPhases {
     std::span<const CarriedPhase> carried() const { return carried_; }
     std::optional<Phase> elsewhere() const { return elsewhere_; }
 
-    /// The phase of an object among those carried, or `elsewhere` if it is not among them.
+    /// The carried phase of an object, or `elsewhere` if there is none.
     static std::optional<Phase> find(std::span<const CarriedPhase> carried, std::optional<Phase> elsewhere,
                                      const ObjectInstance& object) {
         for (const CarriedPhase& known : carried)

@@ -1,5 +1,6 @@
-/// The C99 interface of phasetree_embree.h with owners for its handles and exceptions for its errors (C++17). Thin:
-/// each member is the call of the same name there, where units, threads and what must outlive what are said.
+/// C++17 wrapper of phasetree_embree.h: handles are reference-counted objects, and errors are exceptions. Each member
+/// function calls the C function of the same name, whose documentation describes units, thread safety and lifetimes.
+/// Failed calls throw Error.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace phasetree::embree {
 
-/// A call that failed; what() is phasetreeGetErrorMessage().
+/// Thrown by a failed call. what() is the text of phasetreeGetErrorMessage().
 class Error : public std::runtime_error {
   public:
     explicit Error(PhasetreeError code) : std::runtime_error(phasetreeGetErrorMessage()), code_(code) {}
@@ -25,16 +26,17 @@ class Error : public std::runtime_error {
     PhasetreeError code_;
 };
 
+/// Throw Error unless the code is PHASETREE_ERROR_NONE.
 inline void check(PhasetreeError error) {
     if (error != PHASETREE_ERROR_NONE) throw Error(error);
 }
 
-/// One reference of a handle. Copies add one.
+/// An owning reference to a handle. Copies add a reference.
 template <class Handle, PhasetreeError (*retain)(Handle), PhasetreeError (*release)(Handle)>
 class Reference {
   public:
     Reference() = default;
-    /// Takes over a reference.
+    /// Take ownership of a reference.
     explicit Reference(Handle handle) : handle_(handle) {}
     Reference(const Reference& other) : handle_(other.handle_) {
         if (handle_) check(retain(handle_));
@@ -55,12 +57,12 @@ class Reference {
     Handle handle_ = nullptr;
 };
 
-/// Convex bounds: all of some phases is behind all planes.
+/// A convex volume around some phases: their points are behind all planes.
 struct CarvedBounds : PhasetreeCarvedBounds {
     std::vector<PhasetreePlane> planes;
 };
 
-/// A PhasetreeMesh that is one's own.
+/// An owning copy of a PhasetreeMesh.
 struct Mesh {
     std::vector<float> vertices;
     std::vector<unsigned> indices;
@@ -81,7 +83,7 @@ inline PhasetreeCarveOptions default_carve_options() {
     return options;
 }
 
-/// A tree: immutable, cheap to copy.
+/// A tree. Immutable, and cheap to copy.
 class Tree {
   public:
     static Tree from_file(const std::string& path, const PhasetreeFileReader* reader = nullptr) {
@@ -95,9 +97,9 @@ class Tree {
         check(phasetreeNewTreeFromText(PHASETREE_API_VERSION, text.data(), text.size(), name.c_str(), reader, &handle));
         return Tree(handle);
     }
-    /// A tree built with the C++ library: a phasetree::SceneTree. It comes over as text, equal to the last bit, so that
-    /// the two libraries need not agree on anything else; include <phasetree/io/write.hpp>. Files that its nodes
-    /// name are sought beside `name`.
+    /// Convert a phasetree::SceneTree built with the C++ library. Include <phasetree/io/write.hpp> to use it. The tree
+    /// is passed as text, without loss, so the two libraries need not be binary compatible. Files named by its nodes
+    /// are resolved relative to `name`.
     template <class SceneTree>
     static Tree of(const SceneTree& tree, const std::string& name = "<tree>",
                    const PhasetreeFileReader* reader = nullptr) {
@@ -124,7 +126,7 @@ class Tree {
         check(phasetreeGetTreePhaseByName(get(), name.c_str(), &phase));
         return phase;
     }
-    /// JSON; nothing if the scene has none.
+    /// The phase's material as JSON; nullopt if the scene has none.
     std::optional<std::string> phase_material(unsigned phase) const {
         const char* json = nullptr;
         check(phasetreeGetTreePhaseMaterial(get(), phase, &json));
@@ -157,19 +159,19 @@ inline PhasetreeGeometryOptions default_options() {
     return options;
 }
 
-/// An application's own of a phase.
+/// Data stored for a phase by the application.
 struct PhaseUserData {
     std::int64_t integer = 0;
     void* pointer = nullptr;
 };
 
-/// A geometry. A copy is another owner of the same one. Must outlive the scenes that its RTCGeometry is in.
+/// A geometry. Copies share it. It must outlive the scenes that contain its RTCGeometry.
 class Geometry {
   public:
     Geometry(RTCDevice device, const Tree& tree, const PhasetreeGeometryOptions& options = default_options())
         : reference_(make(device, tree, options)) {}
 
-    /// With cells that write_cells() of a geometry of the same tree and options has written.
+    /// Create a geometry from cells that write_cells() wrote for a geometry with the same tree and options.
     static Geometry from_cells(RTCDevice device, const Tree& tree, const std::string& path,
                                const PhasetreeGeometryOptions& options = default_options()) {
         PhasetreeGeometry geometry = nullptr;
@@ -179,7 +181,7 @@ class Geometry {
     }
     void write_cells(const std::string& path) const { check(phasetreeWriteGeometryCells(get(), path.c_str())); }
 
-    /// The RTCGeometry: uncommitted, the handle's own.
+    /// The RTCGeometry, uncommitted. Owned by the handle.
     RTCGeometry embree() const {
         RTCGeometry geometry = nullptr;
         check(phasetreeGetEmbreeGeometry(get(), &geometry));
@@ -199,11 +201,11 @@ class Geometry {
         check(phasetreeGetGeometryPhaseUserData(get(), phase, &mine.integer, &mine.pointer));
         return mine;
     }
-    /// The interfaces as triangles.
+    /// Mesh the interfaces.
     Mesh mesh(const PhasetreeMeshOptions& options = default_mesh_options()) const {
         struct Copy {
             Mesh mesh;
-            std::exception_ptr failed;  // nothing may be thrown through the library
+            std::exception_ptr failed;  // exceptions must not propagate through the library
         } copy;
         const auto receive = [](const PhasetreeMesh* m, void* to) {
             Copy& c = *static_cast<Copy*>(to);
@@ -248,7 +250,7 @@ class Geometry {
         check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));
         return hit;
     }
-    /// A hit's place, or a point of geometry space, in the tree's own space.
+    /// The position of a hit, or a point in geometry space, in the tree's own space.
     std::array<float, 3> tree_point(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
         std::array<float, 3> point{};
         check(phasetreeGetHitTreePoint(get(), &rayhit, object_to_world, point.data()));
@@ -269,7 +271,8 @@ class Geometry {
         check(phasetreeGetDistances(get(), point.data(), time, all.data()));
         return all;
     }
-    /// Of many points, at one time; with the radii that are empty if they are wanted.
+    /// The phases of many points at one time. If `empty_radii` is not null, it receives the radius around each point
+    /// within which the phase does not change.
     std::vector<unsigned> phases(const std::vector<std::array<float, 3>>& points, float time = 0,
                                  std::vector<float>* empty_radii = nullptr) const {
         std::vector<unsigned> all(points.size());
@@ -278,7 +281,7 @@ class Geometry {
         check(phasetreeGetPhaseN(get(), &p, all.data(), empty_radii ? empty_radii->data() : nullptr));
         return all;
     }
-    /// Φ of the phases 0 … phase_count − 1 at each point, one point after another.
+    /// Φ of the phases 0 … phase_count − 1 at each point, point by point.
     std::vector<float> distances(const std::vector<std::array<float, 3>>& points, unsigned phase_count,
                                  float time = 0) const {
         std::vector<float> all(points.size() * phase_count);
@@ -296,7 +299,7 @@ class Geometry {
 
   private:
     explicit Geometry(PhasetreeGeometry handle) : reference_(handle) {}
-    /// Refers to both.
+    /// The result refers to both arguments, which must outlive it.
     static PhasetreePoints listed(const std::vector<std::array<float, 3>>& points, const float& time) {
         PhasetreePoints p;
         phasetreeInitPoints(&p);

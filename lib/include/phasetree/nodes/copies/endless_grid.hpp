@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// Maps p to the same place in the cell about `centre`. The map jumps at the cells' faces, so its slope has no bound;
-/// the recorder gets `jump` for it. Where a cell of the object touches no face, pruning divides by it again
-/// (src/pruning/jumps.cpp).
+/// Maps p to the corresponding point in the cell around `centre`. The map jumps at the cells' faces, so its slope is
+/// unbounded; the recorder is given `jump` for it. In cells of the object that touch no face, pruning divides by it
+/// again (src/pruning/jumps.cpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};
@@ -26,8 +26,8 @@ struct FoldMap {
     }
 };
 
-/// Distance to the boxes around the copies, which repeat without end. A box stands in the middle of its cell, so it is
-/// the nearest one throughout the cell, and the distance is exact and continuous.
+/// The distance to the boxes around the copies, which repeat without end. A box is centred in its cell, so it is the
+/// nearest one throughout the cell, and the distance is exact and continuous.
 struct FoldedBox {
     FoldMap fold{};
     glm::vec3 half{1};
@@ -38,11 +38,12 @@ struct FoldedBox {
     }
 };
 
-/// Endless copies, with the instructions of a single one and few more. With b the distance to the copies' boxes and g
-/// the smallest clearance between a box and its cell's face, b ≥ g on the faces, where the folded field jumps; and
+/// Endless copies, at little more than the instructions of a single one. Let b be the distance to the copies' boxes,
+/// and g the smallest clearance between a box and its cell's face. Then b ≥ g on the faces, where the folded field
+/// jumps, and
 ///     max(b, min(f, 2g − b))
-/// is b wherever b ≥ g. So it is continuous, 1-Lipschitz, and has the sign of f. (See "Fields
-/// above a discontinuity" in lib/README.md. This is the reason why the copies must not touch their cells' faces.)
+/// is b wherever b ≥ g. It is therefore continuous and 1-Lipschitz, and has the sign of f. This is why copies must not
+/// touch their cells' faces; see "Fields above a discontinuity" in lib/README.md.
 template <class Child>
 struct EndlessGrid {
     static constexpr NodeInfo info{

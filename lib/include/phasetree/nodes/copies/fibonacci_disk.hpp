@@ -5,13 +5,14 @@
 namespace phasetree {
 
 namespace detail {
-/// The angle of point i of a Fibonacci spiral: each is turned by π(3 − √5) from the one before.
+/// The angle of point i of a Fibonacci spiral; each is rotated by π(3 − √5) from the previous one.
 inline double golden_turn(std::size_t i) {
     return std::fmod(static_cast<double>(i) * 2.39996322972865332, 2 * 3.14159265358979323846);
 }
 }  // namespace detail
 
-/// The pattern of a sunflower's seeds: copies have equal shares of the disk's area, and no two lie in one direction.
+/// The pattern of a sunflower's seeds: copies have equal shares of the disk's area, and no two are in the same
+/// direction.
 template <class Child>
 struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
     static constexpr NodeInfo info{"fibonacci_disk", "7.7",

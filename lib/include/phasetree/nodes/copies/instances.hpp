@@ -33,7 +33,7 @@ struct Instances : Copies<Instances<Child>, Child> {
         };
         if (!fits(turns) || !fits(scales))
             throw ModelError("instances: \"turns\" and \"scales\" need an entry for each position, or one for all");
-        for (std::size_t i = 0; i < many(); ++i) (void)placement(i);  // it throws for a scale that is too small
+        for (std::size_t i = 0; i < many(); ++i) (void)placement(i);  // throws if a scale is too small
     }
     std::size_t many() const { return positions.size(); }
     Placement placement(std::size_t i) const {

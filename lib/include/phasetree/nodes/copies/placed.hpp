@@ -1,7 +1,6 @@
-// What the nodes that put copies of one child in many places share. In memory the child is there once; in the program
-// each copy has its instructions, so that pruning deletes a copy where it does not matter. Copies of a field are
-// united, of an object each replaces those before it, as in `under`. So copies may overlap, and there is no seam
-// between them.
+// The base of nodes that place copies of one child in many places. The child is stored once in memory. In the program
+// each copy has its own instructions, so that pruning can remove copies that do not matter. Copies of a field are
+// united; of an object, each copy replaces those before it, as in `under`. Copies may therefore overlap without a seam.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -14,7 +13,7 @@
 
 namespace phasetree {
 
-/// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then turning by a, then moving by v.
+/// p ↦ R(−a)(p − v)/s about the z axis: the inverse of scaling by s, then rotating by a, then moving by v.
 struct PlacementMap {
     glm::vec3 by{0};
     float cosine = 1;  ///< cos a / s
@@ -29,7 +28,7 @@ struct PlacementMap {
     AffineMap affine() const { return {.row = {{cosine, sine, 0}, {-sine, cosine, 0}, {0, 0, inverse}}, .before = by}; }
 };
 
-/// p ↦ R⁻¹(p − v)/s for any turn R.
+/// p ↦ R⁻¹(p − v)/s for any rotation R.
 struct StandingMap {
     glm::vec3 by{0};
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the columns of R, divided by s
@@ -42,13 +41,13 @@ struct StandingMap {
     AffineMap affine() const { return {.row = {row[0], row[1], row[2]}, .before = by}; }
 };
 
-/// The place, turn and size of a copy.
+/// The position, rotation and size of a copy.
 struct Placement {
     PlacementMap map;
     float scale = 1;
-    std::optional<glm::mat3> frame{};  ///< R of a copy that is not turned about the z axis only
+    std::optional<glm::mat3> frame{};  ///< R of a copy that is rotated about other axes than z
 
-    /// A placement that is turned about the z axis, by degrees.
+    /// A placement that is rotated about the z axis, by degrees.
     static Placement at(const glm::vec3& by, double turn, float scale) {
         const double a = glm::radians(turn), s = scale;
         Placement result{{by, static_cast<float>(std::cos(a) / s), static_cast<float>(std::sin(a) / s), 1 / scale},
@@ -56,7 +55,7 @@ struct Placement {
         if (!std::isfinite(result.map.inverse)) throw ModelError("a copy's scale is too small");
         return result;
     }
-    /// A placement whose z axis is along a unit vector, rotated about it by `turn` degrees.
+    /// A placement whose z axis is a unit vector `normal`, rotated about it by `turn` degrees.
     static Placement standing(const glm::vec3& by, const glm::dvec3& normal, double turn, float scale);
     StandingMap standing_map() const {
         const glm::mat3& r = *frame;
@@ -79,8 +78,8 @@ struct Placement {
     }
 };
 
-/// Copies of a field or an object: the base of a node of type Node that says how many() there are and the placement(i)
-/// of each. Placements are computed when they are asked for, so that a thousand copies weigh as much as one.
+/// Copies of a field or an object. This is the base of a node of type Node, which provides many(), the number of
+/// copies, and placement(i). Placements are computed on demand, so a thousand copies take no more memory than one.
 template <class Node, class Child>
 struct Copies {
     static constexpr bool has_copies = true;
@@ -109,7 +108,7 @@ struct Copies {
                 all = unite(all, at.image(q(of, level / at.scale)));
                 continue;
             }
-            // Where there are many copies each is small, so its box will do.
+            // Many copies are small individually, so their boxes suffice.
             const auto copy = [&] {
                 return n <= 64 || at.is_moved_only() ? q(of, level / at.scale)
                                                      : q.placed(q.own_box(of, level / at.scale));
@@ -139,7 +138,7 @@ struct Copies {
 
 namespace detail {
 inline constexpr Parameter copied{"of", "", "What is copied: a field or an object."};
-/// More copies than that would not pass the limit of instructions anyway.
+/// More copies would exceed the limit of instructions anyway.
 inline constexpr int most_copies = 500'000;
 }  // namespace detail
 

@@ -11,12 +11,12 @@ struct SurfacePoint {
     glm::vec3 position;
     glm::dvec3 normal;  ///< outward
 };
-/// Finds up to `count` points of a bounded field's surface, distributed evenly by area, no two nearer to each other
-/// than `spacing`: the points where random lines cross it (a uniformly random line crosses any two pieces of equal area
-/// equally often). The same seed gives the same points. Throws ModelError if the surface is unbounded or no line met
-/// it.
+/// Find up to `count` points on a bounded field's surface, distributed evenly by area, no two closer than `spacing`.
+/// The points are where random lines cross the surface: a uniformly random line is equally likely to cross any two
+/// pieces of equal area. The same seed gives the same points. Throws ModelError if the surface is unbounded or no line
+/// meets it.
 std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed);
-/// Placements that stand on scattered() points, each turned at random about its normal, and of a random size between
+/// Make placements on scattered() points. Each is rotated at random about its normal, and has a random size between
 /// `smallest` and 1.
 std::vector<Placement> scattered_placements(const Field& surface, int count, float spacing, float smallest, int seed);
 }  // namespace detail
@@ -32,7 +32,7 @@ struct Scatter : Copies<Scatter<Child>, Child> {
     float spacing = 0;
     float smallest = 1;
     int seed = 1;
-    std::vector<Placement> found{};  ///< derived, and kept: the search is long
+    std::vector<Placement> found{};  ///< derived, and stored because the search is slow
 
     template <class V>
     static void parameters(V&& v) {
@@ -47,7 +47,7 @@ struct Scatter : Copies<Scatter<Child>, Child> {
         v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
     }
     void prepare() { found = detail::scattered_placements(surface, count, spacing, smallest, seed); }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const { return std::span(found).size_bytes(); }
     std::size_t many() const { return found.size(); }
     const Placement& placement(std::size_t i) const { return found[i]; }

@@ -7,11 +7,10 @@
 
 namespace phasetree {
 
-/// Balls as files give them. Radii and phases are empty, or have an entry for each centre; a phase is the number of an
-/// entry in a list that the file does not hold.
+/// Balls read from a file. Radii and phases are either empty or have one entry per centre. A phase is an index into a
+/// list outside the file.
 struct BallList {
-    /// Readers and nodes accept at most this many: the hierarchy over them counts its nodes in floats, which are exact
-    /// up to 2²⁴.
+    /// Limit of readers and nodes. The hierarchy over the balls counts its nodes in floats, which are exact up to 2²⁴.
     static constexpr std::size_t most_balls = 16'000'000;
 
     std::vector<glm::vec3> centres;

@@ -14,22 +14,23 @@ inline constexpr Parameter file_of_balls{
     "The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those "
     "names first; in metres, instead of centres.",
     limits::any, true};
-/// The centres and radii of balls, from one of the two places that they may come from. Throws ModelError.
+/// The centres and radii of balls, given as lists or in a file. Throws ModelError.
 std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
                                    const std::vector<float>& radii, const FromFile<BallList>& file);
 }  // namespace detail
 
-/// The union of up to millions of balls, given as data: exact outside of it, 1-Lipschitz with the right sign inside.
+/// The union of up to millions of balls, given as data. It is exact outside, and 1-Lipschitz with the right sign
+/// inside.
 ///
-/// A hierarchy of boxes finds the ball that is nearest to a point. In a small box few balls matter, and they are the
-/// data of the specialised primitive: where only the distance's sign is wanted, those that meet the box.
+/// A hierarchy of boxes finds the ball nearest to a point. In a small box few balls matter; they are the data of the
+/// specialised primitive. Where only the sign of the distance is needed, these are the balls that meet the box.
 struct Balls {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"balls", "", "min over i of |p − cᵢ| − rᵢ",
                                    "Up to sixteen million balls, united: grains, drops, atoms. Exact outside."};
-    /// More balls than that are not listed for a box.
+    /// The maximum number of balls listed for a box.
     static constexpr std::size_t most_in_box = 96;
-    /// The limit of shaders, which have no search.
+    /// The maximum number of balls in shaders, which have no search.
     static constexpr std::size_t most_of_shader = 2000;
 
     std::vector<glm::vec3> centres{};
@@ -46,7 +47,7 @@ struct Balls {
                     limits::positive, true, true});
         v(&Balls::file, detail::file_of_balls);
     }
-    /// Throws ModelError, which says what is missing.
+    /// Throws ModelError if parameters are missing or inconsistent.
     void prepare();
 
     std::span<const float> data() const { return table; }
@@ -57,7 +58,7 @@ struct Balls {
             [](const float* ball, const auto& q) { return balls::distance_to(ball, q); },
             [&](const auto& q) { return balls::ShortList::distance(few_balls(data), q); });
     }
-    /// The data, if a loop over all balls is bearable; else throws ModelError.
+    /// The data, if a loop over all balls is acceptable; otherwise throws ModelError.
     static const float* few_balls(const float* data);
 
     /// See LocalDataPrimitive.
@@ -76,15 +77,15 @@ struct Balls {
         static bool is_sound(std::span<const float>);
     };
     using Parts = TypeList<Specialised>;
-    /// About the distance between the centres of neighbours, if the balls fill their box.
+    /// The approximate distance between the centres of neighbours, assuming that the balls fill their box.
     static float spacing(const float* data) { return balls::Tree::spacing(data); }
-    /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
+    /// A rough estimate of the cost of a search for each of eight points, in halves of that of a simple instruction.
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {
         return specialise(data, range, std::numeric_limits<double>::infinity(), of, floats);
     }
-    /// See RequiredDataPrimitive: values above `farthest` need not be themselves, as long as they stay above it.
+    /// See RequiredDataPrimitive. Values above `farthest` may be wrong as long as they stay above it.
     static bool specialise(const float* data, const PointRange& range, double farthest, std::span<const float> of,
                            std::vector<float>& floats) {
         return balls::Tree::balls_in(data, {range, farthest, most_in_box}, of, floats);

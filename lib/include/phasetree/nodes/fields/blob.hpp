@@ -7,16 +7,16 @@
 
 namespace phasetree {
 
-/// A BlobTree's sum of skeletons with compact support. With dᵢ the distance to skeleton i, gᵢ its falloff(dᵢ, Rᵢ)
-/// and b = Σ wᵢ gᵢ, the solid is b > T.
+/// A BlobTree: a sum of skeletons with compact support. With dᵢ the distance to skeleton i, gᵢ its falloff(dᵢ, Rᵢ) and
+/// b = Σ wᵢ gᵢ, the solid is b > T.
 ///
-/// *Slope.* (T − b)/λ is 1-Lipschitz for λ ≥ sup ‖∇b‖. The sum of the falloffs' own bounds would do, but skeletons of
-/// which no two are steep at one place would make it many times too large. blob_slope() (src/preparation/blob.cpp)
-/// bounds Σ wᵢ |gᵢ′| over all of space by subdivision.
+/// *Slope.* (T − b)/λ is 1-Lipschitz for λ ≥ sup ‖∇b‖. Summing the bounds of the falloffs would give a valid λ, but one
+/// many times too large if no two skeletons are steep at the same place. blob_slope() (src/preparation/blob.cpp) bounds
+/// Σ wᵢ |gᵢ′| over all of space by subdivision.
 ///
-/// *Outside.* The paper (9.2) adds the distance to the support. A tighter bound is as safe: where b ≥ T, at least one
-/// wᵢ gᵢ is its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min
-/// (dᵢ − rᵢ)) has the sign of T − b, and far away the slope 1. rᵢ < Rᵢ, so it is the larger of the two bounds.
+/// *Outside.* The paper (9.2) adds the distance to the support. A tighter bound is also valid: where b ≥ T, at least
+/// one wᵢ gᵢ is its share wᵢ T/Σw or more, hence some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ,
+/// min (dᵢ − rᵢ)) has the sign of T − b, and slope 1 far away. Because rᵢ < Rᵢ, it is the larger of the two bounds.
 struct Blob {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"blob", "7.5, 9.2",
@@ -24,7 +24,7 @@ struct Blob {
                                    "λ ≥ sup ‖∇Σ‖",
                                    "A BlobTree: points, a chain of segments and other fields as skeletons, whose "
                                    "compactly supported contributions add up and melt into each other."};
-    /// The primitive that is the distance to a point.
+    /// The primitive for the distance to a point.
     struct Point {
         glm::vec3 at{0};
 
@@ -33,7 +33,7 @@ struct Blob {
             return length(p - at);
         }
     };
-    /// The primitive that is the distance to a segment.
+    /// The primitive for the distance to a segment.
     struct Segment {
         glm::vec3 from{0};
         glm::vec3 along{0, 0, 1};
@@ -102,7 +102,7 @@ struct Blob {
         for (const Field& f : of) add(d.field(f, p));
         return far_bound(d.one_lipschitz((threshold - *sum) * (1 / slope), p), *nearest);
     }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const { return std::span(segments).size_bytes(); }
     Bounds bounds(BoundsQuery& q, float at_level) const {
         Bounds all;

@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// The wall is what is nearer than t/2 to the part z ≤ c of a sphere's surface. In (ρ, z), ρ = |pxy|, that part is an
-/// arc up to the rim (w, c), w = √(R² − c²). The nearest point of the whole circle, R p/|p|, is on it where
-/// R pz ≤ c |p|; elsewhere the rim is nearest.
+/// The wall is everything nearer than t/2 to the part z ≤ c of a sphere's surface. In (ρ, z), ρ = |pxy|, that part is
+/// an arc up to the rim (w, c), w = √(R² − c²). The nearest point of the whole circle, R p/|p|, is on the arc where R
+/// pz ≤ c |p|; elsewhere the rim is nearest.
 struct Bowl {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -39,7 +39,7 @@ struct Bowl {
         const T to_rim = length(length(p.x, p.y) - rim, p.z - cut);
         return select(less(from_centre * cut, p.z * radius), to_rim, abs(from_centre - radius)) - thickness * 0.5f;
     }
-    /// The support of the ball, of which the wall is a part.
+    /// The support of the ball that contains the wall.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + 0.5f * thickness + level);
     }

@@ -5,7 +5,7 @@
 
 namespace phasetree {
 
-/// The distance to a box about the origin, of half extents h, which boxes of several kinds share.
+/// The distance to a box around the origin with half extents h. Shared by several kinds of boxes.
 template <class T>
 T box_distance(const Vec3<T>& p, const glm::vec3& h) {
     return corner(abs(p.x) - h.x, abs(p.y) - h.y, abs(p.z) - h.z);

@@ -5,11 +5,12 @@
 
 namespace phasetree {
 
-/// The coordinate planes are mirrors, so |p| is considered. Measured from the inner edges, (x, y, z) = |p| − s/2 + t,
-/// the bar along x is x ≤ t, y and z in [0, t]; likewise the others. Outside, the nearest of the three is nearest. Let
-/// a ≥ b ≥ c be the coordinates in order: the solid is b ≥ 0, a ≤ t. From there the outer faces are t − a away. To
-/// leave towards the hollow two coordinates must become negative, and b and c need the shortest way, √(b² + max(c,
-/// 0)²).
+/// The coordinate planes are mirrors, so it suffices to consider |p|. Measured from the inner edges, (x, y, z) = |p| −
+/// s/2 + t. The bar along x is x ≤ t, y and z in [0, t]; the others are analogous. Outside, the distance is that to the
+/// nearest of the three bars.
+///
+/// Inside, let a ≥ b ≥ c be the sorted coordinates; the solid is b ≥ 0, a ≤ t. The outer faces are t − a away. To leave
+/// towards the hollow, two coordinates must become negative; the shortest way changes b and c, √(b² + max(c, 0)²).
 struct BoxFrame {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"box_frame", "",
@@ -34,7 +35,7 @@ struct BoxFrame {
         const T zero(0.f);
         const T x = abs(p.x) - (size.x * 0.5f - thickness), y = abs(p.y) - (size.y * 0.5f - thickness),
                 z = abs(p.z) - (size.z * 0.5f - thickness);
-        // Squared distances along one axis to the bars that lie along it, and to those across it.
+        // Squared distances along one axis to the bars parallel to it, and to those across it.
         const auto squared = [](const T& d) { return d * d; };
         const T past_x = max(x - thickness, zero), past_y = max(y - thickness, zero), past_z = max(z - thickness, zero);
         const T along_x = squared(past_x), along_y = squared(past_y), along_z = squared(past_z);

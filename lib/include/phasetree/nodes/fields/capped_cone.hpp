@@ -7,9 +7,9 @@
 
 namespace phasetree {
 
-/// The profile is a trapezium in (ρ, z), ρ = |pxy|. Outside and inside, the distance is that to the nearer of its
-/// two edges that bound the solid: the cap (a disk) and the slanted side (a segment); the sign is that of the
-/// larger of the two half-space values.
+/// The profile is a trapezium in (ρ, z), ρ = |pxy|. The absolute distance is that to the nearer of the two edges that
+/// bound the solid: the cap (a disk) and the slanted side (a segment). The sign is that of the larger of the two
+/// half-space values.
 struct CappedCone {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -34,7 +34,7 @@ struct CappedCone {
         const T zero(0.f);
         const float h = height * 0.5f;
         const T rho = length(p.x, p.y);
-        // The squared distance to the nearer cap, which is a disk of its own radius.
+        // The squared distance to the nearer cap, a disk with its own radius.
         const T cap_radius = select(less(p.z, zero), T(radius_bottom), T(radius_top));
         const T cap_out = max(rho - cap_radius, zero);
         const T cap_z = abs(p.z) - h;
@@ -46,10 +46,10 @@ struct CappedCone {
         const T s = clamp((qx * ex + qz * ez) * inverse, zero, T(1.f));
         const T sx = qx - s * ex, sz = qz - s * ez;
         const T to_side = sx * sx + sz * sz;
-        // A point is inside if and only if it is within the slab and on the axis' side of the slanted line.
+        // A point is inside if and only if it is within the slab and on the axis side of the slanted line.
         const T side = max(cap_z, qx * -ez + qz * ex);
         const T d = sqrt(min(to_cap, to_side));
-        // Where the inside of the side is nearest, and not one of its ends, the distance is linear in ρ and z.
+        // Where the interior of the side, and not one of its ends, is nearest, the distance is linear in ρ and z.
         return also_known_as(select(less(side, zero), -d, d), [&](const auto& certainly) {
             const bool is_side = certainly(less(cap_z, zero)) && certainly(less(to_side, to_cap)) &&
                                  certainly(less(zero, s)) && certainly(less(s, T(1.f)));

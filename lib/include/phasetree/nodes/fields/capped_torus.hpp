@@ -7,10 +7,10 @@
 
 namespace phasetree {
 
-/// All points within r of an arc of radius R. With φ half of the arc's angle, fold y to |y|. A point whose direction is
-/// within the arc, sin φ · x − cos φ · |y| ≥ 0 (that is R sin(φ − θ) for the direction θ), is nearest to the arc at
-/// its own θ, which is the torus' equation; any other is nearest to the arc's end R(cos φ, sin φ, 0), because the
-/// distance to the points of a circle grows with the angle between.
+/// All points within r of an arc of radius R. Let φ be half of the arc's angle, and fold y to |y|. A point is within
+/// the arc's angle if sin φ · x − cos φ · |y| ≥ 0 (that is, R sin(φ − θ) for the direction θ). It is then nearest to
+/// the arc at its own θ, which is the torus equation. Any other point is nearest to the arc's end R(cos φ, sin φ, 0),
+/// because the distance to the points of a circle grows with the angle between.
 struct CappedTorus {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"capped_torus", "", "|p − nearest point of the arc| − r",
@@ -43,7 +43,7 @@ struct CappedTorus {
         const T to_end = ex * ex + ey * ey + p.z * p.z;
         return sqrt(select(less(p.x * sine - y * cosine, T(0.f)), to_end, to_arc)) - minor;
     }
-    /// The support of the whole torus.
+    /// The support of the complete torus.
     double support(const glm::dvec3& d, float level) const {
         return detail::disk_support(d) * static_cast<double>(major) +
                glm::length(d) * static_cast<double>(minor + level);

@@ -4,11 +4,11 @@
 
 namespace phasetree {
 
-/// g = f + a n, where the noise n is in [−1, 1] and of slope L at most (fractal_noise.hpp), so g/λ is 1-Lipschitz for
-/// λ = 1 + a L. Because f − a ≤ g ≤ f + a, the bounds f ± a, which are 1-Lipschitz themselves, may take over:
+/// g = f + a n, where the noise n is in [−1, 1] with slope at most L (fractal_noise.hpp). So g/λ is 1-Lipschitz for λ =
+/// 1 + a L. Because f − a ≤ g ≤ f + a, the bounds f ± a, which are 1-Lipschitz themselves, can take over:
 ///     min(max(g/λ, f − a), f + a)
-/// has the sign of g everywhere, so near the surface g will do; away from it the slope is that of f, not 1/λ of it.
-/// Where f − a wins, the noise need not be evaluated.
+/// has the sign of g everywhere. Near the surface g suffices; away from it the slope is that of f instead of f/λ. Where
+/// f − a is larger, the noise need not be evaluated.
 struct Displace {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"displace", "",

@@ -6,17 +6,17 @@
 
 namespace phasetree {
 
-/// A lower bound of the distance, 1-Lipschitz and zero on the surface alone. The maximum of three fields:
+/// A lower bound of the distance that is 1-Lipschitz and zero only on the surface. It is the maximum of three fields:
 ///
-/// * m(|p/r| − 1), m the smallest radius. |p/r| is a norm, so |p/r| − |q/r| ≤ |(p − q)/r| ≤ |p − q|/m.
-/// * the distance to the box of half extents r, and
-/// * |p| − M, M the largest radius.
+/// * m(|p/r| − 1), where m is the smallest radius. |p/r| is a norm, so |p/r| − |q/r| ≤ |(p − q)/r| ≤ |p − q|/m.
+/// * the distance to the box with half extents r.
+/// * |p| − M, where M is the largest radius.
 ///
-/// Each is 1-Lipschitz, hence so is the maximum. The first has the ellipsoid's sign everywhere; the box and the ball
-/// contain the ellipsoid, so they are positive only outside and are no obstacle to the sign inside. A 1-Lipschitz
-/// field that vanishes on the surface is nowhere larger than the distance. At the ends of the axes, outside, the box
-/// makes it exact, and far away its error is bounded, whereas the first field alone grows with the slope m/M only.
-/// (The usual k₀(k₀ − 1)/k₁, k₀ = |p/r|, k₁ = |p/r²|, overestimates the distance and has slopes far above 1.)
+/// Each is 1-Lipschitz, so the maximum is too. The first has the ellipsoid's sign everywhere. The box and the ball
+/// contain the ellipsoid, so they are positive only outside and do not affect the sign inside. A 1-Lipschitz field that
+/// vanishes on the surface never exceeds the distance. Outside, the box makes it exact at the ends of the axes and
+/// bounds its error far away; the first field alone grows only with the slope m/M. (The usual k₀(k₀ − 1)/k₁, k₀ =
+/// |p/r|, k₁ = |p/r²|, overestimates the distance and has slopes far above 1.)
 struct Ellipsoid {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -48,7 +48,7 @@ struct Ellipsoid {
             glm::length(d * glm::dvec3(radii)) * (1 + static_cast<double>(level) / static_cast<double>(smallest));
         return std::min(shape, glm::length(d) * static_cast<double>(largest + level));
     }
-    /// Outside, the box decides; inside, m(|p/r| − 1) ≤ level is the ellipsoid shrunk by 1 + level/m.
+    /// Outside, the box is the bound; inside, m(|p/r| − 1) ≤ level is the ellipsoid scaled by 1 + level/m.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(level < 0 ? radii * (1 + level / smallest) : radii + level);
     }

@@ -1,4 +1,4 @@
-// What the operators of any number of plain fields share.
+// Shared code of operators on any number of fields.
 #pragma once
 
 #include <vector>

@@ -11,7 +11,7 @@ namespace phasetree {
 
 namespace formula {
 
-/// The operations of a term, each on values before it; a, b and c are their indices.
+/// The operations of a term. a, b and c are indices of earlier values.
 enum class Op : std::uint8_t {
     x,
     y,
@@ -36,7 +36,7 @@ enum class Op : std::uint8_t {
 };
 
 inline constexpr std::size_t most_operations = 128;
-/// A term begins with two floats: how many operations follow, and the factor of the result, 1/λ.
+/// A term starts with two floats: the number of operations, and the factor 1/λ of the result.
 inline constexpr std::size_t header = 2;
 /// An operation is four floats: its Op, a, b and c.
 inline constexpr std::size_t stride = 4;
@@ -46,7 +46,7 @@ T length_of(const T& a, const T& b) {
     return sqrt(a * a + b * b);
 }
 
-/// Computes all values of a term at p, in their order.
+/// Compute all values of a term at p, in order.
 template <class T>
 void run(const float* data, const Vec3<T>& p, T* value) {
     const int count = static_cast<int>(data[0]);
@@ -121,12 +121,14 @@ void run(const float* data, const Vec3<T>& p, T* value) {
 
 }  // namespace formula
 
-/// The solid where a formula is negative. Its minima, maxima, absolute values, negations and added constants become
-/// instructions like those of any operator, except where they are inside of other functions. What is left, sums and
-/// products and roots, become primitives: terms. All are divided by λ, a bound of the slope that is found by enclosure
-/// (src/nodes/formula_slope). If the author gives bounds, λ holds in a box B around what of the solid is in them.
-/// Points outside are projected onto B, and the distance to it takes over where that is larger, as with warps of
-/// limited reach (nodes/warps/warped.hpp).
+/// The solid where a formula is negative.
+///
+/// Its minima, maxima, absolute values, negations and added constants become ordinary instructions, unless they are
+/// inside other functions. The remaining sums, products and roots become primitives: terms. All are divided by λ, a
+/// bound of the slope that is found by enclosure (src/nodes/formula_slope).
+///
+/// If the author gives bounds, λ holds in a box B around the part of the solid within them. Points outside are
+/// projected onto B, and the distance to B takes over where it is larger, as with local warps (nodes/warps/warped.hpp).
 struct Formula {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -149,7 +151,7 @@ struct Formula {
     };
     using Parts = TypeList<Term>;
 
-    /// A term, or an operation on parts before it. Of a term, `a` is its index in `terms`; of an operation, `a` and `b`
+    /// A term, or an operation on earlier parts. For a term, `a` is its index in `terms`; for an operation, `a` and `b`
     /// are indices in `parts`. `constant` is a summand or a radius.
     struct Part {
         enum class What : std::uint8_t { term, negate, absolute, minimum, maximum, add_constant, smooth_minimum };
@@ -160,11 +162,11 @@ struct Formula {
 
     std::string text{};
     std::vector<glm::vec3> box{};  ///< the author's two corners, or empty
-    // What follows is derived.
+    // Everything below is derived.
     std::vector<Term> terms{};
-    std::vector<Part> parts{};  ///< the last is the formula
-    BoundingBox bound{};        ///< B: around what of the solid is in the author's box; λ holds there
-    float lipschitz = 1;        ///< λ: the largest bound of all terms; 1 for a formula that is nearly constant
+    std::vector<Part> parts{};  ///< the last one is the formula
+    BoundingBox bound{};        ///< B: around the part of the solid in the author's box; λ holds there
+    float lipschitz = 1;        ///< λ: the maximum bound over all terms; 1 if the formula is nearly constant
 
     template <class V>
     static void parameters(V&& v) {
@@ -174,7 +176,7 @@ struct Formula {
                                    "the formula's slope must be bounded everywhere.",
                                    limits::any, true});
     }
-    /// Throws TextError where the text is wrong or its slope has no bound.
+    /// Throws TextError if the text is wrong or its slope is unbounded.
     void prepare();
 
     template <class D>
@@ -211,7 +213,7 @@ struct Formula {
         }
         return box.empty() ? value.back() : max(d.primitive(bound, p), value.back());
     }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const {
         std::size_t sum = 0;
         for (const Term& term : terms) sum += sizeof term + term.data().size_bytes();

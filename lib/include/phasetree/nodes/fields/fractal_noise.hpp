@@ -5,22 +5,23 @@
 
 namespace phasetree {
 
-/// Octaves of value noise (math/value_noise.hpp), whose slope is 15/4 at most.
+/// Octaves of value noise (math/value_noise.hpp), whose slope is at most 15/4.
 ///
-/// *Octaves:* each has half the size and half the weight of the one before, so each adds as much slope. The weights'
-/// sum is 1, so the range is [−1, 1].
+/// *Octaves.* Each has half the size and half the weight of the previous one, so each adds the same slope. The weights
+/// sum to 1, so the range is [−1, 1].
 ///
-/// *Positions* are projected onto a cube of 2¹⁷ sizes, which lengthens nothing; beyond it the noise is constant along
-/// the cube's normals. So the lattice's hash (math/lattice_hash.hpp) gets numbers that it computes exactly.
+/// *Positions* are projected onto a cube of 2¹⁷ sizes, which never increases distances. Beyond the cube the noise is
+/// constant along its normals. The lattice's hash (math/lattice_hash.hpp) therefore only receives numbers that it
+/// computes exactly.
 ///
-/// distance() is the noise divided by its slope's bound, hence 1-Lipschitz, as every primitive.
+/// distance() is the noise divided by the bound of its slope, and therefore 1-Lipschitz like every primitive.
 struct FractalNoise {
     static constexpr bool is_long = true;  ///< a LongPrimitive
     float frequency = 1;                   ///< 1/size of the first octave
     float octaves = 1;
     float weight = 1 / steepest;  ///< of the first octave
 
-    /// A bound of the slope of noise in [−1, 1].
+    /// A bound of the slope of the noise when scaled to [−1, 1].
     static float slope(float size, float octaves) { return steepest * octaves / (size * weights(octaves)); }
 
     FractalNoise() = default;
@@ -35,7 +36,7 @@ struct FractalNoise {
         T sum(0.f);
         for (int i = 0; i < static_cast<int>(octaves); ++i) {
             sum = sum + value_noise(Vec3<T>{x, y, z}) * share;
-            // Octaves are shifted against each other, so that their lattices share no point.
+            // Octaves are offset against each other so that their lattices share no point.
             x = x * 2.f + 19.25f;
             y = y * 2.f + 47.375f;
             z = z * 2.f + 71.5625f;
@@ -44,7 +45,7 @@ struct FractalNoise {
         return sum;
     }
 
-    /// The weight of the first octave.
+    /// The size of the first octave.
     float period() const { return 1 / frequency; }
 
   private:

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// g = sin x cos y + sin y cos z + sin z cos x.  ∂g/∂x = cos x cos y − sin z sin x, and by Cauchy and Schwarz
-/// (∂g/∂x)² ≤ (cos²x + sin²x)(cos²y + sin²z); likewise (∂g/∂y)² ≤ cos²z + sin²x and (∂g/∂z)² ≤ cos²x + sin²y. Their
-/// sum is 3: ‖∇g‖ ≤ √3, reached at the origin. And |g| ≤ 3/2, as sin a cos b ≤ (sin²a + cos²b)/2.
+/// g = sin x cos y + sin y cos z + sin z cos x.  ∂g/∂x = cos x cos y − sin z sin x, so (∂g/∂x)² ≤ (cos²x + sin²x)(cos²y
+/// + sin²z) by the Cauchy–Schwarz inequality. Likewise (∂g/∂y)² ≤ cos²z + sin²x and (∂g/∂z)² ≤ cos²x + sin²y. These sum
+/// to 3, so ‖∇g‖ ≤ √3, which is reached at the origin. And |g| ≤ 3/2, because sin a cos b ≤ (sin²a + cos²b)/2.
 struct Gyroid {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"gyroid", "",

@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// Heights on a rectangular grid, from 0 to 1: row after row, the first at the largest y, as an image is seen from
-/// above.
+/// Heights on a rectangular grid, from 0 to 1. Stored row by row; the first row is at the largest y, as in an image
+/// seen from above.
 struct HeightGrid {
     int width = 0, height = 0;
     std::vector<float> values;

@@ -9,11 +9,11 @@
 namespace phasetree {
 
 /// The terrain z < h(x, y) of an image. h is the biquadratic B-spline of the pixels: smooth, within their range, and
-/// its slopes are averages of the differences between neighbours. So with the largest of these along x and y, Lx and
-/// Ly, f = (z − h)/√(1 + Lx² + Ly²) is 1-Lipschitz; and because the heights are between low and high, so is
+/// with slopes that are averages of the differences between neighbours. With the largest of these differences along x
+/// and y, Lx and Ly, f = (z − h)/√(1 + Lx² + Ly²) is 1-Lipschitz. Because the heights are between low and high, so is
 ///     min(max(f, z − high), z − low),
-/// which has the sign of f everywhere and its full slope away from the surface. Beyond its edges the image goes on with
-/// the values of its border.
+/// which has the sign of f everywhere and full slope away from the surface. Beyond its edges the image continues with
+/// the values at its border.
 struct HeightMap {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -48,7 +48,7 @@ struct HeightMap {
         table.assign(7, 0.f);
         float low = Bounds::infinity, high = -Bounds::infinity;
         double slope_x = 0, slope_y = 0;
-        // The first row is at the largest y; in the table y rises.
+        // The first row is at the largest y; in the table, y increases.
         const auto at = [&](std::size_t x, std::size_t y) {
             return height * grid.values[(rows - 1 - y) * columns + x];
         };
@@ -97,7 +97,7 @@ struct HeightMap {
     }
 
   private:
-    /// The three pixels that a coordinate, in pixels, is between, and their weights.
+    /// The three pixels around a coordinate given in pixels, and their weights.
     template <class T>
     struct Axis {
         T index[3], weight[3];

@@ -4,10 +4,10 @@
 
 namespace phasetree {
 
-/// The ground below z = h(x, y). h sums octaves of value noise n in the plane, whose slope is 15/4 at most as that of
-/// noise in space (math/value_noise.hpp), each bent by (1 − r) n + r (1 − 2|n|), which stays in [−1, 1] and is steeper
-/// by a factor of 1 + r at most. With L ≥ ‖∇h‖ the gradient of (z − h)/√(1 + L²) is no longer than 1. Because |h| ≤ a,
-/// the planes z − a and z + a, which are of slope 1, may take over as in displace.hpp.
+/// The ground below z = h(x, y). h sums octaves of plane value noise n, whose slope is at most 15/4, like that of noise
+/// in space (math/value_noise.hpp). Each octave is shaped by (1 − r) n + r (1 − 2|n|), which stays in [−1, 1] and is
+/// steeper by a factor of at most 1 + r. With L ≥ ‖∇h‖, the gradient of (z − h)/√(1 + L²) has length at most 1. Because
+/// |h| ≤ a, the planes z − a and z + a, which have slope 1, can take over as in displace.hpp.
 struct Heightfield {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{

@@ -6,23 +6,23 @@
 
 namespace phasetree {
 
-/// The centre line is (R cos θ, R sin θ, kθ), θ from 0 to 2πN, k = pitch/2π (moved down by half of its height). For
-/// a point with cylinder coordinates (ρ, φ, z), turn n of the line and θ = φ + 2πn + x,
+/// The centre line is (R cos θ, R sin θ, kθ), θ from 0 to 2πN, k = pitch/2π (moved down by half its height). For a
+/// point with cylindrical coordinates (ρ, φ, z), turn n of the line and θ = φ + 2πn + x,
 ///     D² = (ρ − R)² + 4ρR sin²(x/2) + k² (x − M)²,   M = z/k − φ − 2πn,
 /// is stationary where F(x) = x + e sin x − M = 0, e = ρR/k²: Kepler's equation.
 ///
 /// *One turn.* Let M ≥ 0; M < 0 is its mirror image. On [0, π] F is concave, with F(0) ≤ 0. Its first root is a minimum
-/// of D, its second a maximum; elsewhere in the turn there is no minimum. From the left of a concave function's first
-/// root Newton's steps and Halley's approach it without passing it; five of Halley's come within 2·10⁻⁷ R of the
-/// distance (worst where two turns are equally near and e = 1). Where there is no root, any x will do: it is a point of
-/// the line.
+/// of D, its second a maximum; there is no other minimum in the turn. From the left of the first root of a concave
+/// function, Newton's and Halley's iterations approach the root without passing it. Five steps of Halley's iteration
+/// come within 2·10⁻⁷ R of the distance (worst where two turns are equally near and e = 1). If there is no root, any x
+/// will do, because it is a point of the line.
 ///
-/// *Which turn.* The minima's D grows with |M|, so without ends the turn of the smallest |M| ≤ π has the nearest point.
-/// Let n₀ … n₁ be the turns whose middle x = 0 is between the ends. If the nearest turn's minimum is past the upper
-/// end, then the candidates are that end and turn n₁: the minimum of a lower one has a larger D, and if turn n₁ has no
-/// minimum up to the end then D falls all the way to it. Turn n₁ + 1 has a minimum before the end y < 0 if and only if
-/// F(y) ≥ 0 and y > −π. The same holds at the lower end. So one solution of Kepler's equation and the two ends are the
-/// exact distance.
+/// *Which turn.* D at the minima grows with |M|, so without ends the turn with the smallest |M| ≤ π has the nearest
+/// point. Let n₀ … n₁ be the turns whose middle x = 0 is between the ends. If the nearest turn's minimum is past the
+/// upper end, the candidates are that end and turn n₁: the minimum of a lower turn has a larger D, and if turn n₁ has
+/// no minimum before the end, D decreases all the way to it. Turn n₁ + 1 has a minimum before the end y < 0 if and only
+/// if F(y) ≥ 0 and y > −π. The same holds at the lower end. One solution of Kepler's equation and the two ends
+/// therefore give the exact distance.
 struct Helix {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -34,7 +34,7 @@ struct Helix {
     float pitch = 0.5f;
     float turns = 3;
     float wire = 0.1f;
-    float end_x = 1, end_y = 0;  ///< where it ends, derived
+    float end_x = 1, end_y = 0;  ///< position of its end, derived
 
     template <class V>
     static void parameters(V&& v) {
@@ -58,7 +58,7 @@ struct Helix {
         constexpr float pi = 3.14159265f, around = 6.28318531f;
         const T zero(0.f), one(1.f);
         const float rise = std::abs(pitch), k = rise / around, steepness = radius / (k * k);
-        // Heights are measured from the lower end, and a left-handed coil is mirrored to the right-handed one.
+        // Heights are measured from the lower end, and a left-handed coil is mirrored to a right-handed one.
         const T y = pitch < 0 ? -p.y : p.y, z = p.z + rise * turns * 0.5f;
         const T rho = length(p.x, y), e = min(rho * steepness, T(1e9f));
 
@@ -93,7 +93,7 @@ struct Helix {
         const T between = select(less(where, zero), to_ends, select(less(T(turns * around), where), to_ends, to_line));
         return sqrt(min(between, to_ends)) - wire;
     }
-    /// The support of the cylinder that holds the coil.
+    /// The support of the cylinder that contains the coil.
     double support(const glm::dvec3& d, float level) const {
         const double half = 0.5 * static_cast<double>(std::abs(pitch) * turns);
         return detail::disk_support(d) * static_cast<double>(radius) + std::abs(d.z) * half +

@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// Mirrors fold it to one chamber (mirrors.hpp), which has one face: its centre is on the axis of order three, an
-/// edge's middle on the y axis, and the edge runs along z.
+/// Mirrors fold the solid to one chamber (mirrors.hpp) with one face. The face's centre is on the axis of order three,
+/// the middle of an edge on the y axis, and that edge runs along z.
 struct Icosahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -31,7 +31,7 @@ struct Icosahedron {
         const T c = q.z - radius * 0.525731112f;
         return detail::IcosahedralMirrors::to_face(a, b, c);
     }
-    /// The ball through the corners has this radius, and bounds the solid.
+    /// The circumscribed ball has this radius.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + level);
     }

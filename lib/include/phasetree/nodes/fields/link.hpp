@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// A torus cut in two and moved apart along y, with straight rods between. The centre line's nearest point to p with
-/// |py| ≤ l/2 is on a rod at p's own y, elsewhere on a half circle about (0, ±l/2, 0); both are the torus' equation
-/// once y is shortened by what the rods take.
+/// A torus cut in two and moved apart along y, with straight rods in between. For a point with |py| ≤ l/2, the nearest
+/// point of the centre line is on a rod at the same y; otherwise it is on a half circle around (0, ±l/2, 0). Both cases
+/// are the torus equation once y is shortened by the length of the rods.
 struct Link {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"link", "", "y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r",

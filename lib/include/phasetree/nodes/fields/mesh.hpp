@@ -8,14 +8,14 @@
 
 namespace phasetree {
 
-/// The solid within a surface of triangles, exact on both sides. The surface must be closed, must not cross or touch
-/// itself along edges, and its triangles must all be turned with their outside outward. That is
-/// checked, so the sign of the distance is known from the nearest piece of it (mesh_pieces.hpp).
+/// The solid within a triangulated surface, exact on both sides. The surface must be closed, must not cross itself or
+/// touch itself along edges, and its triangles must all face outward. This is checked, so the nearest piece of the
+/// surface determines the sign of the distance (mesh_pieces.hpp).
 ///
-/// Where two sheets of it are as near as floats round, either may be taken for the nearest, and the sign is uncertain
-/// also far from both.
+/// Where two sheets of the surface are closer than the rounding of floats, either may be taken as the nearest, and the
+/// sign is uncertain even far from both.
 ///
-/// A hierarchy of boxes finds that piece. In a small box few pieces can be nearest, and they are the data of the
+/// A hierarchy of boxes finds the nearest piece. In a small box few pieces can be nearest; they are the data of the
 /// specialised primitive.
 struct Mesh {
     static constexpr bool is_field_node = true;
@@ -35,7 +35,7 @@ struct Mesh {
                                  "materials, normals and the like are ignored. Walls and gaps that are thinner than a "
                                  "millionth of the mesh's size may be taken for each other."});
     }
-    /// Throws ModelError, which says where the surface is wrong.
+    /// Throws ModelError, with the place where the surface is wrong.
     void prepare();
 
     std::span<const float> data() const { return table; }
@@ -49,7 +49,7 @@ struct Mesh {
             [&](const auto& q) { return mesh::PieceList::distance(few_pieces(data), q); });
     }
 
-    /// The data, if a loop over all pieces is bearable; else throws ModelError.
+    /// The data, if a loop over all pieces is acceptable; otherwise throws ModelError.
     static const float* few_pieces(const float* data);
     static constexpr std::size_t most_pieces_of_shader = 2000;
 
@@ -73,13 +73,14 @@ struct Mesh {
         static bool is_sound(std::span<const float>);
     };
     using Parts = TypeList<Specialised>;
-    /// About the distance between the middles of two triangles, if they cover what a sphere in the mesh's box would.
+    /// The approximate distance between the middles of two triangles, assuming that they cover as much as a sphere in
+    /// the mesh's box would.
     static float spacing(const float* data) {
         const float* box = data + mesh::piece_kinds;
         const auto triangles = static_cast<float>(mesh::PieceList::count(data, mesh::PieceKind::face));
         return 2 * std::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
     }
-    /// A rough estimate of the cost of a search for each of eight points, in halves of a simple instruction's.
+    /// A rough estimate of the cost of a search for each of eight points, in halves of that of a simple instruction.
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {

@@ -1,10 +1,11 @@
 // The surface of a mesh as a set of pieces: faces, edges and vertices. Each is nearest to the points of one region: a
-// face to those of the prism over it, an edge to those between the planes through its ends, a vertex to all that are in
-// no such region. The distance to the mesh is the least of the distances to pieces, each asked within its own region.
+// face to those of the prism over it, an edge to those between the planes through its ends, a vertex to all other
+// points. The distance to the mesh is the minimum of the distances to the pieces, each evaluated only within its
+// region.
 //
-// Its sign is that of the normal's product with the vector from the nearest point, if an edge's normal is the sum of
-// its two faces' and a vertex's that of its faces', weighted by their angles (Baerentzen and Aanaes, "Signed Distance
-// Computation Using the Angle Weighted Pseudonormal", 2005).
+// The sign is that of the dot product of the normal and the vector from the nearest point. For this, an edge's normal
+// is the sum of those of its two faces, and a vertex's normal is the sum of those of its faces, weighted by their
+// angles (Baerentzen and Aanaes, "Signed Distance Computation Using the Angle Weighted Pseudonormal", 2005).
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,8 @@ namespace phasetree::mesh {
 enum class PieceKind : std::uint8_t { face, edge, vertex };
 inline constexpr std::size_t piece_kinds = 3;
 
-/// What a piece says about a point: the squared distance, or `nowhere` if the point is not in its region; and a number
-/// with the sign of the distance, which for a face is the distance itself.
+/// The result of evaluating a piece at a point: the squared distance, or `nowhere` if the point is not in its region,
+/// and a number with the sign of the distance. For a face, this number is the distance itself.
 template <class T>
 struct Told {
     T squared, side;
@@ -34,11 +35,12 @@ T along(const float* direction, const Vec3<T>& q) {
     return q.x * direction[0] + q.y * direction[1] + q.z * direction[2];
 }
 
-/// A corner, the unit normal, for each side the unit vector in the plane that points inward, for the side opposite to
-/// the corner the height of the corner over it, which is negative, and how far beyond its sides its region reaches.
+/// Layout: a corner; the unit normal; for each side, the unit vector in the plane that points inward; for the side
+/// opposite to the corner, the (negative) height of the corner over it; and the slack, by which its region extends
+/// beyond its sides.
 ///
-/// That is what rounding may be wrong by, so a point straight above a side is the face's: the vector from the side to a
-/// point as near as a rounding or two is itself mostly rounding, and would be a normal that no face about has.
+/// The slack is the rounding error, so that a point straight above a side belongs to the face. The vector from the side
+/// to such a point may be mostly rounding error; as a gradient, it would differ from the normals of all adjacent faces.
 struct Face {
     static constexpr PieceKind kind = PieceKind::face;
     static constexpr std::size_t corner = 0, normal = 3, inward = 6, opposite = 15, slack = 16, floats = 17;
@@ -52,8 +54,8 @@ struct Face {
         return {select(less(within, T(-piece[slack])), T(nowhere), height * height), height};
     }
 };
-/// One end, the vector to the other, 1 over its squared length, the normal, the largest angle between that and a normal
-/// of the two faces, and how far beyond its ends its region reaches, as a share of its length.
+/// Layout: one end; the vector to the other end; 1 over its squared length; the normal; the largest angle between it
+/// and the normals of the two faces; and how far its region extends beyond its ends, as a fraction of its length.
 struct Edge {
     static constexpr PieceKind kind = PieceKind::edge;
     static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, largest_angle = 10, slack = 11,
@@ -68,7 +70,7 @@ struct Edge {
                 along(piece + normal, away)};
     }
 };
-/// The position, the normal, and the largest angle between that and a normal of the faces about the vertex.
+/// Layout: the position; the normal; and the largest angle between it and the normals of the adjacent faces.
 struct Vertex {
     static constexpr PieceKind kind = PieceKind::vertex;
     static constexpr std::size_t position = 0, normal = 3, largest_angle = 6, floats = 7;
@@ -80,7 +82,7 @@ struct Vertex {
     }
 };
 
-/// Calls f.template operator()<Kind>() for Face, Edge and Vertex.
+/// Call f.template operator()<Kind>() for Face, Edge and Vertex.
 template <class F>
 void for_each_kind(F&& f) {
     f.template operator()<Face>();
@@ -89,11 +91,11 @@ void for_each_kind(F&& f) {
 }
 inline constexpr std::size_t piece_floats[piece_kinds] = {Face::floats, Edge::floats, Vertex::floats};
 
-/// The box about a mesh, as six floats: its centre and its half extents.
+/// The box around a mesh, as six floats: its centre and half extents.
 inline constexpr std::size_t box_floats = 6;
 
-/// The signed distance, given what the nearest piece tells. Outside of the mesh's box the sign is known, and is not
-/// left to normals: from far away many pieces are equally far but for rounding.
+/// The signed distance, from the result of the nearest piece. Outside the mesh's box the distance is positive
+/// regardless of normals: from far away, many pieces are equally far up to rounding.
 template <class T, class Condition>
 T signed_distance(const Told<T>& nearest, const Condition& is_face, const float* box, const Vec3<T>& p) {
     const T length = sqrt(nearest.squared);
@@ -103,8 +105,8 @@ T signed_distance(const Told<T>& nearest, const Condition& is_face, const float*
     return select(less(T(0.f), beyond), abs(value), value);
 }
 
-/// Lists of pieces: how many of each kind there are, the box, and the pieces, kind after kind. Of pieces that are
-/// equally near the first one counts.
+/// A list of pieces: the number of each kind, the box, and the pieces, ordered by kind. Among equally near pieces the
+/// first one counts.
 struct PieceList {
     static constexpr std::size_t head = piece_kinds + box_floats;
 

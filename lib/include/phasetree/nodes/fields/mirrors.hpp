@@ -1,17 +1,17 @@
-// Folding by the mirrors of a symmetry group: reflections, hence isometries, into the part of space between some of
-// the mirrors. A point and the nearest point of a symmetric set's boundary may be taken on the same side of each
-// mirror, so distances to the set are kept.
+// Folding by the mirrors of a symmetry group: reflections, hence isometries, into the part of space between some of the
+// mirrors. A point and the nearest boundary point of a symmetric set can be taken on the same side of each mirror, so
+// folding preserves distances to the set.
 #pragma once
 
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree::detail {
 
-/// The mirrors of a regular polygon of n sides, at the angles kπ/n. |y| leaves the angles [0, nπ/n]; where [0, mπ/n] is
-/// left, the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such reflections [0, π/n] is
+/// The mirrors of a regular polygon with n sides, at the angles kπ/n. |y| leaves the angles [0, nπ/n]. If [0, mπ/n] is
+/// left, the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such reflections, [0, π/n] is
 /// left.
 struct PolygonMirrors {
-    static constexpr int most_folds = 6;  ///< for 64 sides
+    static constexpr int most_folds = 6;  ///< enough for 64 sides
     float folds = 0;
     float cosine[most_folds] = {};
     float sine[most_folds] = {};
@@ -39,11 +39,13 @@ struct PolygonMirrors {
     }
 };
 
-/// The 15 mirrors of the regular icosahedron and dodecahedron: the coordinate planes, and what they make of the plane
-/// across n = (−φ, 1/φ, −1)/2. Between x = 0, z = 0 and that one is a chamber of the group, whose edges are axes of
-/// order two (0, 1, 0), three (1/φ, φ, 0) and five (0, φ, 1). Its three reflections s, taken in turn where the point is
-/// on the mirror's other side, reach it: (s₁ s₂ s₃)⁵ is the group's longest element. But after the first three
-/// coordinate mirrors only a few of the 120 chambers are left, and three turns suffice.
+/// The 15 mirrors of the regular icosahedron and dodecahedron: the coordinate planes, and the images under them of the
+/// plane perpendicular to n = (−φ, 1/φ, −1)/2. Between x = 0, z = 0 and that plane is a chamber of the group, whose
+/// edges are axes of order two (0, 1, 0), three (1/φ, φ, 0) and five (0, φ, 1).
+///
+/// Its three reflections s, applied in turn where the point is on the mirror's other side, reach the chamber: (s₁ s₂
+/// s₃)⁵ is the group's longest element. After the first three coordinate mirrors only a few of the 120 chambers are
+/// left, so three rounds suffice.
 struct IcosahedralMirrors {
     static constexpr float golden = 1.6180340f;
 
@@ -56,9 +58,9 @@ struct IcosahedralMirrors {
         }
     }
     /// The distance to a solid with one face in the chamber, within a right triangle from the face's centre to the
-    /// middle of an edge to a corner: a is the height above the face's plane, b how far the point is beyond the edge's
-    /// line, c how far beyond the corner, along the edge. In the chamber b > 0 only where a > 0, and c > 0 only where b
-    /// > 0.
+    /// middle of an edge to a corner. a is the height above the face's plane, b the distance beyond the edge's line, c
+    /// the distance beyond the corner, along the edge. In the chamber, b > 0 only where a > 0, and c > 0 only where b >
+    /// 0.
     template <class T>
     static T to_face(const T& a, const T& b, const T& c) {
         const T zero(0.f);

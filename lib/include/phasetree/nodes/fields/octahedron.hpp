@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// |x| + |y| + |z| ≤ r. By its mirrors, the nearest point to |p| is in the first octant and keeps the order of the
-/// coordinates: sort them to a ≥ b ≥ c ≥ 0 and project onto the simplex x + y + z = r, x, y, z ≥ 0. The projection
-/// takes the same τ from each coordinate that stays positive and makes the others 0:
+/// |x| + |y| + |z| ≤ r. By symmetry, the nearest point to |p| is in the first octant and has its coordinates in the
+/// same order. Sort them to a ≥ b ≥ c ≥ 0 and project onto the simplex x + y + z = r, x, y, z ≥ 0. The projection
+/// subtracts the same τ from each coordinate that stays positive, and sets the others to 0:
 ///     c > τ₃ = (a + b + c − r)/3:  on the face, distance √3 τ₃ (negative inside, where the face's plane is nearest)
 ///     b > τ₂ = (a + b − r)/2:      on an edge, √(2 τ₂² + c²)
 ///     else                         at a corner, |(a − r, b, c)|
@@ -38,7 +38,7 @@ struct Octahedron {
         return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) * static_cast<double>(radius) +
                glm::length(d) * static_cast<double>(level);
     }
-    /// Below the surface {f ≤ level} is |x| + |y| + |z| ≤ r + √3 level.
+    /// Below the surface, {f ≤ level} is |x| + |y| + |z| ≤ r + √3 level.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3(radius + (level < 0 ? 1.73205f : 1.f) * level));
     }

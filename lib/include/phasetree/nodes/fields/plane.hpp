@@ -29,7 +29,7 @@ struct Plane {
         return dot(p, normal) - offset;
     }
     double rolling_radius(const glm::dvec3&, double) const { return Bounds::infinity; }
-    /// The box is infinite, but for the one side that an axis-parallel plane bounds.
+    /// The box is infinite except for the one side bounded by an axis-aligned plane.
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();
         for (int i = 0; i < 3; ++i) {

@@ -8,8 +8,9 @@
 
 namespace phasetree {
 
-/// The intersection of half-spaces, as one instruction: what Sphere Carving gives (phasetree/carving/carve.hpp), to be
-/// the volume of a bounding_volume for example. Exact inside; outside a bound, beyond edges.
+/// The intersection of half-spaces, as one instruction. Sphere Carving produces such solids
+/// (phasetree/carving/carve.hpp), for example as the volume of a bounding_volume. Exact inside; outside, a lower bound
+/// beyond edges.
 struct Polyhedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -18,7 +19,7 @@ struct Polyhedron {
     static constexpr std::size_t most_planes = 256;
     std::vector<glm::vec3> normals{};
     std::vector<float> offsets{};
-    std::vector<float> table{};  ///< derived: how many planes, and for each n of unit length and h
+    std::vector<float> table{};  ///< derived: the number of planes, and for each a unit normal n and h
 
     template <class V>
     static void parameters(V&& v) {
@@ -38,7 +39,7 @@ struct Polyhedron {
             if (!(length > 0)) throw ModelError("polyhedron: a normal has no length");
             const float offset = offsets[offsets.size() == 1 ? 0 : i];
             if (!(std::abs(offset) < 1e9f)) throw ModelError("polyhedron: a plane is too far from the origin");
-            // Rounded towards shorter, so that the field is 1-Lipschitz.
+            // Rounded down in length, so that the field is 1-Lipschitz.
             const glm::vec3 n(glm::dvec3(normals[i]) * ((1 - 1e-7) / length));
             table.insert(table.end(), {n.x, n.y, n.z, offset});
         }
@@ -54,9 +55,9 @@ struct Polyhedron {
         }
         return farthest;
     }
-    /// By the corners of the planes moved outward by the level, within a cube many times as large as they are far. What
-    /// reaches farthest along a direction is a corner of the solid, or else a corner on the cube, and then the solid
-    /// has no end there.
+    /// From the corners of the planes moved outward by the level, within a cube many times as large as their distance
+    /// from the origin. The farthest point in a direction is either a corner of the solid, or a corner on the cube; in
+    /// the latter case the solid is unbounded there.
     Bounds bounds(BoundsQuery& q, float level) const {
         float far = 1e-6f;
         std::vector<HalfSpace> planes;

@@ -7,15 +7,15 @@
 
 namespace phasetree {
 
-/// A round wire along a chain of segments: the union of the capsules, but one instruction. Exact outside; inside, where
-/// two of the capsules overlap, a bound.
+/// A round wire along a chain of segments: the union of capsules, but a single instruction. Exact outside; a bound
+/// inside, where two capsules overlap.
 struct Polyline {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"polyline", "", "min over segments ab of |p − a − t (b − a)| − r, t in [0, 1]",
                                    "A round wire along a chain of straight segments."};
     std::vector<glm::vec3> points{};
     float radius = 0.1f;
-    std::vector<float> table{};  ///< derived: how many segments, r, and for each a, b − a, 1/|b − a|²
+    std::vector<float> table{};  ///< derived: the number of segments, r, and for each segment a, b − a, 1/|b − a|²
 
     template <class V>
     static void parameters(V&& v) {
@@ -31,7 +31,7 @@ struct Polyline {
             const float squared = glm::dot(along, along);
             if (!(glm::length(a) < 1e9f) || !(glm::length(points[i + 1]) < 1e9f))
                 throw ModelError("polyline: its points must be within 1e9 m of the origin");
-            // Two equal points are a ball.
+            // Two equal points give a ball.
             table.insert(table.end(), {a.x, a.y, a.z, along.x, along.y, along.z, squared > 1e-18f ? 1 / squared : 0.f});
         }
     }

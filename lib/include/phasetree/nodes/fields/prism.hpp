@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// A regular polygon of n sides, extruded. Its mirrors fold it to one sector (mirrors.hpp), which has one edge, at
-/// x = R cos(π/n), y from 0 to R sin(π/n).
+/// An extruded regular polygon with n sides. Its mirrors fold it to one sector (mirrors.hpp) with one edge, at x = R
+/// cos(π/n), y from 0 to R sin(π/n).
 struct Prism {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -19,7 +19,7 @@ struct Prism {
     float radius = 1;
     float height = 2;
     detail::PolygonMirrors mirrors{};  ///< derived
-    float apothem = 0;                 ///< the edge's distance from the axis, derived
+    float apothem = 0;                 ///< distance of the edges from the axis, derived
     float half_edge = 0;               ///< derived
 
     template <class V>
@@ -46,7 +46,7 @@ struct Prism {
         return corner(polygon, abs(p.z) - height * 0.5f);
     }
     double support(const glm::dvec3& d, float level) const {
-        // The corners are at odd multiples of π/n, so the nearest of them is at most π/n from the direction d.
+        // The corners are at odd multiples of π/n, so the nearest is at most π/n from the direction d.
         const double pi = 3.14159265358979323846, step = pi / static_cast<double>(sides);
         const double off = std::remainder(std::atan2(d.y, d.x) - step, 2 * step);
         return detail::disk_support(d) * static_cast<double>(radius) * std::cos(off) +

@@ -5,12 +5,12 @@
 
 namespace phasetree {
 
-/// Fold to x ≥ y ≥ 0 by the square's mirrors; the nearest point of the boundary is then in the same eighth, on the base
-/// or on the face that rises from its edge x = a. In the plane of that face, let v be the coordinate up its line of
+/// Fold to x ≥ y ≥ 0 by the square's mirrors. The nearest boundary point is then in the same eighth, on the base or on
+/// the face that rises from its edge x = a. In the plane of that face, let v be the coordinate along its line of
 /// steepest ascent, of length s = √(a² + h²), w the one along the outward normal, and y the one along the edge. The
-/// face is the triangle (−a, 0), (a, 0), (0, s) in (y, v). Off its plane w counts, and within the plane the distance
-/// to the triangle: 0 inside, else that to the slanted side or to the edge of the base. Inside the solid the same
-/// two, base and face, are nearest, because the solid is convex.
+/// face is the triangle (−a, 0), (a, 0), (0, s) in (y, v). The distance combines w and the distance to the triangle
+/// within the plane: 0 inside, else that to the slanted side or to the edge of the base. Inside the solid, the same
+/// base and face are nearest, because the solid is convex.
 struct Pyramid {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;

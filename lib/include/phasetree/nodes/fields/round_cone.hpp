@@ -5,11 +5,11 @@
 
 namespace phasetree {
 
-/// The convex hull of two balls of radii a and b, l apart. Let (x, y) be a point's coordinate along the axis from the
-/// first centre and its distance from the axis. The common tangent has the unit normal n = (s, c), s = (a − b)/l,
-/// c = √(1 − s²), for both balls' support a + 0 and b + s l along n are then equal. It touches the balls at a·n and
-/// (l, 0) + b·n, which along the tangent τ = (c, −s) are at 0 and c·l. So with k = c x − s y the nearest boundary
-/// point is on the first ball where k < 0, on the second where k > c l, and on the tangent between.
+/// The convex hull of two balls of radii a and b at a distance l. Let x be a point's coordinate along the axis from the
+/// first centre, and y its distance from the axis. The common tangent has the unit normal n = (s, c), s = (a − b)/l, c
+/// = √(1 − s²), because the balls' supports along n, a + 0 and b + s l, are then equal. It touches the balls at a·n and
+/// (l, 0) + b·n; along the tangent τ = (c, −s) these are at 0 and c·l. With k = c x − s y, the nearest boundary point
+/// is on the first ball where k < 0, on the second where k > c l, and on the tangent in between.
 struct RoundCone {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -54,8 +54,8 @@ struct RoundCone {
         const auto behind = [&] { return choose_smoothly(less(T(cosine * separation), k), at_second, at_side); };
         return choose_smoothly(less(k, T(0.f)), at_first, behind);
     }
-    /// The ball that touches the surface at the point has its centre at x − y s/c along the axis and the radius
-    /// a − s x + y s²/c. That is no less than a − s x, whichever end is larger, and a − s x needs no square root.
+    /// The ball that touches the surface at the point has its centre at x − y s/c along the axis, and the radius a − s
+    /// x + y s²/c. This is at least a − s x, whichever end is larger, and a − s x needs no square root.
     double rolling_radius(const glm::dvec3& p, double reach) const {
         const double x = glm::dot(p - glm::dvec3(from), glm::dvec3(axis)), s = sine;
         const double least = std::min(radius_from, radius_to);

@@ -4,12 +4,13 @@
 
 namespace phasetree {
 
-/// g = sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z
-///   = sin x cos A + cos x sin B,  A = y − z, B = y + z.
+///     g = sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z
+///       = sin x cos A + cos x sin B,  A = y − z, B = y + z.
+///
 /// With s = |sin x|, c = |cos x|, a = |cos A|, b = |sin B|: (∂g/∂x)² = (cos x cos A − sin x sin B)² ≤ (ca + sb)², and
-/// (∂g/∂y)² + (∂g/∂z)² = 2(sin²x sin²A + cos²x cos²B) = 2 − 2s²a² − 2c²b². From 2(ca)(sb) ≤ s²a² + c²b² follows
-/// (ca + sb)² ≤ a² + b², so ‖∇g‖² ≤ 2 + (a² − b²)(1 − 2s²) ≤ 3, for a² + b² − 2s²a² − 2c²b² is that product. The
-/// origin reaches √3. And |g| ≤ |(cos A, sin B)| ≤ √2.
+/// (∂g/∂y)² + (∂g/∂z)² = 2(sin²x sin²A + cos²x cos²B) = 2 − 2s²a² − 2c²b². From 2(ca)(sb) ≤ s²a² + c²b² it follows that
+/// (ca + sb)² ≤ a² + b². So ‖∇g‖² ≤ 2 + (a² − b²)(1 − 2s²) ≤ 3, because a² + b² − 2s²a² − 2c²b² is that product. √3 is
+/// reached at the origin. And |g| ≤ |(cos A, sin B)| ≤ √2.
 struct SchwarzD {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"schwarz_d", "",

@@ -11,19 +11,21 @@
 
 namespace phasetree {
 
-/// A neural field, divided by a bound λ of its slope. Outside the ball in which it was learned it may be anything:
-/// there the distance to the ball takes over, which is the larger anyway because f/λ is small. So max(|p| − R, f/λ) is
-/// the intersection of both, 1-Lipschitz, and where the ball is decided the network need not be evaluated.
+/// A neural field, divided by a bound λ of its slope. Outside the ball in which it was trained, its values are
+/// arbitrary. There the distance to the ball takes over, which is larger anyway because f/λ is small. So max(|p| − R,
+/// f/λ) is the intersection of both. It is 1-Lipschitz, and the network need not be evaluated where the ball alone
+/// determines the result.
 struct Siren {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"siren", "7.5, 9.4", "max(|p| − R, f(p)/λ),  λ = Π ‖Wᵢ‖₂",
                                    "A neural field with sinusoidal layers, from a file of weights."};
-    /// The primitive f/λ. Points outside the cube around the ball are projected onto it, which lengthens nothing.
+    /// The primitive f/λ. Points outside the cube around the ball are projected onto it, which never increases
+    /// distances.
     struct Network {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
-        /// The number of multiplications of an evaluation, which are most of its work.
+        /// The number of multiplications per evaluation, which dominate its cost.
         static float multiplications(const float* data) {
             float sum = 0;
             const float* at = data + 2;
@@ -105,7 +107,7 @@ struct Siren {
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
         return max(d.primitive(Sphere{.radius = file.content->radius}, p), d.primitive(network, p));
     }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const { return network.data().size_bytes(); }
     Bounds bounds(BoundsQuery& q, float level) const {
         const float r = file.content->radius + level;

@@ -7,24 +7,24 @@ namespace phasetree {
 
 /// A network of sinusoidal layers (Sitzmann et al., "Implicit Neural Representations with Periodic Activation
 /// Functions", 2020): x ← sin(W x + b) for each layer but the last, which is linear. The frequencies ω are multiplied
-/// into W and b. It takes x, y, z and gives a distance, learned within the ball of the radius about the origin.
+/// into W and b. It maps x, y, z to a distance, trained within the ball of the given radius around the origin.
 struct SirenNetwork {
     struct Layer {
         int inputs = 0, outputs = 0;
-        std::vector<float> weights;  ///< row-major, a row of `inputs` numbers for each output
-        std::vector<float> bias;     ///< one number for each output
+        std::vector<float> weights;  ///< row-major, one row of `inputs` numbers per output
+        std::vector<float> bias;     ///< one number per output
     };
     float radius = 1;
     std::vector<Layer> layers;
 
     static constexpr int widest = 128;
 
-    /// Null if the layers fit each other, else a message that says what is wrong.
+    /// Null if the sizes of the layers match; otherwise a message that says what is wrong.
     const char* mistake() const;
-    /// Π ‖Wᵢ‖₂, rounded upward: a bound of the slope, because the sine's slope is at most 1. (The printed 9.4 has wᵢ
-    /// for the norm.)
+    /// Π ‖Wᵢ‖₂, rounded up: a bound of the slope, because the sine's slope is at most 1. (The paper prints wᵢ for the
+    /// norm in 9.4.)
     double spectral_bound() const;
-    /// The length of the steepest gradient at this many points of the ball, plus a tenth. *Not a bound*: between the
+    /// The maximum length of the gradient at this many points of the ball, plus ten percent. *Not a bound*: between the
     /// points it may be steeper.
     double sampled_slope(int points) const;
     std::size_t bytes() const {
@@ -32,8 +32,8 @@ struct SirenNetwork {
         for (const Layer& layer : layers) numbers += layer.weights.size() + layer.bias.size();
         return numbers * sizeof(float);
     }
-    /// The network as the program carries it: the number of layers, the radius, and for each layer its inputs, outputs,
-    /// W and b; W and b of the last layer are multiplied by `scale`.
+    /// The data of the program's primitive: the number of layers, the radius, and for each layer its inputs, outputs, W
+    /// and b. W and b of the last layer are multiplied by `scale`.
     std::vector<float> table(float scale) const;
 };
 

@@ -20,7 +20,7 @@ struct SmoothUnion {
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {
         return detail::fold(d, of, p, [r = radius](const auto& a, const auto& b) { return smooth_min(a, b, r); });
     }
-    /// Each fold lowers the minimum by r/6 at most.
+    /// Each step lowers the minimum by at most r/6.
     Bounds bounds(BoundsQuery& q, float level) const {
         return detail::united(q, of, level + radius / 6 * static_cast<float>(of.size() - 1));
     }

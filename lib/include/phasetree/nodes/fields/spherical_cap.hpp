@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// The ball's part above z = c. Its boundary in (ρ, z), ρ = |pxy|, is the disk ρ ≤ w = √(r² − c²) at z = c and the arc
-/// above it. The nearest point of the whole circle, r p/|p|, is on that arc where r pz ≥ c|p|; elsewhere the nearest
-/// of the arc is the rim, which belongs to the disk too, so the disk alone decides.
+/// The part of the ball above z = c. Its boundary in (ρ, z), ρ = |pxy|, is the disk ρ ≤ w = √(r² − c²) at z = c and the
+/// arc above it. The nearest point of the whole circle, r p/|p|, is on that arc where r pz ≥ c|p|. Elsewhere the arc's
+/// nearest point is the rim, which also belongs to the disk, so the disk alone suffices.
 struct SphericalCap {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -33,12 +33,12 @@ struct SphericalCap {
         const T rho = length(p.x, p.y), from_centre = length(p);
         const T to_ball = from_centre - radius, below = cut - p.z;
         const T to_disk = length(max(rho - rim, T(0.f)), below);
-        // Outside the ball only the arc is asked, because near the rim the arc and the disk tie within rounding.
+        // Outside the ball only the arc is used, because near the rim the arc and the disk tie within rounding.
         const T to_arc = select(less(T(0.f), to_ball), to_ball, min(to_disk, -to_ball));
         const T d = select(less(p.z * radius, from_centre * cut), to_disk, to_arc);
         return select(less(max(to_ball, below), T(0.f)), -d, d);
     }
-    /// The support of the ball, of which the cap is a part.
+    /// The support of the ball that contains the cap.
     double support(const glm::dvec3& d, float level) const {
         return glm::length(d) * static_cast<double>(radius + level);
     }

@@ -5,12 +5,13 @@
 
 namespace phasetree {
 
-/// The corners are k(1, 1, 1), k(1, −1, −1), k(−1, 1, −1), k(−1, −1, 1), k = r/√3. The mirrors are x = ±y, y = ±z,
-/// x = ±z: exchanging two coordinates, with both signs changed or not, folds space to x ≥ y ≥ |z|, where the nearest
-/// boundary point is on the face x + y − z = k, up to the edge from k(1, 1, 1) to k(1, −1, −1). Let m be the distance
-/// from the face's plane, e = (2x − y + z − 2k)/√6 that beyond the edge within the plane, and t = (y + z)/√2 the one
-/// along the edge, from its middle. Then the distance is m where e ≤ 0, which holds inside the solid since
-/// 2x − y + z = 2(x + y − z) − 3(y − z) ≤ 2k there, and else |(m, e, max(t − √2 k, 0))|.
+/// The corners are k(1, 1, 1), k(1, −1, −1), k(−1, 1, −1), k(−1, −1, 1), k = r/√3. The mirrors are x = ±y, y = ±z, x =
+/// ±z. Exchanging two coordinates, with or without changing both signs, folds space to x ≥ y ≥ |z|. There the nearest
+/// boundary point is on the face x + y − z = k, up to the edge from k(1, 1, 1) to k(1, −1, −1).
+///
+/// Let m be the distance from the face's plane, e = (2x − y + z − 2k)/√6 the distance beyond the edge within the plane,
+/// and t = (y + z)/√2 the coordinate along the edge, from its middle. The distance is m where e ≤ 0, and otherwise |(m,
+/// e, max(t − √2 k, 0))|. Inside the solid e ≤ 0, because 2x − y + z = 2(x + y − z) − 3(y − z) ≤ 2k there.
 struct Tetrahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -42,13 +43,14 @@ struct Tetrahedron {
         return k * std::max({d.x + d.y + d.z, d.x - d.y - d.z, d.y - d.x - d.z, d.z - d.x - d.y}) +
                glm::length(d) * static_cast<double>(level);
     }
-    /// Below the surface the set {f ≤ level} is the tetrahedron whose faces, r/3 from the origin, are nearer by −level.
+    /// Below the surface, {f ≤ level} is the tetrahedron whose faces, at r/3 from the origin, are moved inward by
+    /// −level.
     Bounds bounds(BoundsQuery&, float level) const {
         return Bounds::centred(glm::vec3(radius * 0.57735028f + (level < 0 ? 1.73205f : 1.f) * level));
     }
 
   private:
-    /// Folds two coordinates to a ≥ |b|.
+    /// Fold two coordinates to a ≥ |b|.
     template <class T>
     static void fold(T& a, T& b) {
         const T most = max(a, b), least = min(a, b);

@@ -6,10 +6,9 @@
 
 namespace phasetree {
 
-/// Triangles in space, as files give them. The corners of each are indices of vertices, counter-clockwise seen from
-/// outside.
+/// Triangles in space, as read from a file. Corners are indices of vertices, counterclockwise as seen from outside.
 struct TriangleMesh {
-    /// The limit of readers and nodes.
+    /// Limit of readers and nodes.
     static constexpr std::size_t most_triangles = 2'000'000;
 
     std::vector<glm::vec3> vertices;

@@ -1,14 +1,14 @@
-// What the triply periodic sheets share. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set
-// is near a minimal surface. For each of them sup‖∇g‖ = √3 (in units of k; the proof is at the node), so
+// Shared code of the triply periodic sheets. g is a trigonometric polynomial of k·p, k = 2π/period, whose zero set is
+// near a minimal surface. For each of them sup‖∇g‖ = √3 in units of k, as proven at each node. So
 //     f = |g(k p)|/(√3 k) − t/2
-// is 1-Lipschitz, and the wall is nowhere thinner than t, for f changes by t/2 over a distance of t/2 at least.
+// is 1-Lipschitz. The wall is nowhere thinner than t, because f needs a distance of at least t/2 to change by t/2.
 #pragma once
 
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree::detail {
 
-/// Sine and cosine of the three angles k·p; whole periods are taken off first, so that any p will do.
+/// Sine and cosine of the three angles k·p. Whole periods are subtracted first, so p can be any point.
 template <class T>
 struct Angles {
     SineCosine<T> x, y, z;
@@ -30,7 +30,7 @@ inline float sheet_scale(float period) {
 inline constexpr Parameter sheet_period{"period", "m", "Edge of the cube that repeats.", limits::positive};
 inline constexpr Parameter sheet_thickness{"thickness", "m", "Least thickness of the wall.", limits::positive};
 
-/// The 1-Lipschitz field of the sheet; `most` is the largest value of |g|.
+/// Throw ModelError if the sizes are unusable, or if the wall fills all of space. `most` is the maximum of |g|.
 inline void check_sheet(std::string_view node, float period, float thickness, float most) {
     require_usable(node, {period, thickness});
     if (thickness * 0.5f >= most * sheet_scale(period))

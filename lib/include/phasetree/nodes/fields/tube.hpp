@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// The profile in (ρ, z), ρ = |pxy|, is a rectangle that stays clear of the axis; turning it about the axis keeps
-/// distances, since the nearest point is in the half plane of the point itself.
+/// The profile in (ρ, z), ρ = |pxy|, is a rectangle that does not touch the axis. Revolving it preserves distances,
+/// because the nearest point is in the half-plane of the point itself.
 struct Tube {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{

@@ -10,13 +10,13 @@
 
 namespace phasetree {
 
-/// A level set, as OpenVDB keeps them: signed distances at voxels, which are exact near the surface and constant beyond
-/// a narrow band. f is their trilinear interpolation, as OpenVDB's BoxSampler has it, and λ the greatest slope that f
-/// has anywhere, or 1. That is known exactly: it is the slope at some voxel (VoxelGrid::steepest_linear). Of the
-/// samples of exact distances λ is nearly 1 where the surface is smooth, and at most √3.
+/// A level set as stored by OpenVDB: signed distances at voxels, exact near the surface and constant beyond a narrow
+/// band. f is their trilinear interpolation, as in OpenVDB's BoxSampler, and λ is the maximum slope of f, or 1 if that
+/// is larger. The maximum is known exactly, because it is the slope at some voxel (VoxelGrid::steepest_linear). For
+/// samples of exact distances, λ is nearly 1 where the surface is smooth, and at most √3.
 ///
-/// Outside of the grid's box a point is projected onto it, which lengthens nothing, and the distance b to the box takes
-/// over where it is larger. So max(b, f/λ) is 1-Lipschitz, is positive outside of the box, and has the sign of f in it.
+/// Points outside the grid's box are projected onto it, which never increases distances, and the distance b to the box
+/// takes over where it is larger. So max(b, f/λ) is 1-Lipschitz, positive outside the box, and has the sign of f in it.
 /// A solid that reaches the grid's border ends there.
 struct Volume {
     static constexpr bool is_field_node = true;
@@ -56,7 +56,7 @@ struct Volume {
                     "its index follows: \"name[0]\", \"name[1]\".",
                     limits::any, true});
     }
-    /// Which part of the file is read.
+    /// The part of the file that is read.
     std::string part_of_file() const { return grid; }
     void prepare() {
         const Bounds extent = file.content->extent();
@@ -67,7 +67,7 @@ struct Volume {
         return max(d.primitive(box, p), d.primitive(Samples{file.content}, p));
     }
     Bounds bounds(BoundsQuery& q, float level) const {
-        // No value is below the least of its voxels', and outside of the box the field is not below the box's.
+        // No value is below the minimum of its voxels, and outside the box the field is not below that of the box.
         const Bounds low = file.content->blocks_below(level);
         const Bounds outer = file.content->extent().inflated(level);
         const bool may_be_beyond = level >= 0;

@@ -4,19 +4,18 @@
 
 namespace phasetree {
 
-/// The cells of a Voronoi pattern, each shrunk by half the gap and with edges rounded: the blocks of a rock wall, the
-/// stones of a pavement. With site s the nearest, the distance to the bisector of s and t is
-/// bₜ = (|p − t|² − |p − s|²)/(2|t − s|). v is the minimum over t, or the rounded one
-///     v = (Σ (bₜ + c)⁻⁸)^(−1/8) − c,
-/// which is at most the minimum, does not depend on the order of the sites, and is 1-Lipschitz: its derivatives by the
-/// bₜ are (v + c)⁹/(bₜ + c)⁹, positive and together at most 1. On a cell's faces v ≤ 0, so g/2 − max(v, 0) is
-/// continuous from cell to cell whatever v does there.
+/// The cells of a Voronoi pattern, each shrunk by half the gap and with rounded edges: the blocks of a rock wall, the
+/// stones of a pavement. If site s is the nearest, the distance to the bisector of s and t is bₜ = (|p − t|² − |p −
+/// s|²)/(2|t − s|). v is the minimum over t, or the rounded minimum
+///     v = (Σ (bₜ + c)⁻⁸)^(−1/8) − c.
+/// The rounded minimum is at most the minimum, does not depend on the order of the sites, and is 1-Lipschitz: its
+/// derivatives with respect to bₜ are (v + c)⁹/(bₜ + c)⁹, which are positive and sum to at most 1. On a cell's faces v
+/// ≤ 0, so g/2 − max(v, 0) is continuous from cell to cell.
 ///
-/// Sites that are not visited (voronoi_sites.hpp) have bisectors that are at least half of (their distance − the
-/// nearest one's) away. All bₜ are cut off there, so nothing jumps when the point moves on and other sites are looked
-/// at.
+/// The bisectors of sites that are not visited (voronoi_sites.hpp) are at least half of (their distance − the nearest
+/// site's) away. All bₜ are clamped to that, so nothing jumps when the point moves on and other sites are visited.
 ///
-/// In a small box few sites matter: those that may be the nearest, and those with a bisector that is not cut off.
+/// In a small box few sites matter: those that may be the nearest, and those whose bisector is not clamped.
 struct VoronoiCells {
     static constexpr bool is_long = true;  ///< a LongPrimitive
     static constexpr bool is_field_node = true;
@@ -73,7 +72,7 @@ struct VoronoiCells {
             const T x = max(distance + c, T(1e-4f)), x2 = x * x, x4 = x2 * x2;
             return T(1.f) / (x4 * x4);
         };
-        // Every site whose bisector is cut off counts the same, so that it does not matter which of them are visited.
+        // Every site whose bisector is clamped counts the same, so it does not matter which of them are visited.
         T v = far, sum(0.f), others(static_cast<float>(VoronoiSites::neighbours));
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3<T> between = to[i] - nearest;
@@ -92,7 +91,7 @@ struct VoronoiCells {
         if (rounding > 0) v = T(1.f) / sqrt(sqrt(sqrt(sum + others * eighth(far)))) - c;
         return gap * 0.5f - max(v, T(0.f)) * size;
     }
-    /// The same primitive, with the few sites that matter in one small box as its data.
+    /// The same primitive, with only the sites that matter in one small box as its data.
     struct Specialised : SpecialisedVoronoi {
         static unsigned half_instructions(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
@@ -100,7 +99,7 @@ struct VoronoiCells {
     };
     using Parts = TypeList<Specialised>;
     float period() const { return size; }
-    /// See LocalPrimitive: the sites that may be the nearest or have a bisector that is not cut off.
+    /// See LocalPrimitive. The sites are those that may be the nearest, or whose bisector is not clamped.
     bool specialise(const PointRange&, std::span<const float> of, std::vector<float>& floats) const;
 
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }

@@ -12,24 +12,24 @@
 
 namespace phasetree {
 
-/// One site for each cube of a lattice, moved from the cube's middle by up to half the jitter along each axis. Points
-/// are measured in cubes. The hash repeats after 289 cubes.
+/// One site per cube of a lattice, displaced from the cube's centre by up to half the jitter along each axis.
+/// Coordinates are in cubes. The hash repeats after 289 cubes.
 ///
-/// The sites of the 5³ cubes about a point's own are visited. Its own cube's site is within √3 (1 + j)/2 of it; a
-/// site of any other cube is at least (5 − j)/2 away, which is more, for all j ≤ 1. So the nearest site is always
-/// found.
+/// The sites of the 5³ cubes around a point's own cube are visited. The site of the own cube is within √3 (1 + j)/2 of
+/// the point. A site of any unvisited cube is at least (5 − j)/2 away, which is more for all j ≤ 1. So the nearest site
+/// is always found.
 struct VoronoiSites {
     float jitter = 1;
     float seed = 0;
 
     static constexpr int neighbours = 125;
 
-    /// A lower bound of the distance, in cubes, to every site that is not visited.
+    /// A lower bound of the distance, in cubes, to all sites that are not visited.
     float unseen() const { return 0.5f * (5 - jitter); }
     /// An upper bound of the distance, in cubes, to the nearest site.
     float nearest() const { return 0.8660255f * (1 + jitter); }
 
-    /// A point's cube, and where in it the point is. The pattern is constant beyond 2¹⁶ cubes, so that the hash stays
+    /// A point's cube, and its position in the cube. The pattern is constant beyond 2¹⁶ cubes, so that the hash stays
     /// exact.
     template <class T>
     struct Place {
@@ -42,8 +42,8 @@ struct VoronoiSites {
             within = {q.x - cube.x, q.y - cube.y, q.z - cube.z};
         }
     };
-    /// Turns a hash into the site's place in its cube along one axis, measured from the lowest place that the jitter
-    /// allows.
+    /// Convert a hash to the site's position in its cube along one axis, measured from the lowest position that the
+    /// jitter allows.
     template <class T>
     T moved(const T& hash) const {
         return hash * (jitter / 288.f);
@@ -53,7 +53,7 @@ struct VoronoiSites {
         return step + 0.5f - 0.5f * jitter;
     }
 
-    /// Calls visit(offset from p to the site, hash) for the sites about p; the hash is whole, 0 … 288.
+    /// Call visit(offset from p to the site, hash) for the sites around p. The hash is an integer, 0 … 288.
     template <class T, class Visit>
     void for_each(const Vec3<T>& p, Visit&& visit) const {
         using lattice::hashed, lattice::hashed_on, lattice::wrapped;
@@ -76,32 +76,32 @@ struct VoronoiSites {
         }
     }
 
-    /// A site is given by its cube, its place in the cube along each axis (see moved()) and its hash.
+    /// A site: its cube, its position in the cube along each axis (see moved()) and its hash.
     struct Site {
         std::array<float, 3> cube, in_cube;
         float hash;
         std::array<double, 3> position;  ///< in cubes
         double distance;                 ///< from the centre of the search
     };
-    /// Selects the sites sought around a point: those that are no farther than `most`, that are at most `beyond`
-    /// farther than the nearest of them, and whose hash is in [low, high).
+    /// Selects sites around a point: those no farther than `most`, at most `beyond` farther than the nearest of them,
+    /// and with a hash in [low, high).
     struct Search {
         std::array<double, 3> centre{};
         double most = 0, beyond = 0;
         float low = -1, high = 289;
     };
-    /// Finds these sites in the order in which for_each() visits them: among all sites if the list is empty, else among
-    /// those of the list, which must hold them.
+    /// Find these sites, in the order in which for_each() visits them. If the list is empty, all sites are searched,
+    /// otherwise those of the list, which must contain the result.
     void find(const Search&, std::span<const float> list, std::vector<Site>& found) const;
-    /// The number of floats that a site takes in a list.
+    /// The number of floats per site in a list.
     static constexpr unsigned site_floats = 7;
 };
 
-/// A list of sites instead of the whole lattice. Where no other site matters it gives the values of VoronoiSites to
+/// A list of sites instead of the whole lattice. Where no other site matters, it gives the values of VoronoiSites to
 /// the last bit.
 struct VoronoiSiteList {
     VoronoiSites all;
-    std::span<const float> floats;  ///< VoronoiSites::site_floats for each
+    std::span<const float> floats;  ///< VoronoiSites::site_floats per site
 
     template <class T, class Visit>
     void for_each(const Vec3<T>& p, Visit&& visit) const {

@@ -17,40 +17,39 @@
 
 namespace phasetree {
 
-/// Where the voxels of a grid are: their number along x, y and z, the centre of the first one, and from one to the
-/// next.
+/// The positions of a grid's voxels: their number along x, y and z, the centre of the first one, and the spacing.
 struct VoxelLattice {
     std::array<int, 3> size{};
     glm::dvec3 first{0};
     glm::dvec3 spacing{1};
 };
 
-/// Values at the centres of voxels, in blocks of 8³. Each block is kept with the voxels next to it, 10³ values, so that
-/// whatever a value is interpolated from is in one block; and those in which all of these are one value take no room
-/// but that. The table is what an instruction of a program carries, so all that reads it is given floats:
+/// Values at the centres of voxels, in blocks of 8³. Each block is stored with its adjacent voxels, 10³ values, so that
+/// every interpolation reads a single block. Blocks whose values are all equal are stored as one value. The table is
+/// the data of a program's instruction, so all code that reads it receives floats:
 ///
 ///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
-///     for each block, x fastest: its number among the blocks that are kept, or −1; its least value, and its greatest,
-///         which are the value if it is one
-///     the values of the blocks that are kept, x fastest, each from the voxels before its first on
+///     for each block, x fastest: its index among the stored blocks, or −1; its minimum and maximum, which are
+///         the value if it is a single one
+///     the values of the stored blocks, x fastest, each starting at the voxels before its first
 ///
-/// Beyond its border voxels the grid goes on with their values.
+/// Beyond its border voxels the grid continues with their values.
 struct VoxelGrid {
     static constexpr int block_side = 8, kept_side = 10;
     static constexpr std::size_t kept_values = 1000;
-    /// The limits of readers and nodes: stored values, half a gigabyte, and voxels along an axis.
+    /// Limits of readers and nodes: stored values, half a gigabyte, and voxels along an axis.
     static constexpr std::size_t most_values = 120'000'000;
     static constexpr int most_along_axis = 8192;
 
     VoxelLattice lattice{};
     std::vector<float> table{};
-    /// By how much the values of whoever made the grid are larger than those in the table.
+    /// The original values, divided by this number, are those in the table.
     double divided_by = 1;
 
-    /// Makes a grid from the values of its blocks, which are asked for in their order. `fill` is given the voxel before
-    /// the first of a block along each axis, and room for 10³ values from there on; for voxels that are not there it
-    /// gives those of the border. Throws ModelError, which `who` begins, if there are too many values, or one that is
-    /// no number.
+    /// Make a grid from the values of its blocks, which are requested in order. `fill` receives the voxel before the
+    /// first one of a block along each axis, and a buffer for 10³ values starting there. For voxels outside the grid it
+    /// must return those at the border. Throws ModelError if there are too many values or one is not finite; the
+    /// message starts with `who`.
     using Fill = std::function<void(const std::array<int, 3>& before, std::span<float, kept_values>)>;
     static VoxelGrid make(std::string_view who, const VoxelLattice&, const Fill& fill);
     /// The same from f(x, y, z), the value at a voxel.
@@ -68,24 +67,24 @@ struct VoxelGrid {
         });
     }
 
-    /// The same from the values of all voxels, x fastest. Works on all threads.
+    /// The same from the values of all voxels, x fastest. Uses all threads.
     static VoxelGrid of_values(std::string_view who, const VoxelLattice&, std::span<const float> values);
 
-    /// The greatest slope of what linear() makes of the values, and a bound on that of spline(). On all threads.
+    /// The maximum slope of linear(), and a bound on that of spline(). Uses all threads.
     double steepest_linear() const;
     double steepest_spline() const;
-    /// Divides all values by a positive number. Works on all threads.
+    /// Divide all values by a positive number. Uses all threads.
     void divide_by(double);
 
-    /// The greatest value of a voxel.
+    /// The maximum value of a voxel.
     float greatest() const;
-    /// Moves all voxels so that the first one's centre is there.
+    /// Move all voxels so that the centre of the first one is at this point.
     void move_first_to(const glm::dvec3&);
 
-    /// A box around all places whose value is made of a voxel in a block that has a value of at most `level`; nothing
-    /// if there are none.
+    /// A box around all points whose value depends on a voxel in a block that has a value of at most `level`; empty if
+    /// there are none.
     Bounds blocks_below(float level) const;
-    /// From half a voxel before the first voxels' centres to half a voxel behind the last ones'.
+    /// From half a voxel before the first voxels' centres to half a voxel after the last ones'.
     Bounds extent() const;
 
     std::size_t bytes() const { return table.size() * sizeof(float); }
@@ -93,13 +92,13 @@ struct VoxelGrid {
 
 namespace voxels {
 
-/// Places in the table.
+/// Offsets in the table.
 inline constexpr std::size_t size = 0, blocks = 3, first = 6, inverse_spacing = 9, head = 12, entry = 3;
-/// Places in the entry of a block in the directory, whose first number says where the block's values are: the least and
-/// the greatest of the values that its points are made of.
+/// Offsets in a block's entry in the directory, whose first number locates the block's values: the minimum and the
+/// maximum of the values that its points are interpolated from.
 inline constexpr std::size_t least_of_block = 1, greatest_of_block = 2;
 
-/// The table as whoever looks up whole numbers of voxels reads it.
+/// The table, prepared for looking up voxels by integer indices.
 struct Table {
     const float* directory;
     const float* values;
@@ -107,28 +106,28 @@ struct Table {
 
     explicit Table(const float* data);
     float operator()(int x, int y, int z) const;
-    /// The entry of the block of a voxel.
+    /// The entry of the block that contains a voxel.
     const float* block_of(int x, int y, int z) const;
 };
 
-/// How large what changes in a grid may be: a few voxels.
+/// The size of features in a grid: a few voxels.
 inline float feature_size(const float* data) {
     return 6.f / max(data[inverse_spacing], max(data[inverse_spacing + 1], data[inverse_spacing + 2]));
 }
 
-/// The numbers of which the value at a point is made: the three indices of the first voxel (linear) or of the middle
-/// one (spline), and the values of all voxels, x fastest. N is float, or another number if the voxels are not known
-/// beforehand.
+/// The numbers from which the value at a point is computed: the three indices of the first voxel (linear) or of the
+/// middle one (spline), and the values of all voxels, x fastest. N is float, or another number type if the voxels are
+/// not known beforehand.
 template <class N>
 using EightVoxels = std::array<N, 3 + 8>;
 template <class N>
 using TwentySevenVoxels = std::array<N, 3 + 27>;
 
-/// Finds them, as gathered_equation() wants.
+/// Find these numbers; for gathered_equation().
 void gather_eight(const float* data, const Vec3<float>&, float* to, std::size_t stride);
 void gather_twenty_seven(const float* data, const Vec3<float>&, float* to, std::size_t stride);
 
-/// How many voxels a coordinate is behind the first one's centre, at most `beyond` outside of the centres.
+/// A coordinate in voxels from the centre of the first one, clamped to at most `beyond` outside the centres.
 template <class T>
 [[gnu::always_inline]] inline T place(const float* data, std::size_t axis, const T& coordinate, float beyond) {
     return clamp((coordinate - data[first + axis]) * data[inverse_spacing + axis], T(-beyond),
@@ -139,7 +138,7 @@ template <class T>
     return {place(data, 0, p.x, beyond), place(data, 1, p.y, beyond), place(data, 2, p.z, beyond)};
 }
 
-/// Of eight voxels: the last but one is the first of two at the border.
+/// The index of the first of two voxels around a coordinate; at the border, at most the last but one.
 template <class T>
 [[gnu::always_inline]] inline T first_of_two(const float* data, std::size_t axis, const T& at) {
     return max(min(floor(at), T(data[size + axis] - 2.f)), T(0.f));
@@ -149,7 +148,7 @@ template <class T>
     return min(floor(at + 0.5f), T(data[size + axis] - 1.f));
 }
 
-/// The trilinear interpolation, which is continuous and has the voxels' values at their centres.
+/// The trilinear interpolation. It is continuous, and has the voxels' values at their centres.
 template <class T, class N>
 [[gnu::always_inline]] inline T linear(const EightVoxels<N>& at, const float* data, const Vec3<T>& p) {
     const std::array<T, 3> u = places(data, p, 0.f);
@@ -160,7 +159,7 @@ template <class T, class N>
     return (high - low) * z + low;
 }
 
-/// The triquadratic B-spline, which is smooth: its slopes are continuous.
+/// The triquadratic B-spline. It is smooth: its slopes are continuous.
 template <class T, class N>
 [[gnu::always_inline]] inline T spline(const TwentySevenVoxels<N>& at, const float* data, const Vec3<T>& p) {
     const std::array<T, 3> u = places(data, p, 0.5f);
@@ -196,10 +195,10 @@ T looked_up(const float* data, const T& x, const T& y, const T& z) {
                   lookup(values, max(own, T(0.f)) * 1000.f + within));
 }
 
-/// The data, if a shader can carry them; else throws ModelError, which begins with `who`.
+/// The data, if it is small enough for a shader; otherwise throws ModelError with a message that starts with `who`.
 const float* for_shader(std::string_view who, const float* data);
 
-/// A primitive whose data are the table of a grid (VoxelGrid), interpolated linearly.
+/// Interpolate the table of a grid (VoxelGrid) linearly, as a primitive.
 template <class T>
 T linear_at(const float* data, const Vec3<T>& p) {
     return gathered_equation<3 + 8>(

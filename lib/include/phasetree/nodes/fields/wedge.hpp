@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// A right-angled triangle in xz, extruded along y. With half legs a and b its corners are (−a, −b), (a, −b), (−a, b);
-/// the hypotenuse x/a + z/b = 0 passes through the origin. The triangle's distance is that to the nearest of its
-/// sides, negative where all three half-planes contain the point.
+/// A right triangle in xz, extruded along y. With half legs a and b, its corners are (−a, −b), (a, −b), (−a, b); the
+/// hypotenuse x/a + z/b = 0 passes through the origin. The triangle's distance is that to its nearest side, and
+/// negative where all three half-planes contain the point.
 struct Wedge {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
@@ -41,8 +41,8 @@ struct Wedge {
         const T past_left = max(abs(p.z) - b, zero), past_below = max(abs(p.x) - a, zero);
         const T nearest = min(above * above + along * along,
                               min(left * left + past_left * past_left, below * below + past_below * past_below));
-        // Outside, the side that p lies in front of is the nearest one. Near a corner another side ties with it within
-        // rounding, and the gradient is that of the one which is taken.
+        // Outside, the side that p is in front of is the nearest one. Near a corner another side ties with it within
+        // rounding, and the gradient is that of the side chosen.
         const auto before = [&](const T& height, const T& past, const T& otherwise) {
             return select(less(zero, height), select(less(zero, past), otherwise, height * height), otherwise);
         };
@@ -55,7 +55,7 @@ struct Wedge {
         return detail::hull_support(d, {{-h.x, 0, -h.z}, {h.x, 0, -h.z}, {-h.x, 0, h.z}}) + std::abs(d.y) * h.y +
                glm::length(d) * static_cast<double>(level);
     }
-    /// What lies deeper than −level below the surface is a smaller triangle, and within the box shrunk by as much.
+    /// For a negative level, {f ≤ level} is a smaller triangle, and within the box shrunk by as much.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }
 };
 

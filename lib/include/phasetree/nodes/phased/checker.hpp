@@ -4,8 +4,8 @@
 
 namespace phasetree {
 
-/// Distance to the nearest face of a cubic grid, positive in cells of even parity and negative in the others. Within a
-/// cell min(q, 1 − q) is 1-Lipschitz, and the sign changes only where it is zero.
+/// The distance to the nearest face of a cubic grid, positive in cells of even parity and negative in the others.
+/// Within a cell min(q, 1 − q) is 1-Lipschitz, and the sign changes only where it is zero.
 struct CheckerCells {
     glm::vec3 origin{0};
     float size = 1;
@@ -16,20 +16,20 @@ struct CheckerCells {
         const Vec3<T> u = (p - origin) * inverse;
         const Vec3<T> cell{floor(u.x), floor(u.y), floor(u.z)};
         const T half = (cell.x + cell.y + cell.z) * 0.5f;
-        const T odd = (half - floor(half)) * 2.f;  // 0 or 1, also of a negative cell, where % would give −1
+        const T odd = (half - floor(half)) * 2.f;  // 0 or 1, also in negative cells, where % would give −1
         const T face = min(to_face(u.x - cell.x), min(to_face(u.y - cell.y), to_face(u.z - cell.z)));
         return face * (1.f - odd * 2.f) * size;
     }
 
   private:
-    /// It takes abs, because the sign of a zero is not the same under all instruction sets.
+    /// Uses abs because the sign of zero differs between instruction sets.
     template <class T>
     static T to_face(const T& q) {
         return min(abs(q), 1.f - abs(q));
     }
 };
 
-/// The printed equation is for cubes of unit size; here distances are scaled by theirs. There is no vacuum.
+/// The paper's equation is for unit cubes; here distances are scaled by the cubes' size. There is no vacuum.
 struct Checker {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"checker", "9.1",
@@ -55,7 +55,7 @@ struct Checker {
         cells.size = size;
         cells.inverse = 1 / size;
         if (!std::isfinite(cells.inverse)) throw ModelError("checker: the cubes are too small");
-        // The pattern has the period 2a along each axis.
+        // The pattern has period 2a along each axis.
         for (int i = 0; i < 3; ++i)
             cells.origin[i] =
                 static_cast<float>(std::fmod(static_cast<double>(origin[i]), 2 * static_cast<double>(size)));

@@ -1,4 +1,4 @@
-// Minimum and maximum of components that may be absent. An absent phase behaves as +∞ without being a number.
+// Minimum and maximum of components that may be absent. An absent phase behaves like +∞, without being a number.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace phasetree::detail {
 
-/// The minimum over the phases of `among`; nothing if none of them is present.
+/// The minimum over the phases of `among`; nullopt if none of them is present.
 template <class S>
 std::optional<S> minimum(const Phases<S>& a, std::uint64_t among) {
     std::optional<S> result;
@@ -15,7 +15,7 @@ std::optional<S> minimum(const Phases<S>& a, std::uint64_t among) {
     return result;
 }
 
-/// For each i of `wanted`, calls use(i, min over j ≠ i, j in among, of aⱼ) with an optional; linear in the number of
+/// For each i of `wanted`, call use(i, min over j ≠ i, j in among, of aⱼ) with an optional. Linear in the number of
 /// phases, by running minima from both ends.
 template <class S, class Use>
 void minimum_of_others(const Phases<S>& a, std::uint64_t among, std::uint64_t wanted, Use&& use) {
@@ -36,7 +36,7 @@ void minimum_of_others(const Phases<S>& a, std::uint64_t among, std::uint64_t wa
     });
 }
 
-/// min(aᵢ, bᵢ), where either may be absent; nothing if both are.
+/// min(aᵢ, bᵢ), where either may be absent; nullopt if both are.
 template <class S>
 std::optional<S> minimum_of(const Phases<S>& a, const Phases<S>& b, int i) {
     if (a.has(i) && b.has(i)) return min(a[i], b[i]);
@@ -45,13 +45,13 @@ std::optional<S> minimum_of(const Phases<S>& a, const Phases<S>& b, int i) {
     return std::nullopt;
 }
 
-/// Adds a part to a phase, which may be absent so far.
+/// Unite a part with a phase, which may be absent.
 template <class S>
 void add_part(Phases<S>& a, int i, const S& part) {
     a.set(i, a.has(i) ? min(a[i], part) : part);
 }
 
-/// The object in which vacuum takes the place of the phases `gone`.
+/// The object with the phases `gone` replaced by vacuum.
 template <class S>
 Phases<S> emptied(Phases<S> a, std::uint64_t gone) {
     for_each_phase(a.materials() & gone, [&](int i) {

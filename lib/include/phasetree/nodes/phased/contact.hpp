@@ -5,22 +5,25 @@
 namespace phasetree {
 
 namespace detail {
-/// A ∪₋ B, except that where a part A_K of A meets a part B_L of B, the two press against each other and share the
-/// overlap: B_L loses A_K ∩ {f < 0} to A,
+/// A ∪₋ B, except where a part A_K of A meets a part B_L of B: the two press against each other and share the overlap.
+/// B_L loses A_K ∩ {f < 0} to A,
 ///
 ///     f = α a_K − (1 − α) b_L,    a_K < 0 within A_K,  b_L < 0 within B_L,  b_L ≤ bⱼ for j in L.
 ///
-/// That is A ∪₋ B with b'ⱼ = max(bⱼ, −f) instead of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides; in B_L outside A_K both
-/// terms of −f are negative, so that B keeps it; outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀): what B loses is within A.
-/// I1: f is a convex combination. I2: b' ≥ b keeps the proof for ∪₋, also with φ₀, since φ₀ ≥ b₀.
+/// This is A ∪₋ B with b'ⱼ = max(bⱼ, −f) instead of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides. In B_L outside A_K both
+/// terms of −f are negative, so B keeps it. Outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀), because what B loses is within
+/// A.
 ///
-/// Of two objects of one phase each it is max(aᵢ, f) and max(bⱼ, −f): ∪₋ gives φᵢ = max(aᵢ, min(−bⱼ, f)), and
-/// f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ) is at most aᵢ where aᵢ + bⱼ ≥ 0 and at most −bⱼ elsewhere.
+/// I1: f is a convex combination. I2: b' ≥ b preserves the proof for ∪₋, including φ₀, because φ₀ ≥ b₀.
+///
+/// For two objects with one phase each, the result is max(aᵢ, f) and max(bⱼ, −f): ∪₋ gives φᵢ = max(aᵢ, min(−bⱼ, f)),
+/// and f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ) is at most aᵢ where aᵢ + bⱼ ≥ 0, and at most −bⱼ elsewhere.
 template <class S>
 Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S& b_l, PhaseSet l, float alpha) {
     const S f = a_k * alpha - b_l * (1.f - alpha);
     Phases<S> retreated = b;
-    // The operands have this order because so far away that distances overflow f is ∞ − ∞, and max(NaN, x) is x.
+    // The operands are in this order because, far enough away that distances overflow, f is ∞ − ∞, and max(NaN, x) is
+    // x.
     for_each_phase(b.present & l.bits, [&](int j) { retreated.set(j, max(-f, b[j])); });
     return under(a, retreated);
 }
@@ -32,9 +35,9 @@ inline constexpr Parameter contact_alpha{"alpha", "",
                                          limits::fraction};
 }  // namespace detail
 
-/// The printed φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) empty most of A ∪ B; and α → 0 makes f tend to −bⱼ.
+/// The paper's φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) would leave most of A ∪ B empty; and α → 0 makes f tend to −bⱼ.
 ///
-/// What the contact does not decide is as in A ∪₋ B: the other phases of A and B stay, and those of B replace those of
+/// Everything outside the contact is as in A ∪₋ B: the other phases of A and B remain, and those of B replace those of
 /// A.
 struct Contact {
     static constexpr bool is_phased_node = true;

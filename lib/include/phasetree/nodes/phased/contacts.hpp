@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// A_K is the union of the phases K of A, and a_K = −min aₖ over what is not in K, the vacuum included: the depth in
-/// the union as a whole, which min over K of aₖ is not, because that is zero on the interfaces within it. It is no
-/// larger than any aₖ, k ∈ K, by I2. `contact` asks for the depth in the one phase, which its neighbours make shallow.
+/// A_K is the union of the phases K of A. a_K = −min aₖ over all phases not in K, including the vacuum: the depth in
+/// the union as a whole. (The minimum over K of aₖ would be zero on the interfaces within it.) By I2, it is at most aₖ
+/// for each k ∈ K. In contrast, `contact` uses the depth in a single phase, which its neighbours make shallow.
 struct Contacts {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{

@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// The other phases are removed (their place is vacuum) and the two cut to the set S of what is within ε of both.
+/// The other phases are replaced by vacuum, and the two are cut to the set S of points within ε of both.
+///
 /// I2: φᵢ + φ₀ ≥ min(aᵢ + a₀, aᵢ + aₖ, S − S).
 struct Interface {
     static constexpr bool is_phased_node = true;

@@ -8,16 +8,16 @@
 
 namespace phasetree {
 
-/// Whole numbers at voxels, as in a segmented scan. The user of the grid maps numbers to phases.
+/// Integer labels at voxels, as in a segmented scan. The user of the grid maps labels to phases.
 struct LabelGrid {
-    /// The limits of readers and nodes: 512³, and as many different numbers as the table has indices for.
+    /// Limits of readers and nodes: 512³ voxels, and as many distinct labels as the table has indices.
     static constexpr std::size_t most_voxels = std::size_t{1} << 27, most_numbers = 256;
 
     VoxelLattice lattice{};
-    /// Whether the lattice says how large the voxels are, as an OpenVDB file does and images do not.
+    /// Whether the lattice defines the size of the voxels. True for OpenVDB files, false for images.
     bool has_spacing = false;
-    std::vector<std::int32_t> numbers{};  ///< those that occur
-    std::vector<std::uint8_t> voxels{};   ///< the index in `numbers` of each voxel, x fastest, then y
+    std::vector<std::int32_t> numbers{};  ///< the distinct labels
+    std::vector<std::uint8_t> voxels{};   ///< index in `numbers` of each voxel, x fastest, then y
 
     std::size_t bytes() const { return voxels.size() + numbers.size() * sizeof(numbers[0]); }
 };

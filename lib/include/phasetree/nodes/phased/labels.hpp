@@ -11,25 +11,24 @@
 
 namespace phasetree {
 
-/// A segmented scan: each voxel is of one phase, and what is between their centres is smooth.
+/// A segmented scan. Each voxel belongs to one phase, and surfaces between voxel centres are smooth.
 ///
-/// *How.* mₖ is 1 at the voxels of phase k and 0 at others, blurred by a Gaussian of σ voxels; all mₖ together are 1.
-/// At the distance t from a flat interface mₖ is Φ(t/σ), with the normal distribution Φ, so gₖ = σ Φ⁻¹(mₖ) is how deep
-/// in phase k a point is. Φ⁻¹ rises, so the largest of the gₖ is where the largest of the mₖ is. gₖ is cut off at ±2.5
-/// σ.
+/// *Method.* mₖ is 1 at the voxels of phase k and 0 at others, blurred by a Gaussian of σ voxels; the mₖ sum to 1. At
+/// distance t from a flat interface mₖ is Φ(t/σ), where Φ is the normal distribution, so gₖ = σ Φ⁻¹(mₖ) is the depth of
+/// a point in phase k. Φ⁻¹ is increasing, so gₖ is largest where mₖ is. gₖ is clamped to ±2.5 σ.
 ///
-/// Blurring may take a voxel from its phase. There the phase's own g is raised and the others' are lowered until its
-/// own is above them by as much as it was below before, by 0.3 voxels at most and by 0.02 at least. So a wall or a
-/// thread of one voxel stays, about half a voxel thick.
+/// Blurring can remove a voxel from its phase. There, the phase's own g is raised and the others' are lowered until its
+/// own exceeds them by as much as it was below before, but by at least 0.02 and at most 0.3 voxels. A wall or a thread
+/// one voxel thick is thus preserved, about half a voxel thick.
 ///
-/// Dₖ is the triquadratic B-spline through the −gₖ at the voxels' centres, divided by the steepest slope that any of
-/// them has (VoxelGrid::steepest_spline): a smooth, 1-Lipschitz field. As in voronoi,
+/// Dₖ is the triquadratic B-spline through the −gₖ at the voxels' centres, divided by the steepest slope of all of them
+/// (VoxelGrid::steepest_spline): a smooth, 1-Lipschitz field. As in voronoi,
 ///     φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,
-/// of which one is negative at any point where no two D are equal. At the centre of a voxel that is its own phase's,
-/// because the spline goes through the g there.
+/// of which exactly one is negative wherever no two D are equal. At the centre of a voxel that is its own phase's,
+/// because the spline interpolates g there.
 ///
-/// The object ends with the box of its voxels, beyond which all is vacuum: it is cut by the box as intersect_shape
-/// does.
+/// The object ends with the box of its voxels, outside of which all is vacuum. It is cut by the box as in
+/// intersect_shape.
 struct Labels {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
@@ -62,14 +61,14 @@ struct Labels {
     float smoothing = 1;
     std::string grid{};
 
-    /// A phase that there is, and Dₖ.
+    /// A phase in the scan, and its Dₖ.
     struct Part {
         int phase = 0;
         std::shared_ptr<const VoxelGrid> depth{};
     };
     std::vector<Part> parts{};  ///< derived, by phase
     BoundingBox box{};          ///< derived
-    Bounds solid{};             ///< derived: around all blocks of voxels that are not vacuum alone
+    Bounds solid{};             ///< derived: around all blocks that have voxels other than vacuum
 
     template <class V>
     static void parameters(V&& v) {
@@ -99,9 +98,9 @@ struct Labels {
                     "same name, its index follows: \"name[0]\", \"name[1]\".",
                     limits::any, true});
     }
-    /// Which part of the file is read.
+    /// The part of the file that is read.
     std::string part_of_file() const { return grid; }
-    /// Throws ModelError for a number of a voxel that has no phase, with the place.
+    /// Throws ModelError, with the position, if the label of a voxel has no phase.
     void prepare();
 
     template <class D>
@@ -123,7 +122,7 @@ struct Labels {
         for (const Part& part : parts) all = all | PhaseSet{std::uint64_t{1} << part.phase};
         return all;
     }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const {
         std::size_t sum = 0;
         for (const Part& part : parts) sum += sizeof part + part.depth->bytes();

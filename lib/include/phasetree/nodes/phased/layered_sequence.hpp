@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// The same as nested `layered` nodes, but a₀ is evaluated once, and so is the sum a₀ + T of each boundary between
+/// Equivalent to nested `layered` nodes, but a₀ is evaluated once, and so is the sum a₀ + T of each boundary between
 /// layers.
 struct LayeredSequence {
     static constexpr bool is_phased_node = true;

@@ -7,8 +7,8 @@
 
 namespace phasetree {
 
-/// Parallel slabs of thickness 2h at a period P along a unit direction: |m| − h, where m is the distance along it to
-/// the middle of the nearest slab; exact.
+/// Parallel slabs of thickness 2h at a period P along a unit direction: |m| − h, where m is the distance along the
+/// direction to the middle of the nearest slab. Exact.
 struct PeriodicSlab {
     glm::vec3 direction{0, 0, 1};
     float middle = 0;
@@ -23,7 +23,7 @@ struct PeriodicSlab {
     }
 };
 
-/// The paper has two phases of equal thickness; this node has any number of phases and thicknesses. A phase that is
+/// The paper has two phases of equal thickness; this node allows any number of phases and thicknesses. A phase that is
 /// listed several times is the union of its slabs.
 struct Layers {
     static constexpr bool is_phased_node = true;
@@ -36,7 +36,7 @@ struct Layers {
     std::vector<float> thicknesses{};
     glm::vec3 direction{0, 0, 1};
     float offset = 0;
-    std::vector<PeriodicSlab> slabs{};  ///< one for each listed phase, derived
+    std::vector<PeriodicSlab> slabs{};  ///< one per listed phase, derived
 
     template <class V>
     static void parameters(V&& v) {
@@ -77,7 +77,7 @@ struct Layers {
         for (std::size_t i = 0; i < slabs.size(); ++i) {
             const int k = of_phases[i].index;
             if (slabs.size() == 2 && i == 1 && !result.has(k)) {
-                result.set(k, -result[of_phases[0].index]);  // of two, one is what the other is not
+                result.set(k, -result[of_phases[0].index]);  // with two phases, one is the complement of the other
             } else {
                 detail::add_part(result, k, d.primitive(slabs[i], p));
             }
@@ -85,7 +85,7 @@ struct Layers {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(of_phases); }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const { return std::span(slabs).size_bytes(); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 

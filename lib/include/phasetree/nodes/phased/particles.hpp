@@ -5,16 +5,18 @@
 
 namespace phasetree {
 
-/// Balls of several phases, given as data. Dₖ is the distance to the balls of phase k; of the balls around a point, the
-/// one with the least |p − c| − r has it, so where two phases overlap they share the overlap along the surface on which
-/// their D are equal, a plane between balls of one size.
+/// Balls of several phases, given as data. Dₖ is the distance to the balls of phase k. A point belongs to the ball with
+/// the smallest |p − c| − r. Where two phases overlap, they share the overlap along the surface where their D are
+/// equal; for balls of equal size, that is a plane.
 ///
 ///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
 ///
-/// The right side is one operation of programs, nearer(a, b) = max(a, (a − b)/2) with b the least of the others, so
-/// that pruning has a rule for it: its sign asks for both only where they are negative. Both operands of the maximum
-/// are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second operands, which is (Dᵢ − min
-/// over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0; and φ₀ + φₖ ≥ Dₖ − min D ≥ 0.
+/// The right-hand side is one operation of programs, nearer(a, b) = max(a, (a − b)/2), with b the minimum of the
+/// others. This allows a pruning rule: its sign needs both operands only where they are negative.
+///
+/// Both operands of the maximum are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second
+/// operands, (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0. And φ₀ + φₖ ≥ Dₖ −
+/// min D ≥ 0.
 struct Particles {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
@@ -44,7 +46,7 @@ struct Particles {
                                        limits::positive, true, true});
         v(&Particles::file, detail::file_of_balls);
     }
-    /// Throws ModelError, which says what is missing.
+    /// Throws ModelError if parameters are missing or inconsistent.
     void prepare();
 
     template <class D>
@@ -61,7 +63,7 @@ struct Particles {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(vacuum) | PhaseSet::of(group_of); }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const {
         std::size_t sum = std::span(group_of).size_bytes();
         for (const Balls& group : groups) sum += sizeof group + group.data().size_bytes();

@@ -1,14 +1,15 @@
-// What the intersection and the difference with a shape share, for all phases or for some (paper, Section 5.1).
+// Shared code of intersection and difference with a shape, for all phases or some of them (paper, Section 5.1).
 //
-// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k), g = −f of what is kept
-// being the inside of what goes. For all phases that is min(a₀, g), because outside them the point is vacuum anyway.
+// The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k). g = −f, where f is the field of
+// what is kept, so the inside of g is what is removed. If all phases are cut, this is min(a₀, g), because points
+// outside all of them are vacuum anyway.
 #pragma once
 
 #include "phasetree/nodes/phased/combine.hpp"
 
 namespace phasetree::detail {
 
-/// Cuts the chosen phases down to where kept ≤ 0; vacuum takes the place of what is cut away.
+/// Cut the chosen phases to where kept ≤ 0. Vacuum replaces what is cut away.
 template <class S>
 Phases<S> cut(const Phases<S>& a, const S& kept, PhaseSet chosen) {
     Phases<S> result;

@@ -1,15 +1,18 @@
-// What smooth intersection and difference of one phase with a shape share (paper, Section 5.3), g being the field of
+// Shared code of smooth intersection and difference of one phase with a shape (paper, Section 5.3). g is the field of
 // what is kept:
 //
 //     Bₖ = {s < 0},  s = −smin(−aₖ, −g);    Bᵢ = Aᵢ;    vacuum: A₀ ∪ (Aₖ − Bₖ).
 //
-// There is one form only, not one over and one under the other phases: s ≥ max(aₖ, g) makes Bₖ a part of Aₖ, which no
-// other phase overlaps, so that both max(aᵢ, −s) = aᵢ, for −s ≤ −aₖ ≤ aᵢ, and max(s, −min aᵢ) = s, for −aᵢ ≤ aₖ ≤ s.
+// There is only one form, instead of one over and one under the other phases. s ≥ max(aₖ, g) makes Bₖ a part of Aₖ,
+// which no other phase overlaps. So max(aᵢ, −s) = aᵢ, because −s ≤ −aₖ ≤ aᵢ, and max(s, −min aᵢ) = s, because −aᵢ ≤ aₖ
+// ≤ s.
 //
-// Aₖ − Bₖ is max(aₖ, −s), and just as well max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 needs g > −r, the edge being worn
-// nowhere else. The further term keeps φ₀ from a zero where Aₖ meets itself far from the shape's surface, and gives
+// Aₖ − Bₖ is max(aₖ, −s), or equally max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 requires g > −r, because the edge is rounded
+// nowhere else. The additional term prevents a zero of φ₀ where Aₖ meets itself far from the shape's surface, and gives
 // the sharp operator's max(aₖ, −g) as r → 0.
+//
 //     φ₀ = min(a₀, max(aₖ, −s, −g − r))
+//
 // I2: φₖ + φ₀ ≥ min(aₖ + a₀, s − s),  φₖ + aᵢ ≥ aₖ + aᵢ,  φ₀ + aᵢ ≥ min(a₀ + aᵢ, aₖ + aᵢ).
 #pragma once
 

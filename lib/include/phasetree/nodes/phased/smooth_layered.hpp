@@ -42,7 +42,7 @@ struct SmoothLayered {
         const PhaseSet there = phasetree::phases(of);
         return there.contains(vacuum) && there.size() > 1 ? there | PhaseSet::of(phase) : there;
     }
-    /// Each fold lowers the minimum by r/6 at most.
+    /// Each step lowers the minimum by at most r/6.
     Bounds bounds(BoundsQuery& q, float level) const {
         return q(of, level + thickness + radius / 6 * static_cast<float>(phasetree::phases(of).size()));
     }

@@ -6,7 +6,7 @@
 namespace phasetree {
 
 namespace detail {
-/// The smooth union s of phase k of A and a shape.
+/// The smooth union s of phase k of A with a shape.
 template <class S>
 S blended_with(const Phases<S>& a, int k, const S& f, float radius) {
     return a.has(k) ? smooth_min(a[k], f, radius) : f;
@@ -20,7 +20,8 @@ inline constexpr Parameter blended_shape{"shape", "", "The field to add."};
 }  // namespace detail
 
 /// Bₖ = {s < 0},  Bᵢ = Aᵢ − Bₖ,  and the vacuum A₀ − Bₖ: φ₀ = max(a₀, −s).
-/// I2: each sum with φₖ is ≥ s − s, each other one ≥ the same sum of A.
+///
+/// I2: each sum with φₖ is ≥ s − s; every other sum is ≥ the same sum of A.
 struct SmoothUniteShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_unite_shape", "5.3",

@@ -18,7 +18,7 @@ struct Strata {
     std::vector<float> thicknesses{};
     glm::vec3 direction{0, 0, 1};
     float offset = 0;
-    std::vector<float> heights{};  ///< hₖ from the first layer's top on, derived
+    std::vector<float> heights{};  ///< hₖ from the top of the first layer on, derived
     Plane base{};                  ///< u, derived
 
     template <class V>
@@ -61,7 +61,7 @@ struct Strata {
         return result;
     }
     PhaseSet phases() const { return PhaseSet::of(of_phases); }
-    /// What is derived and kept, in bytes.
+    /// Memory of derived data, in bytes.
     std::size_t derived_bytes() const { return std::span(heights).size_bytes(); }
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 };

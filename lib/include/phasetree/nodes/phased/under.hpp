@@ -5,15 +5,15 @@
 namespace phasetree {
 
 namespace detail {
-/// A ∪₋ B: B replaces A where both are. The printed "−min φ_B" is over the *other* phases of B, and vacuum is not one
-/// of them.
+/// A ∪₋ B: B replaces A where both are present. The paper's "−min φ_B" is over the *other* phases of B, and the vacuum
+/// is not one of them.
 ///
-/// *I2*, that φᵢ + φⱼ ≥ 0 for i ≠ j (lib/README.md), is kept. Let i and j be materials. If aᵢ ≤ bᵢ and aⱼ ≤ bⱼ, then
-/// φᵢ + φⱼ ≥ aᵢ + aⱼ ≥ 0. If bᵢ is the smaller, φᵢ ≥ bᵢ, and φⱼ ≥ −bᵢ because bᵢ is among the others of j; likewise
-/// for bⱼ. If j is the vacuum, φᵢ + φ₀ ≥ aᵢ + a₀ or φᵢ + φ₀ ≥ bᵢ + b₀, whichever of aᵢ and bᵢ is the smaller.
+/// *I2*, φᵢ + φⱼ ≥ 0 for i ≠ j (lib/README.md), is preserved. Let i and j be materials. If aᵢ ≤ bᵢ and aⱼ ≤ bⱼ, then φᵢ
+/// + φⱼ ≥ aᵢ + aⱼ ≥ 0. If bᵢ is the smaller, φᵢ ≥ bᵢ, and φⱼ ≥ −bᵢ because bᵢ is among the others of j; likewise for
+/// bⱼ. If j is the vacuum, φᵢ + φ₀ ≥ aᵢ + a₀ or φᵢ + φ₀ ≥ bᵢ + b₀, depending on which of aᵢ and bᵢ is smaller.
 ///
 /// *The smallest component is not positive.* If some material has bₖ ≤ 0, all other b are at least 0 by I2, so φₖ ≤ 0.
-/// Otherwise b₀ ≤ 0 and the other b are not negative, so that the component φₗ ≤ max(aₗ, 0) of the smallest a is not
+/// Otherwise b₀ ≤ 0 and the other b are not negative, so the component φₗ ≤ max(aₗ, 0) of the smallest a is not
 /// positive.
 template <class S>
 Phases<S> under(const Phases<S>& a, const Phases<S>& b) {

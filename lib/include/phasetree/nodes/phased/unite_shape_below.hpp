@@ -4,8 +4,9 @@
 
 namespace phasetree {
 
-/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. Section 5.1 prints it as the phase-specific
-/// intersection; the sum of the sets is right, its name is not.
+/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. Section 5.1 of the paper prints it as the
+/// phase-specific intersection: the sum of the sets is right, but the name is wrong.
+///
 /// I2: φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0, and φₖ + φ₀ ≥ min(aₖ + a₀, f − f).
 struct UniteShapeBelow {
     static constexpr bool is_phased_node = true;

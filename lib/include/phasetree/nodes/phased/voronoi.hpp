@@ -7,10 +7,10 @@
 
 namespace phasetree {
 
-/// The cells of a Voronoi pattern in several phases, filling space. Dₖ is the distance to the nearest site of phase k,
-/// 1-Lipschitz and, cut off where other sites than those looked at could matter, continuous. Φ is half the difference
-/// to the nearest site of any other phase: 1-Lipschitz, and φᵢ + φⱼ = (Dᵢ − min Dₘ + Dⱼ − min Dₘ)/2 ≥ 0 because either
-/// minimum is at most the other's D. There is no vacuum.
+/// The cells of a Voronoi pattern in several phases, which fill space. Dₖ is the distance to the nearest site of phase
+/// k. It is 1-Lipschitz, and continuous because it is clamped where unvisited sites could matter. φₖ is half the
+/// difference between Dₖ and the distance to the nearest site of any other phase. It is 1-Lipschitz, and φᵢ + φⱼ = (Dᵢ
+/// − min Dₘ + Dⱼ − min Dₘ)/2 ≥ 0 because each minimum is at most the other's D. There is no vacuum.
 struct Voronoi {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
@@ -18,7 +18,7 @@ struct Voronoi {
         "Blocks of several phases, filling space: the cells of an irregular lattice of sites, "
         "each with one of the phases. With the same size, jitter and seed they are those of "
         "voronoi_cells."};
-    /// The primitive that is the distance to the nearest site of one kind.
+    /// The primitive for the distance to the nearest site of one kind.
     struct Nearest {
         static constexpr bool is_long = true;  ///< a LongPrimitive
         float size = 1;
@@ -33,7 +33,7 @@ struct Voronoi {
         }
         template <class T, class Sites>
         T distance(const Vec3<T>& p, const Sites& sites) const {
-            // The bound is a little smaller, so that rounding lets no unvisited site count.
+            // The bound is slightly smaller, so that no unvisited site counts because of rounding.
             const float unseen = VoronoiSites{jitter, seed}.unseen() * (1 - 1e-6f);
             T least(unseen * unseen);
             const T low(first_hash()), high(end_hash());
@@ -46,7 +46,7 @@ struct Voronoi {
         float first_hash() const { return 289 * kind / kinds - 0.5f; }
         float end_hash() const { return 289 * (kind + 1) / kinds - 0.5f; }
 
-        /// The same primitive, with the few sites of its kind that may be the nearest in one small box as its data.
+        /// The same primitive, with only the sites of its kind that may be the nearest in one small box as its data.
         struct Specialised : SpecialisedVoronoi {
             static unsigned half_instructions(const float* data) { return 6 + 2 * sites(data); }
             template <class T>

@@ -8,7 +8,7 @@
 
 namespace phasetree {
 
-/// outline_pieces.hpp has the equation, outline_in_box.hpp the data.
+/// For the equation see outline_pieces.hpp, for the data outline_in_box.hpp.
 struct Bezier {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"bezier", "",
@@ -19,7 +19,7 @@ struct Bezier {
     static constexpr std::size_t most_points = 2048;
     std::vector<glm::vec2> points{};
     float thickness = 0;
-    /// Derived, as OutlineInBox has it.
+    /// Derived; the data of OutlineInBox.
     std::vector<float> table{};
 
     template <class V>
@@ -63,7 +63,7 @@ struct Bezier {
         return OutlineInBox::specialise(data, range, of, floats);
     }
     double support(const glm::dvec3& d, float level) const {
-        // A curve lies between its control points.
+        // A curve lies within the hull of its control points.
         double most = -std::numeric_limits<double>::infinity();
         for (const glm::vec2& v : points)
             most = std::max(most, d.x * static_cast<double>(v.x) + d.y * static_cast<double>(v.y));

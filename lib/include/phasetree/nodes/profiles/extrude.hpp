@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// The projection (x, y, z) ↦ (x, y, 0), which turns a field into that of its cross-section at z = 0.
+/// The projection (x, y, z) ↦ (x, y, height). A field of the result is the field of the cross section at this height,
+/// extended along z.
 struct CrossSection {
     float height = 0;  ///< of the section
 
@@ -24,7 +25,7 @@ struct HeightBand {
     }
 };
 
-/// The field of the section varies along x and y, that of the band along z: see corner() in math/number.hpp.
+/// The section's field varies along x and y, that of the band along z; see corner() in math/number.hpp.
 struct Extrude {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"extrude", "",
@@ -45,7 +46,7 @@ struct Extrude {
         const typename D::Scalar section = d.field(of, d.map(CrossSection{}, p, 1.f));
         return corner(section, d.primitive(HeightBand{height * 0.5f}, p));
     }
-    /// corner() is no less than either of its operands, so both bound the extrusion.
+    /// corner() is at least as large as each of its operands, so both bound the extrusion.
     Bounds bounds(BoundsQuery& q, float level) const {
         const float half = height * 0.5f + level;
         if (!q.is_by_boxes())

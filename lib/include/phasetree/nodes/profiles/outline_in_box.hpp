@@ -9,18 +9,18 @@
 
 namespace phasetree {
 
-/// An outline as it is a primitive with data: the number of its pieces, half of its thickness, which is 0 for one that
-/// is filled, and the pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive.
+/// An outline as a primitive with data: the number of pieces, half the thickness (0 for a filled outline), and the
+/// pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive.
 ///
-/// The nearest is one of few. Whether a point is inside depends on all pieces to the right of it, but of those that are
-/// to the right of the whole box only the heights of their ends count. As pieces meet at their ends, most of these
-/// cancel; of the others those within the heights of the box are kept, and each turns inside and outside around for all
-/// points that are at least as high.
+/// Only a few pieces can be the nearest. Whether a point is inside depends on all pieces to its right; but of the
+/// pieces to the right of the whole box, only the heights of their ends matter. Pieces meet at their ends, so most of
+/// these heights cancel. The remaining ones within the heights of the box are stored. Each flips inside and outside for
+/// all points at or above it.
 struct OutlineInBox {
     static constexpr std::size_t head = 2;  ///< floats of a whole outline before its pieces
 
-    /// The data of the specialised primitive: the number of pieces, half of the thickness, −1 if the lowest points of
-    /// the box would be inside without its pieces and 1 if not, the number of heights, the heights, and the pieces.
+    /// The data of the specialised primitive: the number of pieces, half the thickness, −1 if the lowest points of the
+    /// box would be inside without its pieces and 1 otherwise, the number of heights, the heights, and the pieces.
     struct Specialised {
         static constexpr std::size_t head = 4;
         std::vector<float> values{};
@@ -71,7 +71,8 @@ struct OutlineInBox {
                    }) -
                data[1];
     }
-    /// A rough estimate of the cost of a letter of forty pieces for eight points, in halves of a simple instruction's.
+    /// A rough estimate of the cost of a letter with forty pieces for eight points, in halves of that of a simple
+    /// instruction.
     static constexpr unsigned search_half_instructions = 6000;
     /// The mean length of a piece.
     static float spacing(const float* data);

@@ -12,7 +12,7 @@
 
 namespace phasetree {
 
-/// A quadratic Bézier curve B(t), t in [0, 1], by its control points.
+/// A quadratic Bézier curve B(t), t in [0, 1], given by its control points.
 struct QuadraticCurve {
     glm::dvec2 start, control, end;
 
@@ -20,12 +20,12 @@ struct QuadraticCurve {
     glm::dvec2 a() const { return start - 2.0 * control + end; }
     glm::dvec2 b() const { return control - start; }
     glm::dvec2 at(double t) const { return start + t * (2.0 * b() + t * a()); }
-    /// The part of the curve from one parameter to another, by blossoming.
+    /// The part of the curve between two parameters, by blossoming.
     QuadraticCurve part(double from, double to) const {
         return {at(from), start + (from + to) * b() + from * to * a(), at(to)};
     }
     bool is_point() const { return start == control && start == end; }
-    /// The least box around it, at z = 0.
+    /// The smallest box around the curve, at z = 0.
     Bounds bounds() const {
         Bounds box;
         const glm::dvec2 way = b(), bend = a();
@@ -38,26 +38,28 @@ struct QuadraticCurve {
     }
 };
 
-/// The curves of an outline, each cut into pieces B(t) = s + 2bt + at², t in [0, 1], on which it becomes faster
-/// (a·b ≥ 0), by a factor of two at most, and y is monotone. Let m = s − p be the way from a point p to the start of a
-/// piece. The point of the piece that is nearest to p is one of its ends, or is where
+/// The curves of an outline, cut into pieces B(t) = s + 2bt + at², t in [0, 1]. On each piece the speed increases (a·b
+/// ≥ 0), by at most a factor of two, and y is monotone.
+///
+/// *Nearest point.* Let m = s − p be the vector from a point p to the start of a piece. The nearest point of the piece
+/// is one of its ends, or a point where
 ///     h(t) = (B − p)·B′/2 = a² t³ + 3 a·b t² + (2b² + a·m) t + b·m
-/// vanishes and rises. h is convex for t ≥ 0, so only its last root is a minimum, and from the right of it Halley's
-/// steps approach it without passing. Five steps are enough. They converge slowest where p is a centre of curvature, so
-/// that the three roots of h fall together in one root r: there each step only halves the error t − r, but the squared
-/// distance depends only on the fourth power of that error. Where a piece is straight, as those of polygons are, h is
+/// vanishes and increases. h is convex for t ≥ 0, so only its last root is a minimum. Halley's iteration approaches
+/// that root from the right without passing it, and five steps suffice. Convergence is slowest where p is a centre of
+/// curvature: the three roots of h then coincide in one root r, and each step only halves the error t − r. But there
+/// the squared distance depends only on the fourth power of that error. Where a piece is straight, as in polygons, h is
 /// linear.
 ///
-/// A point is inside if a ray from it along +x crosses the outline an odd number of times. A ray crosses a piece at
-/// most once, and only if low ≤ p.y < high, where low and high are the heights of its ends. Pieces that meet have the
-/// same floats there, so no crossing is missed or counted twice. Where the tangent is level rounding makes t
-/// inaccurate, but the curve's point at that t is still at the height of p.
+/// *Inside.* A point is inside if a ray from it along +x crosses the outline an odd number of times. A ray crosses a
+/// piece at most once, and only if low ≤ p.y < high, where low and high are the heights of its ends. Pieces that meet
+/// have identical floats there, so no crossing is missed or counted twice. Where the tangent is horizontal, rounding
+/// makes t inaccurate, but the curve's point at that t is still at the height of p.
 class OutlinePieces {
   public:
-    /// Each piece has ten floats: s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
+    /// A piece has ten floats: s.x, s.y, y of its end, b.x, b.y, a.x, a.y, a², 3 a·b, 2 b².
     static constexpr std::size_t floats = 10;
 
-    /// Appends the pieces of a curve that is no point to a table, and returns their number.
+    /// Append the pieces of a curve to a table, and return their number. The curve must not be a point.
     static std::size_t append(const QuadraticCurve& curve, std::vector<float>& table) {
         const glm::dvec2 a = curve.a(), b = curve.b();
         if (is_straight_but_for_rounding(curve)) {
@@ -65,7 +67,7 @@ class OutlinePieces {
             return 1;
         }
         const double slowest = glm::dot(a, a) > 0 ? -glm::dot(a, b) / glm::dot(a, a) : -1;
-        // The parameters at which the speed is 2ᵏ times the least.
+        // The parameters at which the speed is 2ᵏ times the minimum.
         std::vector<double> cuts{0, 1, slowest, -b.y / a.y};
         const double least = glm::length(b + slowest * a), per_t = glm::length(a);
         for (double ratio = 2; least > 0 && ratio < 2e6; ratio *= 2) {
@@ -80,7 +82,7 @@ class OutlinePieces {
             QuadraticCurve piece = curve.part(cuts[i], cuts[i + 1]);
             const glm::vec2 to(i + 2 == cuts.size() ? curve.end : piece.end);
             if (to == from) continue;
-            // Pieces that meet have the same floats there.
+            // Pieces that meet must have identical floats there.
             piece.start = from;
             piece.end = to;
             from = to;
@@ -91,8 +93,8 @@ class OutlinePieces {
         return count;
     }
 
-    /// The distance from p to the nearest of `count` pieces. It is negative inside, unless `is_line`: a line has no
-    /// inside. `sign` is 1 or −1, the sign at p before the crossings of these pieces are counted.
+    /// The distance from p to the nearest of `count` pieces. It is negative inside, unless `is_line`, because a line
+    /// has no inside. `sign` is 1 or −1: the sign at p before the crossings of these pieces are counted.
     template <class T>
     static T distance(const float* data, int count, bool is_line, const Vec3<T>& p, T sign) {
         T nearest(3e38f);
@@ -104,15 +106,15 @@ class OutlinePieces {
         return sqrt(nearest) * sign;
     }
 
-    /// The distance at a point and its gradient there. If the nearest point lies within a piece the gradient is taken
-    /// perpendicular to the piece's tangent, because close to the outline the way to the nearest point is mostly
-    /// rounding errors. On the outline itself the gradient may point to either side.
+    /// The distance at a point and its gradient there. If the nearest point is within a piece, the gradient is
+    /// perpendicular to the piece's tangent, because close to the outline the vector to the nearest point is mostly
+    /// rounding error. On the outline itself the gradient may point to either side.
     struct Found {
         float distance;
         glm::vec2 at, gradient;
     };
     static Found find(const float* data, int count, bool is_line, const Vec3<float>& p, float sign);
-    /// The same as an equation about the point.
+    /// The same as an equation around the point.
     template <class T>
     static T distance_by(const Found& found, const Vec3<T>& p) {
         return found.distance + ((p.x - found.at.x) * found.gradient.x + (p.y - found.at.y) * found.gradient.y);
@@ -121,8 +123,8 @@ class OutlinePieces {
     static bool is_straight(const float* piece) { return !(piece[7] > 0); }
 
   private:
-    /// The squared distance from p to the start of a piece; and another candidate for its nearest point: the way from p
-    /// to it, and its parameter.
+    /// The squared distance from p to the start of a piece, and another candidate for the nearest point: the vector
+    /// from p to it, and its parameter.
     template <class T>
     struct Way {
         T squared_to_start, x, y, t;
@@ -138,7 +140,7 @@ class OutlinePieces {
             const T t = clamp(-constant * (1 / data[9]), zero, one);
             return {mx * mx + my * my, mx + t * (2.f * bx), my + t * (2.f * by), t};
         }
-        // Halley's steps from the right end to the last root of h. If h does not rise at t, the step goes back to the
+        // Halley's iteration from the right end to the last root of h. If h does not increase at t, restart at the
         // right end.
         const T linear = mx * ax + my * ay + data[9];
         T t = one;
@@ -151,14 +153,14 @@ class OutlinePieces {
         }
         return {mx * mx + my * my, mx + (t * ax + 2.f * bx) * t, my + (t * ay + 2.f * by) * t, t};
     }
-    /// The sign, turned around if a ray along +x crosses the piece.
+    /// Flip the sign if a ray along +x crosses the piece.
     template <class T>
     static T sign_beyond(const float* data, const Vec3<T>& p, T sign) {
         const T zero(0.f), one(1.f);
         const float bx = data[3], by = data[4], ax = data[5], ay = data[6];
         const T mx = data[0] - p.x, my = data[1] - p.y;
-        // Where the piece is at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. Of the two forms of the
-        // solution this one does not subtract what is nearly equal. The ray crosses a piece at a larger x.
+        // The point of the piece at the height of p: the root of a.y t² + 2 b.y t + m.y in [0, 1]. This form of the
+        // solution avoids cancellation. The ray crosses the piece if that point has a larger x.
         const bool up = data[2] > data[1];
         const float low = up ? data[1] : data[2], high = up ? data[2] : data[1];
         T beyond;
@@ -174,8 +176,8 @@ class OutlinePieces {
         return select(less(p.y, T(low)), sign, select(less(p.y, T(high)), crossed, sign));
     }
 
-    // Whether the curve bends by less than the rounding of its points to floats: whether its control point is that
-    // close to the middle of its ends. A straight piece takes less time than a curved one.
+    // Whether the curve bends by less than the rounding of its points to floats, because its control point is that
+    // close to the midpoint of its ends. Straight pieces are faster to evaluate.
     static bool is_straight_but_for_rounding(const QuadraticCurve& curve) {
         const auto largest = [](const glm::dvec2& v) { return std::max(std::abs(v.x), std::abs(v.y)); };
         const double farthest = std::max({largest(curve.start), largest(curve.control), largest(curve.end)});
@@ -187,9 +189,9 @@ class OutlinePieces {
              {start.x, start.y, end.y, b.x, b.y, a.x, a.y, glm::dot(a, a), 3 * glm::dot(a, b), 2 * glm::dot(b, b)})
             table.push_back(static_cast<float>(v));
     }
-    /// The same piece, with its ends exchanged if it is slower at the second one. Pieces are cut where the speed has
-    /// doubled; if it still grows by a factor above √5, the piece starts where the curve turns back on itself,
-    /// or the growth is due to rounding. Such a piece is straight, and is given a constant speed.
+    /// Exchange the ends of a piece that is slower at its second end. Pieces are cut where the speed has doubled. If
+    /// the speed still grows by a factor above √5, either the piece starts where the curve turns back on itself, or the
+    /// growth is due to rounding. Such a piece is straight; it is replaced by one of constant speed.
     static QuadraticCurve towards_faster(QuadraticCurve piece) {
         const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
         if (squared(piece.end - piece.control) < squared(piece.b())) std::swap(piece.start, piece.end);
@@ -199,7 +201,8 @@ class OutlinePieces {
     }
 };
 
-/// The curves of an outline by its points: one on the curve, then a control point, and so on. An even number is closed.
+/// Call f for the curves of an outline, given by points that alternate between points on the curve and control points.
+/// An even number of points is a closed outline.
 template <class F>
 void for_each_curve(std::span<const glm::vec2> points, F&& f) {
     for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
@@ -211,7 +214,7 @@ void for_each_curve(std::span<const glm::vec2> points, F&& f) {
 inline OutlinePieces::Found OutlinePieces::find(const float* data, int count, bool is_line, const Vec3<float>& p,
                                                 float sign) {
     float nearest = 3e38f;
-    glm::vec2 away(0), tangent(0);  // from the nearest point; none at an end
+    glm::vec2 away(0), tangent(0);  // from the nearest point; no tangent at an end
     for (int i = 0; i < count; ++i, data += floats) {
         const Way<float> way = way_to(data, p);
         const float squared = way.x * way.x + way.y * way.y;

@@ -8,7 +8,8 @@
 
 namespace phasetree {
 
-/// Its edges are straight pieces of an outline: outline_pieces.hpp has the equation, outline_in_box.hpp the data.
+/// The edges are straight pieces of an outline. For the equation see outline_pieces.hpp, for the data
+/// outline_in_box.hpp.
 struct Polygon {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"polygon", "", "± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|",
@@ -16,7 +17,7 @@ struct Polygon {
                                    "exact."};
     static constexpr std::size_t most_points = 4096;
     std::vector<glm::vec2> points{};
-    std::vector<float> table{};  ///< derived, as OutlineInBox has it
+    std::vector<float> table{};  ///< derived; the data of OutlineInBox
 
     template <class V>
     static void parameters(V&& v) {
@@ -51,7 +52,7 @@ struct Polygon {
     static T distance(const float* data, const Vec3<T>& p) {
         return OutlineInBox::distance(data, p);
     }
-    using Specialised = OutlineInBox::Specialised;  // Bezier::Parts alone lists it, because kinds are listed once
+    using Specialised = OutlineInBox::Specialised;  // listed only in Bezier::Parts, because each type is listed once
     static constexpr unsigned search_half_instructions = 2000;
     static float spacing(const float* data) { return OutlineInBox::spacing(data); }
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
@@ -81,7 +82,7 @@ struct Polygon {
         return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
                p.y <= std::max(a.y, b.y);
     }
-    /// Two edges that follow each other have a point in common, and must not turn back on each other.
+    /// Consecutive edges share a point, and must not fold back onto each other.
     bool cross_or_touch(std::size_t i, std::size_t j) const {
         const glm::vec2 a = at(i), b = at(i + 1), c = at(j), d = at(j + 1);
         if (b == c) return turn(a, b, d) == 0 && (within(a, b, d) || within(c, d, a));

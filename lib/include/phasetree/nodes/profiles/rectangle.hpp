@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// Rounded corners are those of a smaller rectangle, inflated.
+/// Rounded corners come from inflating a smaller rectangle.
 struct Rectangle {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;

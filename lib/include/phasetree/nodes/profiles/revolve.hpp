@@ -5,7 +5,7 @@
 
 namespace phasetree {
 
-/// The map (x, y, z) ↦ (√(x² + y²) − offset, z, 0) into the half plane that turns about the axis. It lengthens nothing.
+/// The map (x, y, z) ↦ (√(x² + y²) − offset, z, 0) into the half-plane of the point. It never increases distances.
 struct IntoHalfPlane {
     float offset = 0;
 
@@ -15,8 +15,8 @@ struct IntoHalfPlane {
     }
 };
 
-/// The nearest point of a body of revolution is in the half plane of the point itself. So the field stays exact if its
-/// cross-section lies on one side of the axis, or is symmetric about it.
+/// The nearest point of a body of revolution is in the half-plane of the point itself. The field therefore stays exact
+/// if its cross section lies on one side of the axis, or is symmetric about it.
 struct Revolve {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"revolve", "", "f(|pxy| − o, z, 0)",

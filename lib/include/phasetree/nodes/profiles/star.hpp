@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// Mirrors fold the star to one sector (mirrors.hpp), of angles [0, π/n], which has one edge: from the tip (R, 0) to
-/// the notch r (cos π/n, sin π/n).
+/// Mirrors fold the star to one sector (mirrors.hpp) with angles [0, π/n]. It has one edge, from the tip (R, 0) to the
+/// notch r (cos π/n, sin π/n).
 struct Star {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"star", "", "fold to one sector;  ± distance to its edge",

@@ -10,8 +10,8 @@
 
 namespace phasetree {
 
-/// A letter is the union of its strokes: each is an outer contour without the holes in it (TextOutlines). So strokes of
-/// one letter that overlap, as those of some fonts do, are one solid. Within a stroke contours must not cross.
+/// A letter is the union of its strokes; a stroke is an outer contour without its holes (TextOutlines). Overlapping
+/// strokes of a letter, which occur in some fonts, therefore form one solid. Within a stroke, contours must not cross.
 struct Text {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"text", "", "min over the letters of ± min over their curves of |p − B(t)|",
@@ -36,7 +36,7 @@ struct Text {
             return OutlineInBox::specialise(data, range, of, floats);
         }
     };
-    using Parts = TypeList<Stroke>;  // Bezier names Specialised
+    using Parts = TypeList<Stroke>;  // Bezier lists Specialised
 
     std::string text{};
     FromFile<TextOutlines> file{};
@@ -60,7 +60,7 @@ struct Text {
                                     true});
         v(&Text::line_height, Parameter{"line_height", "em", "From one line to the next.", limits::positive, true});
     }
-    /// Which part of the file is read.
+    /// The part of the file that is read.
     std::string part_of_file() const { return text; }
     void prepare();
     std::size_t derived_bytes() const {

@@ -6,21 +6,21 @@
 
 namespace phasetree {
 
-/// A text as a font draws it, laid out in lines. The unit is the font's em, the size of its letters: capitals are about
-/// 0.7 of it high. x is along the line from its beginning, y is up from the line.
+/// A text laid out in lines, as outlines of a font. The unit is the font's em: capitals are about 0.7 em high. x runs
+/// along the line from its start, y upwards from the baseline.
 struct TextOutlines {
-    /// A closed outline by its points, one on the curve, then a control point of a quadratic Bézier curve, and so on.
-    /// The outer ones of a font's letter run one way around and its holes the other way.
+    /// A closed outline: alternately a point on the curve and a control point of a quadratic Bézier curve. A letter's
+    /// outer contours run in one direction and its holes in the other.
     using Contour = std::vector<glm::vec2>;
 
     struct Letter {
-        float x = 0;    ///< where it stands in its line
-        int place = 0;  ///< how many letters and spaces are before it
+        float x = 0;    ///< position in its line
+        int place = 0;  ///< number of letters and spaces before it
         std::vector<Contour> contours{};
     };
     struct Line {
         float width = 0;
-        int places = 0;  ///< how many letters and spaces it has
+        int places = 0;  ///< number of letters and spaces
         std::vector<Letter> letters{};
     };
     std::vector<Line> lines{};

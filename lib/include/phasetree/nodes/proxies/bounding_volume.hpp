@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// The volume is exact (guard.hpp): if it contains the child, labels and the zero set are the child's. That it does is
-/// certain of the child's own box, which is taken if no volume is given; of a given volume it is the caller's promise,
-/// and what sticks out of it is cut off.
+/// The result is exact (guard.hpp): if the volume contains the child, labels and the zero set are the child's. The
+/// child's own box, which is used if no volume is given, is guaranteed to contain it. For a given volume the author
+/// must ensure this; anything that sticks out is cut off.
 template <class Child>
 struct BoundingVolume {
     static constexpr NodeInfo info{"bounding_volume", "4.1, 7.3",
@@ -44,11 +44,11 @@ struct BoundingVolume {
             return detail::object_guarded_by(b, margin, phasetree::phases(of), vacuum.index,
                                              [&] { return d.phases(of, p); });
     }
-    /// The object's, and the vacuum, which is outside of the volume.
+    /// The object's phases, and the vacuum outside the volume.
     PhaseSet phases() const requires(std::is_same_v<Child, Phased>) {
         return phasetree::phases(of) | PhaseSet::of(vacuum);
     }
-    /// From the margin on the volume alone counts.
+    /// At the margin and beyond, only the volume matters.
     Bounds bounds(BoundsQuery& q, float level) const {
         const auto of_volume = [&] {
             const glm::vec3 half = box.half + level;

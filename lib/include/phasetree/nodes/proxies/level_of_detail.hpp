@@ -8,12 +8,12 @@
 namespace phasetree {
 
 namespace detail {
-/// a where n < 0, b where n > 0: (A ∩ N) ∪ (B \ N) with its consensus A ∩ B, without which a wall of zeroes would stand
-/// in what both have in common,
+/// a where n < 0, b where n > 0: (A ∩ N) ∪ (B \ N), united with the consensus A ∩ B. Without the consensus, a wall of
+/// zeroes would cross what both have in common:
 ///     s(a, b) = min(max(a, n), max(b, −n), max(a, b)).
-/// s rises with a and b, and −s(−a, −b) is s(a, b), as the minimum of these three maxima is the maximum of the three
-/// minima. So for objects aᵢ ≥ −aⱼ and bᵢ ≥ −bⱼ give s(aᵢ, bᵢ) ≥ −s(aⱼ, bⱼ): I2 holds if it held, with the vacuum as
-/// one more component.
+/// s increases with a and b, and −s(−a, −b) = s(a, b), because the minimum of these three maxima is the maximum of the
+/// three minima. For objects, aᵢ ≥ −aⱼ and bᵢ ≥ −bⱼ therefore give s(aᵢ, bᵢ) ≥ −s(aⱼ, bⱼ): I2 is preserved, with the
+/// vacuum as one more component.
 template <class T>
 T switched(const T& n, const T& a, const T& b) {
     return min(min(max(a, n), max(b, -n)), max(a, b));
@@ -31,9 +31,9 @@ Phases<T> switched(const T& n, const Phases<T>& a, const Phases<T>& b) {
 }
 }  // namespace detail
 
-/// Where one level gives way to the next there is a step as high as the two differ, along the sphere about the
-/// viewpoint; it is an honest surface, and from the viewpoint it is seen head-on. Every level by itself, and so the
-/// whole, is 1-Lipschitz with the sign of the level that stands there.
+/// Where one level is replaced by the next, there is a step as high as the difference between the two, along the sphere
+/// around the viewpoint. It is a proper surface, and faces the viewpoint. Each level, and therefore the whole, is
+/// 1-Lipschitz with the sign of the level used there.
 template <class Child>
 struct LevelOfDetail {
     static constexpr bool is_level_of_detail = true;

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// A bounding volume from outside, b = g − e, and one of what is outside of the core from inside, −c with c = g + e
-/// (guard.hpp). If the surface lies between {g = −e} and {g = e}, the zero set is the child's; where it does not, the
-/// proxy's two surfaces cut it off or fill it up.
+/// A bounding volume from outside, b = g − e, and one of the complement of the core from inside, −c with c = g + e
+/// (guard.hpp). If the surface lies between {g = −e} and {g = e}, the zero set is the child's. Elsewhere, the proxy's
+/// two surfaces cut it off or fill it.
 template <class Child>
 struct Proxy {
     static constexpr NodeInfo info{
@@ -60,7 +60,7 @@ struct Proxy {
     PhaseSet phases() const requires(std::is_same_v<Child, Phased>) {
         return phasetree::phases(of) | PhaseSet::of(vacuum) | inside;
     }
-    /// Inside of the core everything is at most g + e; around it, as of a bounding volume.
+    /// Inside the core everything is at most g + e; around it, the bounds are those of a bounding volume.
     Bounds bounds(BoundsQuery& q, float level) const {
         const auto around = [&] { return q(proxy, level + error); };
         const Bounds object = level >= margin ? around() : q.cut([&] { return intersect(q(of, level), around()); });

@@ -8,7 +8,7 @@
 
 namespace phasetree {
 
-/// J of ω⁻¹ is M⁻¹ everywhere, and λ its spectral norm, the square root of the largest eigenvalue of M⁻ᵀM⁻¹.
+/// J of ω⁻¹ is M⁻¹ everywhere, and λ is its spectral norm: the square root of the largest eigenvalue of M⁻ᵀM⁻¹.
 struct Affine {
     static constexpr NodeInfo info{"affine", "6", "φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂",
                                    "Takes the unit vectors to any three that span space, and the origin to a point: "
@@ -49,7 +49,7 @@ struct Affine {
         std::vector<double> entries;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) entries.push_back(g[i][j]);
-        // Squares of the entries, and their products with lengths, have to be finite floats.
+        // Squares of the entries, and their products with lengths, must be finite floats.
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 if (!(std::abs(back[i][j]) < 1e18))

@@ -7,14 +7,15 @@
 
 namespace phasetree {
 
-/// The x axis becomes an arc of curvature k about (0, ·, 1/k); the distance from it is kept. With polar coordinates
-/// (r, θ) about that centre, in units of 1/k, ω⁻¹ is x = θ/k, z = (1 − r)/k: J is a rotation times diag(1/r, 1, 1),
-/// λ = 1/r at the side towards the centre.
+/// The x axis becomes an arc of curvature k around (0, ·, 1/k); distances from the axis are preserved. With polar
+/// coordinates (r, θ) around that centre, in units of 1/k, ω⁻¹ is x = θ/k, z = (1 − r)/k. J is a rotation times
+/// diag(1/r, 1, 1), and λ = 1/r on the side facing the centre.
 ///
-/// The box around ω(A) reaches nearer to the centre than ω(A) itself, up to the centre where 1/r has no bound. Within
-/// r < r₀, three quarters of ω(A)'s smallest r, the map goes on as x = (θ/k)(r/r₀), z = (1 − r₀)/k. Its J has the
-/// entries θ/r₀ along r and 1/r₀ across, so ‖J‖ = √(1 + θ²)/r₀, which is λ. A quarter of a turn at most to either side
-/// keeps that box on one side of the centre, where θ is continuous, and |θ| in it below that of A's ends.
+/// The box around ω(A) extends nearer to the centre than ω(A) itself, up to the centre, where 1/r is unbounded. Within
+/// r < r₀, three quarters of the smallest r of ω(A), the map continues as x = (θ/k)(r/r₀), z = (1 − r₀)/k. There J has
+/// the entries θ/r₀ along r and 1/r₀ across, so λ = ‖J‖ = √(1 + θ²)/r₀. The bend is limited to a quarter of a turn on
+/// either side. The box then stays on one side of the centre, where θ is continuous, and |θ| in it stays below that of
+/// A's ends.
 struct Bend {
     static constexpr NodeInfo info{"bend", "6",
                                    "φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z",
@@ -22,16 +23,16 @@ struct Bend {
     static constexpr bool local = true;
 
     struct Map {
-        float k, side;        ///< curvature, and +1 or −1 for the side it bends to
+        float k, side;        ///< curvature, and +1 or −1 for the direction of the bend
         float radius;         ///< 1/k
-        float near, highest;  ///< r₀, and where it stops z
+        float near, highest;  ///< r₀, and the value at which it clamps z
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             if (k == 0.f) return p;
             const T z = p.z * side, across = p.x * k, towards = max(1.f - z * k, T(0.f));
             const T r = sqrt(across * across + towards * towards);
             const T x = angle_of(towards, across) * min(r * (1.f / near), T(1.f)) * radius;
-            // (1 − r)/k without cancellation, (1 − r²)/(k (1 + r)).
+            // (1 − r)/k as (1 − r²)/(k (1 + r)), without cancellation
             const T height = (z * (2.f - z * k) - p.x * across) / (r + 1.f);
             return {x, p.y, min(height, T(highest)) * side};
         }
@@ -66,7 +67,7 @@ struct Bend {
     Bounds image(const Bounds& b) const {
         if (inverse.k == 0 || b.empty()) return b;
         const double k = inverse.k;
-        const double level = std::clamp(0.f, b.low.x, b.high.x);  // where the arc is nearest to level
+        const double level = std::clamp(0.f, b.low.x, b.high.x);  // where the arc is nearest to horizontal
         Bounds result;
         for (const double x : {static_cast<double>(b.low.x), level, static_cast<double>(b.high.x)}) {
             for (const float end : {b.low.z, b.high.z}) {

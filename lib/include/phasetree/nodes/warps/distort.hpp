@@ -6,8 +6,8 @@
 
 namespace phasetree {
 
-/// A point is looked up where noise moves it: ω⁻¹(p) = p + a (n₁, n₂, n₃), the same noise at three places far apart.
-/// Each row of the noise's Jacobian is at most aL long, so the norm of all is at most √3 aL.
+/// The child is evaluated at a displaced point: ω⁻¹(p) = p + a (n₁, n₂, n₃), the same noise at three places far apart.
+/// Each row of the noise's Jacobian is at most aL long, so its norm is at most √3 aL.
 struct Distort {
     static constexpr NodeInfo info{"distort", "6",
                                    "φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  "
@@ -19,8 +19,8 @@ struct Distort {
 
     struct Map {
         FractalNoise noise;
-        float factor;  ///< a L: the noise comes divided by its slope
-        float apart;   ///< from one component's place to the next
+        float factor;  ///< a L, because the noise is already divided by its slope
+        float apart;   ///< distance between the places of two components
 
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {

@@ -7,8 +7,8 @@
 
 namespace phasetree {
 
-/// What lies where p·n < 0 gives way to the image of the other half. The map folds space along the plane: it is
-/// continuous and an isometry on either side, so λ = 1.
+/// The part with p·n < 0 is replaced by the image of the other half. The map folds space along the plane: it is
+/// continuous, and an isometry on either side, so λ = 1.
 struct Mirror {
     static constexpr NodeInfo info{"mirror", "6", "φ(p − 2 min(p·n, 0) n)",
                                    "Makes symmetric to a plane through the origin: the half that the normal points to "
@@ -40,8 +40,8 @@ struct Mirror {
     Bounds image(const Bounds& b) const {
         return unite(b, image_of(b, glm::mat3(1) - 2.f * glm::outerProduct(normal, normal)));
     }
-    /// The support along d. Of a kept point and its image, the one on the side that d points to is farther along d, and
-    /// it is as far as the kept point is along d or along d reflected, whichever points into the kept half.
+    /// The support along d. Of a kept point and its image, the one on the side that d points to is farther along d. It
+    /// is as far as the kept point along d or along d reflected, whichever points into the kept half.
     glm::dvec3 towards(const glm::dvec3& d) const {
         const glm::dvec3 n(normal);
         return d - 2 * std::min(glm::dot(d, n), 0.0) * n;

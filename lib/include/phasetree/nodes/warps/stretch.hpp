@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// J of ω⁻¹ is diag(1/s), whose norm is one over the smallest factor everywhere.
+/// J of ω⁻¹ is diag(1/s). Its norm is 1 over the smallest factor, everywhere.
 struct Stretch {
     static constexpr NodeInfo info{"stretch", "6", "φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)",
                                    "Makes larger or smaller by a factor of its own along each axis."};

@@ -4,12 +4,13 @@
 
 namespace phasetree {
 
-/// ω scales the slice z = const by s = 1 + cz. ω⁻¹(p) = (x/s, y/s, z); with ρ the distance from the axis *after* it, J
-/// is 1/s across, and ((1/s, −ρc/s), (0, 1)) in the plane of the axis. The norm of that one grows with each entry, and
-/// is √(n + √(n² − 4a²)) / √2, n = a² + b² + 1, a = 1/s, b = ρ|c|/s: λ is that at the smallest s and the largest ρ.
+/// ω scales the slice z = const by s = 1 + cz, so ω⁻¹(p) = (x/s, y/s, z). With ρ the distance from the axis *after*
+/// ω⁻¹, J is 1/s across, and ((1/s, −ρc/s), (0, 1)) in the plane of the axis. The norm of this matrix increases with
+/// each entry, and is √(n + √(n² − 4a²)) / √2 with n = a² + b² + 1, a = 1/s, b = ρ|c|/s. λ is its value at the smallest
+/// s and the largest ρ.
 ///
-/// The box around ω(A) holds points that ω⁻¹ takes far beyond A. There x/s and y/s stop a quarter of A's size outside
-/// A's bounds, which only shortens J and bounds ρ.
+/// The box around ω(A) contains points that ω⁻¹ maps far beyond A. x/s and y/s are therefore clamped to A's bounds plus
+/// a quarter of A's size. This only shortens J, and bounds ρ.
 struct Taper {
     static constexpr NodeInfo info{"taper", "6", "φ(x/s, y/s, z) / λ,  s = 1 + c z",
                                    "Narrows or widens along the z axis."};

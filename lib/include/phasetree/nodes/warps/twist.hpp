@@ -6,9 +6,9 @@
 
 namespace phasetree {
 
-/// Turns each slice z = const by k·z. ω⁻¹ turns back: J is a rotation times the shear (ρ dθ, dz) ↦ (ρ dθ − kρ dz, dz),
-/// whose largest singular value is (|k|ρ + √(k²ρ² + 4)) / 2 at distance ρ from the axis. It has no bound in space,
-/// so λ is taken over the object's bounds; see warped.hpp.
+/// Rotates each slice z = const by k·z; ω⁻¹ rotates it back. J is a rotation times the shear (ρ dθ, dz) ↦ (ρ dθ − kρ
+/// dz, dz). Its largest singular value at distance ρ from the axis is (|k|ρ + √(k²ρ² + 4)) / 2. This is unbounded in
+/// space, so λ is taken over the object's bounds; see warped.hpp.
 struct Twist {
     static constexpr NodeInfo info{"twist", "6",
                                    "φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds",
@@ -38,7 +38,7 @@ struct Twist {
     }
     Map map() const { return {glm::radians(rate)}; }
     float value_scale() const {
-        // The box around the circle reaches √2 further at its corners.
+        // The box around the circle extends √2 further at its corners.
         const float k = std::abs(glm::radians(rate)) * reach * 1.41422f;
         return 2.f / (k + std::sqrt(k * k + 4.f)) * (1.f - 1e-6f);
     }

@@ -1,17 +1,24 @@
-// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is written
-// once, as a struct with its parameters and
+// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is a struct
+// with its parameters and
+//
 //     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
 //     float value_scale() const       1/λ
 //     Bounds image(Bounds) const      a box around ω(box)
-// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
-//     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
-// and serves plain fields and objects alike through Warped<Warp, Child>.
 //
-// Where ‖J‖ is bounded only on a part of space (`local`), the warp gets the child's bounds first through
+// and, if it is neither affine nor local, for bounds by directions (BoundsQuery::through),
+//
+//     dvec3 towards(dvec3 d) const,  double beyond(dvec3 d) const
+//
+// Warped<Warp, Child> applies it to fields and objects alike.
+//
+// If ‖J‖ is bounded only on a part of space, the warp is `local`. It then receives the child's bounds first, through
+//
 //     void fit(const Bounds& child)   throws ModelError if the child is unbounded
-// and the sup is taken over ω(those bounds). What lies outside is first projected onto that box, a map that lengthens
-// nothing, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere; and because it stays small far away, the distance b
-// to the bounds takes over where it is larger:
+//
+// and the supremum is taken over ω(those bounds). Points outside are first projected onto that box. The projection
+// never increases distances, so Φ∘ω⁻¹∘clamp / λ is 1-Lipschitz everywhere. Because it stays small far away, the
+// distance b to the bounds takes over where it is larger:
+//
 //     φᵢ ← max(b, φᵢ),   φ₀ ← min(−b, φ₀).
 #pragma once
 
@@ -25,7 +32,7 @@ concept LocalWarp = requires {
     W::local;
 };
 
-/// Distance to a box with sides along the axes and any centre. It bounds what a local warp deforms.
+/// The distance to an axis-aligned box with any centre. It bounds the result of a local warp.
 struct BoundingBox {
     static constexpr bool is_convex = true;
     glm::vec3 centre{0};
@@ -61,7 +68,7 @@ struct Warped {
         Warp::parameters([&](auto member, const Parameter& p) { v(Through<decltype(member)>{member}, p); });
         v(&Warped::of, Parameter{"of", "", "What is warped: a field or an object."});
     }
-    /// Reaches a member of the warp from the node.
+    /// Accesses a member of the warp through the node.
     template <class Member>
     struct Through {
         Member member;
@@ -120,13 +127,13 @@ struct Warped {
     }
 };
 
-/// Gives a warped node its kind without repeating the struct.
+/// Makes a warped field a field node.
 template <class Warp>
 struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
-/// An object can be warped in part: W, the warped object of the chosen phases, is put over or under R, the rest as it
-/// was. The printed equations of D(A, k) are this for one phase, over.
+/// Makes a warped object an object node. An object can be warped in part: W, the warped object of the chosen phases, is
+/// put over or under R, the unwarped rest. The paper's equations of D(A, k) are the special case of one phase, over.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;
@@ -162,7 +169,7 @@ struct WarpedPhased : Warped<Warp, Phased> {
     PhaseSet phases() const {
         const PhaseSet there = phasetree::phases(this->of);
         const std::uint64_t materials = there.bits & ~std::uint64_t{1};
-        // An object without vacuum gets some, where a phase was before it was warped or comes to lie.
+        // An object without vacuum gets some: where a phase was before it was warped, or where it moves to.
         const bool is_split = (materials & chosen().bits) != 0 && (materials & ~chosen().bits) != 0;
         return is_split ? there | PhaseSet::of(vacuum) : there;
     }
@@ -175,7 +182,7 @@ struct WarpedPhased : Warped<Warp, Phased> {
     PhaseSet chosen() const { return over | under; }
 };
 
-/// `warped(Translate{{1, 0, 0}}, ball)`: the usual way to apply a warp.
+/// Apply a warp to a field or an object: `warped(Translate{{1, 0, 0}}, ball)`.
 template <class Warp>
 Field warped(Warp warp, Field child) {
     return WarpedField<Warp>{{warp, std::move(child), {}}};
