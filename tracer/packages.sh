@@ -16,7 +16,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 # Boost's. openimageio-tools contains files that OpenImageIO's CMake package requires.
 packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopenimageio-dev openimageio-tools
     libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev
-    libcpp-httplib-dev zlib1g-dev libopenvdb-dev libboost-dev libharfbuzz-dev)
+    libcpp-httplib-dev zlib1g-dev libopenvdb-dev libboost-dev libharfbuzz-dev
+    libdraco-dev libmeshoptimizer-dev)
 # shellcheck disable=SC2034 # used by the scripts
 packages_to_test=("${packages_to_build[@]}" clang doctest-dev dpkg-dev file pybind11-dev python3-dev
     python3-numpy python3-matplotlib libegl-dev libgles-dev libopengl-dev libgl1-mesa-dri)

@@ -56,7 +56,8 @@ TEST_CASE("--version: the build, and a line for each library") {
         CHECK_MESSAGE(!values.back().empty(), line);
     }
     CHECK(names == std::vector<std::string>{"commit", "compiler", "processor", "simd", "embree", "tbb", "openimageio",
-                                            "opencolorio", "openvdb", "harfbuzz", "open-image-denoise", "live-view"});
+                                            "opencolorio", "openvdb", "harfbuzz", "draco", "meshoptimizer",
+                                            "open-image-denoise", "live-view"});
     const auto value = [&](std::string_view name) {
         return values.at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
     };

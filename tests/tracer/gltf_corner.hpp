@@ -40,6 +40,14 @@ struct Corner {
         views += comma + view;
         ++count_;
     }
+    // An accessor in the test's own words; returns its number.
+    std::size_t add_accessor(const std::string& json) {
+        accessors += ", " + json;
+        views += ", " + bytes.add(std::string());  // accessors and views have the same numbers
+        return count_++;
+    }
+    // The number of the last accessor and view.
+    std::size_t last() const { return count_ - 1; }
     // Takes bytes that no accessor reads, such as an image; returns the number of the view.
     std::size_t add_view(const std::string& content) {
         add("SCALAR", 5121, 0, bytes.add(content));
@@ -80,6 +88,18 @@ inline std::string said(const std::string& content, const gltf::Limits& limits =
         return e.what();
     }
     return "read";
+}
+
+// Checks that two parts have the same triangles and the same values at their vertices, bit for bit.
+inline void check_same(const gltf::Part& a, const gltf::Part& b) {
+    CHECK(a.mesh.vertices == b.mesh.vertices);
+    CHECK(a.mesh.triangles == b.mesh.triangles);
+    CHECK(a.normals.values == b.normals.values);
+    CHECK(a.texture.values == b.texture.values);
+    CHECK(a.second_texture.values == b.second_texture.values);
+    CHECK(a.colors.values == b.colors.values);
+    CHECK(a.alphas.values == b.alphas.values);
+    CHECK(a.tangents.values == b.tangents.values);
 }
 
 inline bool is_near(const glm::vec3& a, const glm::vec3& b) {

@@ -9,7 +9,7 @@ namespace phasetree::fuzz {
 void run_gltf(Bytes input) {
     constexpr std::size_t most_triangles = 100'000;
     const tracer::gltf::Limits limits{
-        .triangles = most_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000};
+        .triangles = most_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000, .moves = 1'000'000};
     const std::string_view content = text_of(input);
     // The last bit of a file is of its images, or of no meaning.
     const auto materials = !content.empty() && content.back() % 2 != 0 ? tracer::gltf::ReadMaterials::none
@@ -37,7 +37,12 @@ void run_gltf(Bytes input) {
                     "colours are fractions");
             promised(materials == tracer::gltf::ReadMaterials::none || !is_clear(part.material), "meshes are opaque");
             promised(part.tangents.empty() || part.tangents.values.size() == vertices, "each vertex has a tangent");
-            const tracer::TexturePoint place({0, 0, 0}, {0, 0, 1}, tracer::MeshCoordinates{.uv = {0.3f, 0.7f}});
+            promised(part.second_texture.empty() || part.second_texture.values.size() == vertices,
+                     "each vertex has second coordinates");
+            promised(part.alphas.empty() || part.alphas.values.size() == vertices, "each vertex has an alpha");
+            for (const float alpha : part.alphas.values) promised(alpha >= 0 && alpha <= 1, "an alpha is a fraction");
+            const tracer::TexturePoint place({0, 0, 0}, {0, 0, 1},
+                                             tracer::MeshCoordinates{.uv = {0.3f, 0.7f}, .alpha = 0.5f});
             const float opacity = part.opacity ? part.opacity->at(place) : 1.0f;
             promised(opacity >= 0 && opacity <= 1, "an opacity is a fraction");
         }

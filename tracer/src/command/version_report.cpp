@@ -5,6 +5,8 @@
 
 #include "denoise/open_image_denoise.hpp"
 #include "embree_core/embree.hpp"
+#include "gltf/draco.hpp"
+#include "gltf/meshopt.hpp"
 #include "output/display.hpp"
 #include "output/encode.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
@@ -45,6 +47,8 @@ std::string version_report() {
     line("opencolorio", opencolorio_version());
     line("openvdb", openvdb_version());
     line("harfbuzz", harfbuzz_version());
+    line("draco", gltf::has_draco() ? "yes" : "");
+    line("meshoptimizer", gltf::has_meshopt() ? "yes" : "");
     line("open-image-denoise", open_image_denoise_version());
     line("live-view", view::server_library());
     return report;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -20,15 +19,6 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, bytes_chunk = 0x004E4942;
 constexpr std::size_t most_bytes_of_json = std::size_t{64} << 20;
 constexpr std::size_t most_depth = 64;
 constexpr std::size_t most_bytes_of_buffers = std::size_t{1} << 30;
-
-// Files may require these, which are read or move no surface. Files that require others are refused; the message names
-// the extension if programs commonly write it.
-constexpr std::array<std::string_view, 4> accepted_extensions{"KHR_texture_transform", "KHR_mesh_quantization",
-                                                              "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
-constexpr std::string_view accepted_prefix = "KHR_materials_";
-constexpr std::array<std::string_view, 5> refused_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                             "KHR_meshopt_compression", "KHR_texture_basisu",
-                                                             "EXT_texture_webp"};
 
 // How deep the brackets of a JSON text are within each other, those in strings aside.
 std::size_t depth_of(std::string_view text) {
@@ -159,9 +149,17 @@ std::string Item::text(std::string_view key) const {
     return found && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-bool Item::flag(std::string_view key) const {
+std::vector<std::string> Item::texts(std::string_view key) const {
+    std::vector<std::string> all;
+    const Json* list = find(key);
+    if (list && list->is_array())
+        for (const Json& json : *list) all.push_back(json.is_string() ? json.get<std::string>() : std::string());
+    return all;
+}
+
+bool Item::flag(std::string_view key, bool otherwise) const {
     const Json* found = find(key);
-    return found && found->is_boolean() && found->get<bool>();
+    return found && found->is_boolean() ? found->get<bool>() : otherwise;
 }
 
 std::size_t Item::count(std::string_view key) const {
@@ -203,7 +201,6 @@ Document::Document(std::string_view content, ReadFile read_file) : read_file_(st
     json_ = Json::parse(text, nullptr, false);
     if (!json_.is_object()) throw GltfError("its document is not JSON in UTF-8");
     check_version();
-    check_extensions();
     read_buffers();
 }
 
@@ -212,20 +209,6 @@ void Document::check_version() const {
     const std::string version = asset ? asset->text("version") : "", least = asset ? asset->text("minVersion") : "";
     if (!version.starts_with("2.") || (!least.empty() && least != "2.0"))
         throw GltfError("it is not of version 2.0 of glTF");
-}
-
-void Document::check_extensions() const {
-    const auto required = json_.find("extensionsRequired");
-    if (required == json_.end() || !required->is_array()) return;
-    for (const Json& json : *required) {
-        const std::string name = json.is_string() ? json.get<std::string>() : std::string();
-        if (name.starts_with(accepted_prefix) ||
-            std::ranges::find(accepted_extensions, name) != accepted_extensions.end())
-            continue;
-        const bool is_common = std::ranges::find(refused_extensions, name) != refused_extensions.end();
-        throw GltfError(fmt::format("it requires {}, which this program does not read; save it without",
-                                    is_common ? name : "an extension of glTF"));
-    }
 }
 
 std::size_t Document::count(const char* list) const {
@@ -258,7 +241,10 @@ void Document::read_buffers() {
 }
 
 std::string_view Document::view(std::size_t index, const Item& from) const {
-    const Item view = element("bufferViews", index, from);
+    return bytes_in_buffer(element("bufferViews", index, from));
+}
+
+std::string_view Document::bytes_in_buffer(const Item& view) const {
     const std::size_t number = view.needed_index("buffer");
     const Item buffer = element("buffers", number, view);
     const bool has_uri = buffer.has("uri");

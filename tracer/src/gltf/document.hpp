@@ -56,11 +56,14 @@ class Item {
     glm::vec3 vec3(std::string_view key, const glm::vec3& otherwise) const;
     /// A text; empty if there is none.
     std::string text(std::string_view key) const;
-    bool flag(std::string_view key) const;
+    /// The texts of the list that is called so; what is no text in it is empty.
+    std::vector<std::string> texts(std::string_view key) const;
+    bool flag(std::string_view key, bool otherwise = false) const;
     /// How many elements the list has that is called so.
     std::size_t count(std::string_view key) const;
     /// The names of the members.
     std::vector<std::string> keys() const;
+    const std::string& place() const { return place_; }
 
     [[noreturn]] void fail(std::string_view what) const;
 
@@ -83,8 +86,10 @@ class Document {
     std::size_t count(const char* list) const;
     /// An element of such a list. `from` refers to it.
     Item element(const char* list, std::size_t index, const Item& from) const;
-    /// All bytes of an element of "bufferViews", whatever its "byteStride" is.
+    /// All bytes of an element of "bufferViews", whatever its "byteStride" is; compressed ones are not decoded.
     std::string_view view(std::size_t index, const Item& from) const;
+    /// The bytes that an object with "buffer", "byteOffset" and "byteLength" names.
+    std::string_view bytes_in_buffer(const Item&) const;
     /// All bytes of an element of "images".
     std::string image(const Item& image) const;
     /// The paths of all files that the document names, from its folder; what cannot be used is left out.
@@ -92,7 +97,6 @@ class Document {
 
   private:
     void check_version() const;
-    void check_extensions() const;
     void read_buffers();
     std::string bytes_of(const Item& named) const;
 

@@ -27,7 +27,7 @@ struct Coordinates {
     bool operator==(const Coordinates&) const = default;
 };
 
-/// Those of a material's reference to a texture.
+/// Those of a material's reference to a texture (KHR_texture_transform).
 Coordinates coordinates_of(const Item& texture);
 
 struct ReadImage {

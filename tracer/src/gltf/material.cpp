@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <string_view>
 #include <utility>
 
@@ -45,11 +44,6 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Extensions that are read, or that have a message of their own.
-constexpr std::array<std::string_view, 4> handled_extensions{"KHR_materials_transmission", "KHR_materials_ior",
-                                                             "KHR_materials_emissive_strength",
-                                                             "KHR_materials_pbrSpecularGlossiness"};
-
 // Surfaces that shine less are shown as dark.
 constexpr float faintest_radiance = 0.01f;
 
@@ -71,14 +65,20 @@ class Materials::Maker {
             made_.is_clear = true;
             return;
         }
-        say_what_is_not_read();
+        if (const auto extensions = item_.item("extensions")) made_.extensions = extensions->keys();
         if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
             note_loss("says its colour by specular and glossiness, which is not read; here it is a white metal");
+        // What is laid first is laid by the mesh's first coordinates, as a map of normals has to be for its tangents.
+        std::optional<Glowing> glowing = emission();
+        const std::optional<NormalMap> normals = glowing ? std::nullopt : normal_map();
         read_color(pbr, by_vertices);
-        read_opacity(pbr);
-        if (make_glowing()) return;
+        read_opacity(pbr, by_vertices);
+        if (glowing) {
+            glowing->color = color_;
+            made_.material = std::move(*glowing);
+            return;
+        }
         read_roughness(pbr);
-        const std::optional<NormalMap> normals = normal_map();
         if (least_of(metallic_) > nearly_all)
             made_.material = metal(normals);
         else if (greatest_of(metallic_) < 1 - nearly_all)
@@ -100,14 +100,29 @@ class Materials::Maker {
             note_loss("has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
         return read;
     }
-    // An image that is laid on meshes. All of a material lie by the same coordinates.
-    void lay(const Item& texture, const ReadImage& image) {
-        const Coordinates coordinates = coordinates_of(texture);
-        if (!made_.coordinates)
-            made_.coordinates = coordinates;
-        else if (!(*made_.coordinates == coordinates))
-            note_loss("uses several sets or transforms of coordinates; the first is used for all images");
+    // How an image lies on meshes. The first one of a material decides which coordinates the meshes have; others are
+    // laid by these, too, or by a second set.
+    ImageCoordinates lay(const Item& texture, const ReadImage& image) {
         if (!image.repeats) note_loss("has an image that does not repeat in the file; here it does");
+        const Coordinates wanted = coordinates_of(texture);
+        if (!made_.coordinates) made_.coordinates = wanted;
+        const Coordinates& first = *made_.coordinates;
+        if (first == wanted) return {};
+        if (first.set == wanted.set && is_invertible(first.transform))
+            return {.is_second = false, .transform = glm::mat3x2(wanted.transform * glm::inverse(first.transform))};
+        if (!made_.second_set) made_.second_set = wanted.set;
+        if (*made_.second_set != wanted.set) {
+            note_loss("uses more than two sets of texture coordinates; an image lies by another set than in the file");
+            return {};
+        }
+        ImageCoordinates second{.is_second = true};
+        if (wanted.transform != Coordinates::from_upper_left())
+            second.transform = glm::mat3x2(wanted.transform * glm::inverse(Coordinates::from_upper_left()));
+        return second;
+    }
+    static bool is_invertible(const glm::mat3& m) {
+        constexpr float smallest = 1e-12f;
+        return std::abs(glm::determinant(m)) > smallest;
     }
 
     bool is_clear() {
@@ -122,18 +137,6 @@ class Materials::Maker {
         return false;
     }
 
-    void say_what_is_not_read() {
-        if (const auto extensions = item_.item("extensions"))
-            for (const std::string& key : extensions->keys())
-                // A message may quote a key only if it looks like a name.
-                if (is_name(key) && std::ranges::find(handled_extensions, key) == handled_extensions.end())
-                    note_loss(fmt::format("has {}, which is not read", key));
-    }
-    static bool is_name(const std::string& key) {
-        return key.size() <= longest_name && key.starts_with("KHR_materials_") &&
-               std::ranges::all_of(key, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-    }
-
     void read_color(const Item& pbr, bool by_vertices) {
         color_.by_vertices = by_vertices;
         if (const auto factor = pbr.numbers("baseColorFactor", 4))
@@ -141,24 +144,25 @@ class Materials::Maker {
         const auto texture = pbr.item("baseColorTexture");
         if (const auto read = image(texture, ImageMeaning::colors)) {
             color_.image = read->image;
-            lay(*texture, *read);
+            color_.coordinates = lay(*texture, *read);
         }
     }
-    void read_opacity(const Item& pbr) {
+    void read_opacity(const Item& pbr, bool by_vertices) {
         const std::string mode = item_.text("alphaMode");
         if (mode != "MASK" && mode != "BLEND") return;
         const auto factor = pbr.numbers("baseColorFactor", 4);
         const float alpha = factor ? std::clamp((*factor)[3], 0.0f, 1.0f) : 1.0f;
-        Opacity opacity{.number = alpha};
+        Opacity opacity{.number = alpha, .by_vertices = by_vertices};
         const auto texture = pbr.item("baseColorTexture");
         const auto read = image(texture, ImageMeaning::alpha);
         if (read) {
-            opacity.number =
-                MeshImageNumber{.range = {0, alpha}, .image = read->image, .of_image = read->image->range(0)};
-            lay(*texture, *read);
+            opacity.number = MeshImageNumber{.range = {0, alpha},
+                                             .image = read->image,
+                                             .of_image = read->image->range(0),
+                                             .coordinates = lay(*texture, *read)};
         }
         if (mode == "MASK") opacity.cutoff = std::max(item_.number("alphaCutoff", 0.5f), 0.0f);
-        if (least_of(opacity.number) < opacity.cutoff.value_or(1)) made_.opacity = opacity;
+        if (by_vertices || opacity.least() < opacity.cutoff.value_or(1)) made_.opacity = opacity;
     }
 
     void read_roughness(const Item& pbr) {
@@ -169,14 +173,18 @@ class Materials::Maker {
         alpha_ = roughness * roughness;
         const auto texture = pbr.item("metallicRoughnessTexture");
         if (const auto read = image(texture, ImageMeaning::numbers)) {
-            lay(*texture, *read);
-            metallic_ =
-                MeshImageNumber{.range = {0, metallic}, .image = read->image, .of_image = read->blue, .channel = 2};
+            const ImageCoordinates coordinates = lay(*texture, *read);
+            metallic_ = MeshImageNumber{.range = {0, metallic},
+                                        .image = read->image,
+                                        .of_image = read->blue,
+                                        .channel = 2,
+                                        .coordinates = coordinates};
             alpha_ = MeshImageNumber{.range = {0, roughness},
                                      .image = read->image,
                                      .of_image = read->green_in_quarters(),
                                      .channel = 1,
-                                     .is_squared = true};
+                                     .is_squared = true,
+                                     .coordinates = coordinates};
         }
     }
 
@@ -184,36 +192,35 @@ class Materials::Maker {
         const auto texture = item_.item("normalTexture");
         const auto read = image(texture, ImageMeaning::numbers);
         if (!read) return std::nullopt;
-        lay(*texture, *read);
+        (void)lay(*texture, *read);  // it is the first
         return NormalMap{.strength = std::clamp(texture->number("scale", 1), -100.0f, 100.0f), .image = read->image};
     }
 
-    // True if it glows; then it is made.
-    bool make_glowing() {
+    // What it emits, without its colour; nothing if it is dark.
+    std::optional<Glowing> emission() {
         const glm::vec3 emissive = item_.vec3("emissiveFactor", glm::vec3(0));
         const auto strength = extension("KHR_materials_emissive_strength");
         const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
-        if (!(radiance > 0)) return false;
+        if (!(radiance > 0)) return std::nullopt;
         if (radiance < faintest_radiance) {
             note_loss("shines a little in the file; here it is dark");
-            return false;
+            return std::nullopt;
         }
         TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
         const auto texture = item_.item("emissiveTexture");
         const auto read = image(texture, ImageMeaning::colors);
         // Where an image says where it shines, and is of no kind that is read, it is taken to be dark.
-        if (texture && !read) return false;
+        if (texture && !read) return std::nullopt;
         if (read) {
             if (read->lit_share < 0.5f) {
                 if (read->lit_share > 0) note_loss("shines in some places; here it is dark");
-                return false;
+                return std::nullopt;
             }
             light.image = read->image;
-            lay(*texture, *read);
+            light.coordinates = lay(*texture, *read);
         }
         if (item_.has("normalTexture")) note_loss("shines and has a map of normals, which is ignored");
-        made_.material = Glowing{.light = light, .radiance = radiance, .color = color_};
-        return true;
+        return Glowing{.light = light, .radiance = radiance};
     }
 
     Conductor metal(const std::optional<NormalMap>& normals) const {

@@ -33,7 +33,10 @@ struct NamedMaterial {
     Material material{};
     std::optional<Opacity> opacity{};          ///< none is opaque everywhere
     std::optional<Coordinates> coordinates{};  ///< there are none without images
-    std::vector<std::string> not_shown{};      ///< sentences about what is lost
+    /// The set of texture coordinates, as the file has them, of images that cannot be laid by the first.
+    std::optional<std::size_t> second_set{};
+    std::vector<std::string> not_shown{};   ///< sentences about what is lost
+    std::vector<std::string> extensions{};  ///< the names of those that it has
 };
 
 class Materials {
@@ -43,7 +46,8 @@ class Materials {
         : document_(document), images_(document, most_pixels) {}
 
     /// The material of that number, or glTF's own if there is none. `by_vertices` tells whether the mesh has colours of
-    /// vertices. Throws GltfError.
+    /// vertices; then there is an opacity wherever alpha counts, even if it is 1 but for the vertices' alpha. Throws
+    /// GltfError.
     NamedMaterial make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from);
 
   private:

@@ -32,14 +32,14 @@ glm::dmat4 placement_of(const Item& node) {
 // A matrix for each instance of a node (EXT_mesh_gpu_instancing), or one that changes nothing.
 class Instances {
   public:
-    Instances(const Document& document, const Item& node) {
+    Instances(Accessors& accessors, const Item& node) {
         const auto instancing = node.extension("EXT_mesh_gpu_instancing");
         const auto attributes = instancing ? instancing->item("attributes") : std::nullopt;
         if (!attributes) return;
         const auto find = [&](const char* name, std::size_t columns) {
             std::optional<Accessor> found;
             if (!attributes->has(name)) return found;
-            found.emplace(document, attributes->needed_index(name), *attributes);
+            found.emplace(accessors.read(attributes->needed_index(name), *attributes));
             if (found->columns() != columns) found->fail("has rows of another length than instances have");
             if (count_ && *count_ != found->rows())
                 found->fail("has another number of rows than the others of the instances");
@@ -73,23 +73,29 @@ class Instances {
 
 class Scene {
   public:
-    Scene(const Document& document, std::size_t most)
-        : document_(document), most_(most), placements_(document.count("nodes")) {}
+    Scene(Accessors& accessors, std::size_t most)
+        : accessors_(accessors), document_(accessors.document()), most_(most), placements_(document_.count("nodes")) {}
 
-    std::vector<PlacedMesh> read() {
+    PlacedMeshes read() {
         const Item root = document_.root();
         if (document_.count("scenes") == 0) return {};
-        add_nodes(document_.element("scenes", root.index("scene").value_or(0), root), "nodes", glm::dmat4(1));
+        add_nodes(document_.element("scenes", root.index("scene").value_or(0), root), "nodes", glm::dmat4(1), true);
         while (!next_.empty()) {
             const Next n = std::move(next_.back());
             next_.pop_back();
             const glm::dmat4 placement = n.placement * placement_of(n.node);
             placements_[n.number] = placement;
-            if (const auto mesh = n.node.index("mesh")) add_mesh(*mesh, n.node, placement);
-            add_nodes(n.node, "children", placement);
+            // Hidden nodes are still placed, because skins may have them as joints.
+            const auto visibility = n.node.extension("KHR_node_visibility");
+            const bool is_visible = n.is_visible && (!visibility || visibility->flag("visible", true));
+            const auto mesh = n.node.index("mesh");
+            if (mesh && is_visible) add_mesh(*mesh, n.node, placement);
+            placed_.has_hidden = placed_.has_hidden || (mesh && !is_visible);
+            add_nodes(n.node, "children", placement, is_visible);
         }
         // A joint may come after the mesh.
-        for (const auto& [placed, node] : with_skins_) placed_[placed].joints = joints(node.needed_index("skin"), node);
+        for (const auto& [placed, node] : with_skins_)
+            placed_.meshes[placed].joints = joints(node.needed_index("skin"), node);
         return std::move(placed_);
     }
 
@@ -98,33 +104,35 @@ class Scene {
         std::size_t number;
         Item node;
         glm::dmat4 placement;
+        bool is_visible;
     };
 
-    void add_nodes(const Item& parent, std::string_view list, const glm::dmat4& placement) {
+    void add_nodes(const Item& parent, std::string_view list, const glm::dmat4& placement, bool is_visible) {
         const std::vector<std::size_t> children = parent.indices(list);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             const Item node = document_.element("nodes", *child, parent);
             // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
             if (placements_[*child]) node.fail("is at two places of the tree of nodes");
             placements_[*child] = placement;
-            next_.push_back({*child, node, placement});
+            next_.push_back({*child, node, placement, is_visible});
         }
     }
 
     void add_mesh(std::size_t mesh, const Item& node, const glm::dmat4& placement) {
         const Item item = document_.element("meshes", mesh, node);
-        const bool is_morphed = has_weights(node.has("weights") ? node : item);
-        const Instances instances(document_, node);
+        const auto weights = weights_of(node.has("weights") ? node : item);
+        const Instances instances(accessors_, node);
         for (std::size_t i = 0; i < instances.count(); ++i) {
-            if (placed_.size() == most_) throw GltfError("it has too many meshes");
-            if (node.has("skin")) with_skins_.emplace_back(placed_.size(), node);
-            placed_.push_back({mesh, placement * instances.placement(i), nullptr, is_morphed});
+            if (placed_.meshes.size() == most_) throw GltfError("it has too many meshes");
+            if (node.has("skin")) with_skins_.emplace_back(placed_.meshes.size(), node);
+            placed_.meshes.push_back({mesh, placement * instances.placement(i), nullptr, weights});
         }
     }
 
-    static bool has_weights(const Item& item) {
+    static std::shared_ptr<const std::vector<float>> weights_of(const Item& item) {
         const auto weights = item.numbers("weights", item.count("weights"));
-        return weights && std::ranges::any_of(*weights, [](float w) { return w != 0.0f; });
+        if (!weights || std::ranges::all_of(*weights, [](float w) { return w == 0.0f; })) return nullptr;
+        return std::make_shared<const std::vector<float>>(*weights);
     }
 
     std::shared_ptr<const Joints> joints(std::size_t skin, const Item& node) {
@@ -133,7 +141,7 @@ class Scene {
         const Item item = document_.element("skins", skin, node);
         std::optional<Accessor> inverses;
         if (item.has("inverseBindMatrices"))
-            inverses.emplace(document_, item.needed_index("inverseBindMatrices"), item);
+            inverses.emplace(accessors_.read(item.needed_index("inverseBindMatrices"), item));
         Joints joints;
         for (const std::size_t joint : item.indices("joints")) {
             if (joint >= placements_.size() || !placements_[joint]) item.fail("has a joint that is not in the scene");
@@ -150,19 +158,20 @@ class Scene {
         return m;
     }
 
+    Accessors& accessors_;
     const Document& document_;
     std::size_t most_;
     std::vector<std::optional<glm::dmat4>> placements_;  // of the nodes that were met
     std::vector<Next> next_;
-    std::vector<PlacedMesh> placed_;
+    PlacedMeshes placed_;
     std::vector<std::pair<std::size_t, Item>> with_skins_;
     std::map<std::size_t, std::shared_ptr<const Joints>> joints_;
 };
 
 }  // namespace
 
-std::vector<PlacedMesh> placed_meshes(const Document& document, std::size_t most) {
-    return Scene(document, most).read();
+PlacedMeshes placed_meshes(Accessors& accessors, std::size_t most) {
+    return Scene(accessors, most).read();
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "gltf/document.hpp"
+#include "gltf/accessors.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -19,11 +19,17 @@ struct PlacedMesh {
     glm::dmat4 placement{1};
     /// Of a mesh with a skin; only vertices without joints go by the placement then.
     std::shared_ptr<const Joints> joints{};
-    bool is_morphed = false;  ///< whether the node has weights of morph targets that are not 0
+    /// Of the morph targets of its primitives; those that are missing are 0. Null if all are.
+    std::shared_ptr<const std::vector<float>> weights{};
 };
 
-/// The meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the pose that
-/// its nodes have without animations. Throws GltfError, also for more than `most` of them.
-std::vector<PlacedMesh> placed_meshes(const Document&, std::size_t most);
+struct PlacedMeshes {
+    std::vector<PlacedMesh> meshes;
+    bool has_hidden = false;  ///< whether KHR_node_visibility hides a node that has a mesh
+};
+
+/// The visible meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the
+/// pose that its nodes have without animations. Throws GltfError, also for more than `most` of them.
+PlacedMeshes placed_meshes(Accessors&, std::size_t most);
 
 }  // namespace phasetree::tracer::gltf

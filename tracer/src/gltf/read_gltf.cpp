@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "gltf/accessor.hpp"
+#include "gltf/accessors.hpp"
+#include "gltf/extensions.hpp"
 #include "gltf/material.hpp"
 #include "gltf/placed_meshes.hpp"
 
@@ -30,42 +32,57 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-std::optional<Accessor> attribute(const Document& document, const Item& attributes, const std::string& name,
-                                  const Accessor& positions, std::size_t least_columns) {
-    std::optional<Accessor> found;
-    if (!attributes.has(name)) return found;
-    found.emplace(document, attributes.needed_index(name), attributes);
+// The accessors of a primitive's vertices by their names in the file. Those in `decoded` were compressed.
+struct Attributes {
+    Accessors& accessors;
+    Item item;
+    std::map<std::string, Accessor> decoded{};
+
+    std::optional<Accessor> find(const std::string& name) const {
+        if (const auto found = decoded.find(name); found != decoded.end()) return found->second;
+        if (!item.has(name)) return std::nullopt;
+        return accessors.read(item.needed_index(name), item);
+    }
+};
+
+std::optional<Accessor> attribute(const Attributes& attributes, const std::string& name, const Accessor& positions,
+                                  std::size_t least_columns) {
+    std::optional<Accessor> found = attributes.find(name);
+    if (!found) return found;
     if (found->rows() != positions.rows()) found->fail("has another number of rows than the positions");
     if (found->columns() < least_columns) found->fail("has rows of too few numbers");
     return found;
 }
 
+// How a morph target moves the vertices, and how much of it counts.
+struct MorphTarget {
+    double weight;
+    std::optional<Accessor> positions, normals, tangents;
+};
+
 class Reader {
   public:
     Reader(std::string_view content, ReadMaterials materials, const Limits& limits, const ReadFile& read_file)
         : document_(content, read_file),
+          accessors_(document_, limits.triangles),
           materials_(document_, limits.pixels),
           has_materials_(materials == ReadMaterials::all),
           limits_(limits) {}
 
     GltfFile read() {
-        say_what_is_passed_over();
-        for (const PlacedMesh& placed : placed_meshes(document_, limits_.primitives)) {
+        check_required_extensions(document_, has_materials_);
+        if (document_.count("animations") > 0) say("has animations, which are not read; nothing moves");
+        const PlacedMeshes all = placed_meshes(accessors_, limits_.primitives);
+        for (const PlacedMesh& placed : all.meshes) {
             const Item mesh = document_.element("meshes", placed.mesh, document_.root());
             primitives_ += mesh.count("primitives");
             if (primitives_ > limits_.primitives)
                 throw GltfError(fmt::format("there are more primitives than {}", limits_.primitives));
-            for (const Item& primitive : mesh.items("primitives")) {
-                if (placed.is_morphed && primitive.has("targets")) say("has morph targets, which are not applied");
-                add(primitive, placed);
-            }
+            for (const Item& primitive : mesh.items("primitives")) add(primitive, placed);
         }
         for (auto& [key, begun] : parts_) finish(begun);
-        if (file_.parts.empty())
-            throw GltfError(clear_materials_.empty() || has_empty_
-                                ? "it has no triangles in its scene"
-                                : "all of it is clear, and meshes are opaque; give it a \"material\", or "
-                                  "model it as a clear phase in \"tree\"");
+        if (file_.parts.empty()) throw GltfError(why_there_is_nothing(all));
+        say_which_extensions_are_not_read();
         return std::move(file_);
     }
 
@@ -82,6 +99,7 @@ class Reader {
         Coordinates coordinates{};
         bool has_images = false;
         bool lacks_texture = false;  // whether some of it has no texture coordinates
+        std::optional<std::size_t> second_set{};
         // Whether the file's tangents are dropped: some are missing, the images use other coordinates, or there is no
         // map of normals.
         bool drops_tangents = false;
@@ -90,37 +108,56 @@ class Reader {
     // Where a primitive's vertices come from, and where they go.
     struct Source {
         Accessor positions;
-        std::optional<Accessor> normals, texture, colors, tangents, joints, weights, indices;
+        std::optional<Accessor> normals, texture, second_texture, colors, tangents, joints, weights, indices;
         PlacedMesh placed;
         std::size_t mode;
+        std::vector<MorphTarget> targets{};
     };
 
-    void say_what_is_passed_over() {
-        if (document_.root().extension("KHR_lights_punctual"))
-            say("has lights, which are not read; they go into \"lights\"");
-        if (document_.count("animations") > 0) say("has animations, which are not read; nothing moves");
+    std::string why_there_is_nothing(const PlacedMeshes& placed) const {
+        if (!clear_materials_.empty() && !has_empty_)
+            return "all of it is clear, and meshes are opaque; give it a \"material\", or model it as a clear phase in "
+                   "\"tree\"";
+        if (placed.meshes.empty() && placed.has_hidden)
+            return "all of its meshes are hidden (KHR_node_visibility); make some visible and export it again";
+        return "it has no triangles in its scene";
+    }
+
+    void say_which_extensions_are_not_read() {
+        for (const std::string& name : document_.root().texts("extensionsUsed")) extensions_.insert(name);
+        if (const auto of_root = document_.root().item("extensions"))
+            for (const std::string& name : of_root->keys()) extensions_.insert(name);
+        const std::string sentence = sentence_about_unread(extensions_, has_materials_);
+        if (!sentence.empty()) say(sentence);
     }
 
     void add(const Item& primitive, const PlacedMesh& placed) {
-        const std::size_t mode = primitive.index("mode").value_or(triangles);
+        std::size_t mode = primitive.index("mode").value_or(triangles);
         if (mode < triangles) return say("has points or lines, which are not shown");
         if (mode > fan) primitive.fail("has an unknown \"mode\"");
-        const auto attributes = primitive.item("attributes");
-        if (!attributes || !attributes->has("POSITION")) primitive.fail("has no positions");
-        Accessor positions(document_, attributes->needed_index("POSITION"), *attributes);
+        const auto item = primitive.item("attributes");
+        if (!item || !item->has("POSITION")) primitive.fail("has no positions");
+        Attributes attributes{accessors_, *item, accessors_.decoded(primitive, *item)};
+        // What was compressed as a strip is decoded to triangles.
+        if (!attributes.decoded.empty()) mode = triangles;
+        const Accessor positions = attributes.find("POSITION").value();
         if (positions.columns() != 3) positions.fail("has positions that are not of three numbers");
 
         const Key key{has_materials_ ? primitive.index("material") : std::nullopt,
-                      has_materials_ && attributes->has("COLOR_0")};
+                      has_materials_ && item->has("COLOR_0")};
         if (clear_materials_.contains(key.material)) return;
         if (!parts_.contains(key) && !begin(key, primitive)) return;
         PartBeingRead& begun = parts_.at(key);
         const auto of = [&](const std::string& name, std::size_t columns) {
-            return attribute(document_, *attributes, name, positions, columns);
+            return attribute(attributes, name, positions, columns);
+        };
+        const auto coordinates = [&](const std::optional<std::size_t>& set) {
+            return set ? of(fmt::format("TEXCOORD_{}", *set), 2) : std::nullopt;
         };
         Source source{positions,
                       of("NORMAL", 3),
-                      of(fmt::format("TEXCOORD_{}", begun.coordinates.set), 2),
+                      coordinates(begun.coordinates.set),
+                      coordinates(begun.second_set),
                       of("COLOR_0", 3),
                       of("TANGENT", 4),
                       placed.joints ? of("JOINTS_0", 4) : std::nullopt,
@@ -128,16 +165,40 @@ class Reader {
                       std::nullopt,
                       placed,
                       mode};
-        if (source.joints && attributes->has("JOINTS_1")) say("has vertices with more than four joints; four count");
+        if (source.joints && item->has("JOINTS_1")) say("has vertices with more than four joints; four count");
         // Tangents without normals mean nothing.
         begun.drops_tangents = begun.drops_tangents || !source.tangents || !source.normals;
-        if (source.colors && source.colors->columns() > 3 && begun.part.opacity)
-            say(fmt::format("\"{}\" has opacities of vertices, which are not read", begun.part.name));
-        if (primitive.has("indices")) source.indices.emplace(document_, primitive.needed_index("indices"), primitive);
-        if (!source.texture && begun.has_images && !begun.lacks_texture)
+        if (const auto decoded = attributes.decoded.find("indices"); decoded != attributes.decoded.end())
+            source.indices.emplace(decoded->second);
+        else if (primitive.has("indices"))
+            source.indices.emplace(accessors_.read(primitive.needed_index("indices"), primitive));
+        if ((!source.texture || (begun.second_set && !source.second_texture)) && begun.has_images &&
+            !begun.lacks_texture)
             say(fmt::format("\"{}\" has images, and somewhere no coordinates for them", begun.part.name));
         begun.lacks_texture = begun.lacks_texture || !source.texture;
+        if (placed.weights) add_targets(primitive, source);
         add_triangles(primitive, source, begun);
+    }
+
+    // The morph targets whose weights are not 0.
+    void add_targets(const Item& primitive, Source& source) {
+        const auto count_moves = [&](std::size_t moves) {
+            moves_ += moves;
+            if (moves_ > limits_.moves)
+                throw GltfError(
+                    fmt::format("its morph targets move more than {} million vertices", limits_.moves / 1'000'000));
+        };
+        // Targets that move nothing take time, too.
+        count_moves(primitive.count("targets"));
+        const std::vector<Item> targets = primitive.items("targets");
+        const std::vector<float>& weights = *source.placed.weights;
+        for (std::size_t i = 0; i < std::min(targets.size(), weights.size()); ++i) {
+            if (weights[i] == 0.0f) continue;
+            count_moves(source.positions.rows());
+            const Attributes attributes{accessors_, targets[i]};
+            const auto of = [&](const char* name) { return attribute(attributes, name, source.positions, 3); };
+            source.targets.push_back({static_cast<double>(weights[i]), of("POSITION"), of("NORMAL"), of("TANGENT")});
+        }
     }
 
     // False if the material is clear.
@@ -149,6 +210,7 @@ class Reader {
             return true;
         }
         NamedMaterial made = materials_.make(key.material, key.by_vertices, primitive);
+        extensions_.insert(made.extensions.begin(), made.extensions.end());
         for (const std::string& sentence : made.not_shown) say(fmt::format("\"{}\" {}", made.name, sentence));
         if (made.is_clear) {
             say(fmt::format(
@@ -163,6 +225,7 @@ class Reader {
                                 .opacity = std::move(made.opacity)},
                        .coordinates = made.coordinates.value_or(Coordinates()),
                        .has_images = made.coordinates.has_value(),
+                       .second_set = made.second_set,
                        // The file's tangents are those of its own coordinates, and only a map of normals needs them.
                        .drops_tangents = !has_map || made.coordinates != Coordinates()};
         return true;
@@ -177,12 +240,22 @@ class Reader {
         const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
         if (std::ranges::all_of(part.normals.values, is_zero)) part.normals = {};
         if (!part.colors.empty()) part.colors.values.resize(part.mesh.vertices.size(), glm::vec3(1));
+        drop_useless_opacity(part);
         if (begun.drops_tangents) part.tangents = {};
         // Where there are images, triangles without coordinates have the same ones at all corners, so one pixel.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
         const std::string name = part.name;
         for (int same = 2; !names_.insert(part.name).second; ++same) part.name = fmt::format("{} {}", name, same);
         file_.parts.push_back(std::move(part));
+    }
+
+    // Vertices' alpha of 1 everywhere changes nothing, and an opacity costs time.
+    static void drop_useless_opacity(Part& part) {
+        if (!part.opacity || !part.opacity->by_vertices) return;
+        if (std::ranges::any_of(part.alphas.values, [](float alpha) { return alpha < 1; })) return;
+        part.alphas = {};
+        part.opacity->by_vertices = false;
+        if (part.opacity->least() >= part.opacity->cutoff.value_or(1)) part.opacity.reset();
     }
 
     void add_triangles(const Item& primitive, const Source& source, PartBeingRead& begun) {
@@ -223,26 +296,45 @@ class Reader {
     static void add_vertex(std::size_t i, const Source& source, PartBeingRead& begun) {
         Part& part = begun.part;
         const glm::dmat4 placement = placement_of_vertex(i, source);
-        part.mesh.vertices.push_back(
-            finite(glm::dvec3(placement * glm::dvec4(row<3>(source.positions, i), 1)), source.positions));
+        const glm::dvec3 position = moved<&MorphTarget::positions>(row<3>(source.positions, i), i, source);
+        part.mesh.vertices.push_back(finite(glm::dvec3(placement * glm::dvec4(position, 1)), source.positions));
         // Mirrored triangles get their corners in reverse order. Cofactors flip their normals, so they are flipped
         // back.
         const double side = is_mirrored(placement) ? -1 : 1;
-        part.normals.values.push_back(source.normals
-                                          ? unit(side * (cofactors(glm::dmat3(placement)) * row<3>(*source.normals, i)))
-                                          : glm::vec3(0));
-        const glm::dvec3 uv(source.texture ? row<2>(*source.texture, i) : glm::dvec2(0), 1);
-        part.texture.values.push_back(finite(glm::dvec2(glm::dmat3(begun.coordinates.transform) * uv),
-                                             source.texture ? *source.texture : source.positions));
+        part.normals.values.push_back(
+            source.normals ? unit(side * (cofactors(glm::dmat3(placement)) *
+                                          moved<&MorphTarget::normals>(row<3>(*source.normals, i), i, source)))
+                           : glm::vec3(0));
+        const auto uv = [&](const std::optional<Accessor>& texture, const glm::mat3& transform) {
+            const glm::dvec3 in_file(texture ? row<2>(*texture, i) : glm::dvec2(0), 1);
+            return finite(glm::dvec2(glm::dmat3(transform) * in_file), texture ? *texture : source.positions);
+        };
+        part.texture.values.push_back(uv(source.texture, begun.coordinates.transform));
+        if (begun.second_set)
+            part.second_texture.values.push_back(uv(source.second_texture, Coordinates::from_upper_left()));
         if (source.colors) {
             // What came before without colours is white.
             part.colors.values.resize(part.mesh.vertices.size() - 1, glm::vec3(1));
             part.colors.values.push_back(glm::clamp(finite(row<3>(*source.colors, i), *source.colors), 0.0f, 1.0f));
         }
+        if (part.opacity && part.opacity->by_vertices) {
+            const bool has_alpha = source.colors && source.colors->columns() == 4;
+            const double alpha = has_alpha ? source.colors->finite_number(i, 3) : 1.0;
+            part.alphas.values.push_back(std::clamp(static_cast<float>(alpha), 0.0f, 1.0f));
+        }
         if (begun.drops_tangents) return;
         const glm::dvec4 tangent = row<4>(*source.tangents, i);
-        part.tangents.values.emplace_back(unit(glm::dmat3(placement) * glm::dvec3(tangent)),
+        const glm::dvec3 direction = moved<&MorphTarget::tangents>(glm::dvec3(tangent), i, source);
+        part.tangents.values.emplace_back(unit(glm::dmat3(placement) * direction),
                                           std::copysign(1.0f, static_cast<float>(side * tangent.w)));
+    }
+
+    // What the morph targets make of a vector of a vertex.
+    template <std::optional<Accessor> MorphTarget::*vectors>
+    static glm::dvec3 moved(glm::dvec3 v, std::size_t i, const Source& source) {
+        for (const MorphTarget& target : source.targets)
+            if (target.*vectors) v += target.weight * row<3>(*(target.*vectors), i);
+        return v;
     }
 
     static bool is_mirrored(const glm::dmat4& placement) { return glm::determinant(glm::dmat3(placement)) < 0; }
@@ -297,16 +389,17 @@ class Reader {
     };
 
     Document document_;
+    Accessors accessors_;
     Materials materials_;
     bool has_materials_;
     Limits limits_;
-    std::size_t triangles_ = 0, primitives_ = 0;
+    std::size_t triangles_ = 0, primitives_ = 0, moves_ = 0;
     std::uint32_t primitive_number_ = 0;          // of the primitive that is read
     std::vector<VertexInPart> vertices_in_part_;  // of the vertices of the primitive that is read
     std::map<Key, PartBeingRead> parts_;
     std::set<std::optional<std::size_t>> clear_materials_;
     bool has_empty_ = false;  // whether something opaque has no triangles
-    std::set<std::string> said_, names_;
+    std::set<std::string> said_, names_, extensions_;
     GltfFile file_;
 };
 

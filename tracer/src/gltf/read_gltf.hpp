@@ -20,9 +20,11 @@ struct Part {
     Material material{};
     std::optional<Opacity> opacity{};  ///< none is opaque everywhere
     TriangleMesh mesh{};
-    AtCorners<glm::vec3> normals{};  ///< of length 1, or 0 where the file has none; empty if it has none at all
-    AtCorners<glm::vec2> texture{};  ///< (0, 0) is the lower left corner of an image
-    AtCorners<glm::vec3> colors{};   ///< linear Rec.709
+    AtCorners<glm::vec3> normals{};         ///< of length 1, or 0 where the file has none; empty if it has none at all
+    AtCorners<glm::vec2> texture{};         ///< (0, 0) is the lower left corner of an image
+    AtCorners<glm::vec3> colors{};          ///< linear Rec.709
+    AtCorners<glm::vec2> second_texture{};  ///< a second set of texture coordinates, if images use one
+    AtCorners<float> alphas{};              ///< of the colours, only if the opacity follows them
     /// The file's tangents (scene/mesh_tangents.hpp), if the material has a map of normals and every vertex has one.
     AtCorners<glm::vec4> tangents{};
 };
@@ -33,6 +35,7 @@ struct Limits {
     std::size_t primitives = 5'000'000;  ///< which are glTF's parts of meshes; they count in the same way
     std::size_t materials = 2'000;       ///< that triangles have
     std::size_t pixels = 256'000'000;    ///< of all images
+    std::size_t moves = 200'000'000;     ///< of vertices by morph targets
 };
 
 /// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at. If only

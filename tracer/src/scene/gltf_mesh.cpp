@@ -78,6 +78,8 @@ MeshGroup GltfParameters::made() const {
                   .normals = std::move(part.normals),
                   .uv = std::move(part.texture),
                   .colors = std::move(part.colors),
+                  .second_uv = std::move(part.second_texture),
+                  .alphas = std::move(part.alphas),
                   .tangents = std::move(part.tangents),
                   .opacity = std::move(part.opacity),
                   .material = material.value_or(part.material),

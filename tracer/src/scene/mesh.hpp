@@ -19,6 +19,8 @@ struct Mesh {
     AtCorners<glm::vec3> normals{};    // of length 1, or 0 where there is none; with them the shading is smooth
     AtCorners<glm::vec2> uv{};         // texture coordinates, by which images can be laid on it
     AtCorners<glm::vec3> colors{};     // linear Rec.709, each channel in [0, 1]
+    AtCorners<glm::vec2> second_uv{};  // for images that are not laid by the first coordinates
+    AtCorners<float> alphas{};         // of the colours, each in [0, 1]; only where the opacity follows them
     AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
     std::optional<Opacity> opacity{};  // none is opaque everywhere
     Material material{};

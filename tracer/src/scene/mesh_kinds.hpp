@@ -108,10 +108,17 @@ struct GltfParameters {
         "gltf",
         "The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its "
         "materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has "
-        "y up, which becomes z. Skins are bent by their joints as the file has them. What is clear in the file is left "
-        "out, because meshes are opaque. There may be 20 million triangles, of which those of a mesh count at each "
-        "place where it is, 2,000 materials, and images in PNG or JPEG, of at most 4096 × 4096 pixels each and 256 "
-        "million in all; each file may have 1 GiB."};
+        "y up, which becomes z. Skins are bent by their joints, and morph targets are applied with the weights of "
+        "their node or mesh; animations are ignored. The alpha of images and vertices counts in the modes MASK and "
+        "BLEND. Images may use two sets of texture coordinates per material, and any transforms of these. Clear "
+        "materials are left out, because meshes are opaque. These extensions are read: KHR_texture_transform, "
+        "KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior, "
+        "KHR_materials_emissive_strength, KHR_materials_transmission (to find clear materials), and, if the build has "
+        "their libraries, KHR_draco_mesh_compression and EXT_meshopt_compression. A file that requires another one is "
+        "rejected if the picture would suffer; otherwise a warning lists what is missing. Limits: 20 million "
+        "triangles, "
+        "counted once per instance, 2,000 materials, images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 "
+        "million in all, and 1 GiB per file."};
 
     std::optional<Material> material{};
     std::filesystem::path file{};

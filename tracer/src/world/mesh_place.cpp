@@ -46,7 +46,7 @@ glm::vec3 MeshPlace::point_of_smooth_surface(bool is_behind) const {
 }
 
 std::optional<MeshCoordinates> MeshPlace::coordinates() const {
-    if (mesh.uv.empty() && mesh.colors.empty()) return std::nullopt;
+    if (mesh.uv.empty() && mesh.colors.empty() && mesh.second_uv.empty() && mesh.alphas.empty()) return std::nullopt;
     const glm::uvec3& t = mesh.triangles[triangle];
     const glm::vec3& p = mesh.vertices[t.x];
     const glm::mat2x3 dual = dual_basis(mesh.vertices[t.y] - p, mesh.vertices[t.z] - p);
@@ -59,6 +59,8 @@ std::optional<MeshCoordinates> MeshPlace::coordinates() const {
     };
     fill(mesh.uv, coordinates.uv, coordinates.gradients);
     fill(mesh.colors, coordinates.color, coordinates.color_gradients);
+    fill(mesh.second_uv, coordinates.second_uv, coordinates.second_gradients);
+    if (!mesh.alphas.empty()) coordinates.alpha = mean(mesh.alphas);
     return coordinates;
 }
 

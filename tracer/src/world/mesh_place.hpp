@@ -31,7 +31,7 @@ struct MeshPlace {
     /// Rays that leave from there are not in the shadow of the triangles around, whose edges would show where light
     /// grazes the surface. Reference: Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021, chapter 4.
     glm::vec3 point_of_smooth_surface(bool is_behind) const;
-    /// Texture coordinates and colours, without tangents. Nothing if the mesh has neither.
+    /// Texture coordinates, colours and their alpha, without tangents. Nothing if the mesh has none of them.
     std::optional<MeshCoordinates> coordinates() const;
     /// Adds the tangents of a mesh that has some. `normal` is the shading normal on the side from which the mesh is
     /// seen; from behind, tangent and bitangent are turned round, as the normal is.

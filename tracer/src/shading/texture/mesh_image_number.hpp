@@ -11,6 +11,7 @@
 
 #include "image/texture_image.hpp"
 #include "phasetree/io/kind.hpp"
+#include "shading/texture/image_coordinates.hpp"
 #include "shading/texture/texture_point.hpp"
 
 namespace phasetree::tracer {
@@ -49,9 +50,7 @@ struct MeshImageNumber {
     }
 
     // A mesh without coordinates is refused where the scene is read.
-    float at(const TexturePoint& p) const {
-        return number_of(image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat)[channel]);
-    }
+    float at(const TexturePoint& p) const { return number_of(image->at(coordinates.at(p) * repeat)[channel]); }
     // Of an image that is not read yet it is taken that it has both black and white.
     float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
     float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
@@ -59,6 +58,7 @@ struct MeshImageNumber {
     glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, once it is prepared
     int channel = 0;                 // of the image, from its name
     bool is_squared = false;         // of glTF's roughness; scene files do not say it
+    ImageCoordinates coordinates{};  // of glTF's images; scene files do not say them
 
   private:
     float number_of(float value) const {

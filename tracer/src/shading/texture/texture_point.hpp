@@ -16,6 +16,10 @@ struct MeshCoordinates {
     glm::mat2x3 gradients{0.0f};        ///< ∇u and ∇v
     glm::vec3 color{1.0f};              ///< linear Rec.709
     glm::mat3x3 color_gradients{0.0f};  ///< ∇ of red, of green and of blue
+    float alpha = 1.0f;                 ///< of the vertices' colours
+    /// A second set of texture coordinates, with its gradients; 0 if the mesh has none.
+    glm::vec2 second_uv{0.0f};
+    glm::mat2x3 second_gradients{0.0f};
     /// The direction in which u grows and that in which v does, of unit length and perpendicular to the normal and to
     /// each other; 0 if the mesh has no tangents. On a mesh that is seen from behind, both are turned round.
     glm::vec3 tangent{0.0f}, bitangent{0.0f};
@@ -38,6 +42,7 @@ struct TexturePoint {
         if (mesh) {
             there.mesh->uv += by * mesh->gradients;
             there.mesh->color += by * mesh->color_gradients;
+            there.mesh->second_uv += by * mesh->second_gradients;
         }
         return there;
     }

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "image/texture_image.hpp"
+#include "shading/texture/image_coordinates.hpp"
 #include "shading/texture/texture_point.hpp"
 
 namespace phasetree::tracer {
@@ -18,12 +19,13 @@ struct TintedMeshImage {
     glm::vec3 factor{1.0f};
     bool by_vertices = false;                     ///< whether the colours of the vertices count
     std::shared_ptr<const TextureImage> image{};  ///< none is white
+    ImageCoordinates coordinates{};               ///< of the image
 
     float internal_reflectance = 0;  ///< F; 0 without a coat
 
     glm::vec3 at(const TexturePoint& p) const {
         glm::vec3 color = factor;
-        if (image) color *= image->at(p.mesh ? p.mesh->uv : glm::vec2(0.0f));
+        if (image) color *= image->at(coordinates.at(p));
         if (by_vertices && p.mesh) color *= p.mesh->color;
         color = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
         return color / (1.0f - internal_reflectance + internal_reflectance * color);

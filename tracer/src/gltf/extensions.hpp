@@ -1,0 +1,22 @@
+// The extensions of glTF that this program knows, and what it does with each: the one list of them.
+//
+// Reference: https://github.com/KhronosGroup/glTF/tree/main/extensions
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "gltf/document.hpp"
+
+namespace phasetree::tracer::gltf {
+
+/// Throws GltfError, which names the extension and says what to do, if the file requires an extension without which it
+/// is not what its author meant. Without `has_materials` extensions of materials and images do not count.
+void check_required_extensions(const Document&, bool has_materials);
+
+/// One sentence that lists the extensions that are not read and may change the picture, and what is missing; empty if
+/// there are none. `used` are names from the file, which is not trusted: only what looks like a name is quoted.
+/// `has_materials` is as above.
+std::string sentence_about_unread(const std::set<std::string>& used, bool has_materials);
+
+}  // namespace phasetree::tracer::gltf
