@@ -16,8 +16,8 @@ struct VoxelsInBox {
 
 /// Bounds the interpolation of the voxels of a table (VoxelGrid) in a box, either trilinear or by a spline. The
 /// interpolated value is an average of voxel values, its derivatives are averages of the differences between
-/// neighbours, and its second derivatives averages of differences of these. Within a cell of eight voxels, a trilinear
-/// interpolation has only mixed second derivatives.
+/// neighbours, and its second derivatives averages of differences of these. A trilinear interpolation has second
+/// derivatives only within a single cell between eight voxels.
 VoxelsInBox voxels_in_box(const float* table, const PointRange&, bool is_spline);
 
 }  // namespace phasetree::bounding

@@ -88,7 +88,7 @@ class CellBuffers {
     std::vector<CellBuffer> buffers_ = std::vector<CellBuffer>(1);
 };
 
-/// Indices have 32 bits. No table of cells has 2³² entries, because a budget is at most 64 GB (cells/data.cpp).
+/// Indices have 32 bits. No table of cells has 2³² entries, because a budget is at most 64 GiB (cells/data.cpp).
 inline std::uint32_t narrow(std::size_t n) {
     return static_cast<std::uint32_t>(n);
 }

@@ -23,7 +23,7 @@ class Functions {
     std::uint32_t function(std::uint32_t instruction) const { return instances_[instruction].function; }
     std::uint32_t at(std::uint32_t instruction) const { return instances_[instruction].at; }
     std::size_t count() const { return functions_.size(); }
-    /// The operation of a function, which determines how many numbers it takes and whether it returns a point.
+    /// The operation of a function, which determines its operands and whether it returns a point.
     Op operation(std::uint32_t function) const { return functions_[function].op; }
     /// The text of a call of a function whose numbers are at the offset given by the expression `at`.
     std::string call_at(std::uint32_t function, std::span<const std::string> arguments, const std::string& at,

@@ -23,7 +23,7 @@ std::string vector(const glm::vec3& v) {
     return fmt::format("vec3({}, {}, {})", literal(v.x), literal(v.y), literal(v.z));
 }
 
-// Adds the functions for all instructions of a program. Returns the number of each call.
+// Adds the functions for all instructions of a program. Returns the index of each instruction in `functions`.
 std::vector<std::uint32_t> add_all(const Program& program, Functions& functions) {
     std::vector<std::uint32_t> added(program.instructions.size(), 0);
     for (std::size_t i = 1; i < program.instructions.size(); ++i) {

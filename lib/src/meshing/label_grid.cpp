@@ -33,7 +33,7 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
     const double longest = std::max({size.x, size.y, size.z});
     Grid grid;
-    double farthest = 0;  // of any coordinate along an axis
+    double farthest = 0;  // largest absolute coordinate
     for (int i = 0; i < 3; ++i)
         farthest = std::max(
             {farthest, std::abs(static_cast<double>(bounds.low[i])), std::abs(static_cast<double>(bounds.high[i]))});

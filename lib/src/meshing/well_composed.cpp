@@ -83,7 +83,8 @@ class Repair {
   public:
     Repair(const Grid& grid, Labels& labels, JoinedSides& joined) : grid_(grid), labels_(labels), joined_(joined) {}
 
-    // Changes labels of a cube until it needs no more changes. The cubes around changed labels must be examined again.
+    // Changes labels of a cube until no further change is needed. The cubes around changed labels must be examined
+    // again.
     void mend(const glm::ivec3& cube) {
         for (;;) {
             joined_.find(labels_, cube);

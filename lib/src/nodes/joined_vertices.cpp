@@ -92,7 +92,7 @@ bool is_within(const Bounds& box, double size) {
 }
 
 // Points in a grid whose cells are as wide as the tolerance, so that the points of a cell are near each other. Only
-// neighbouring cells are compared, by the boxes around their points. So many points in one cell cost no more than a
+// neighbouring cells are compared, by the boxes around their points. Hence many points in one cell cost no more than a
 // few.
 class NearPoints {
   public:

@@ -41,7 +41,7 @@ std::span<const float> slopes_in_ball(const WorkingProgram& program, const Value
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);
     const auto size = static_cast<std::uint32_t>(program.code.size());
-    // Several folds may share a point; they count as continuous only if all their guards agree.
+    // Several folds may share a point; they count as continuous only if every guard confirms it.
     constexpr char is_continuous = 1, may_jump_here = 2;
     const std::span<char> verdicts = arena.allocate<char>(size);  // what the guards say of each fold, as a set
     const std::span<char> jumps = arena.allocate<char>(size);     // whether a value depends on a fold that may jump
