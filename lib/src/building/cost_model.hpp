@@ -26,8 +26,7 @@ inline constexpr float batch = 25;          ///< a batch of samples
 inline constexpr float instruction = 2.4f;  ///< each simple instruction in a batch
 // In batches:
 inline constexpr float batches_of_linear_field = 1.8f;   ///< for a linear field
-inline constexpr float batches_by_slack = 0.7f;          ///< additional, times the share of the box within the bound's
-                                                         ///< slack
+inline constexpr float batches_by_slack = 0.7f;          ///< additional, times the share of the box within the slack
 inline constexpr float batches_by_spread = 3;            ///< additional, times the variation of the gradient
 inline constexpr float batches_with_certificate = 0.5f;  ///< additional where only a certificate bounds the curvature
 inline constexpr float batches_without_curvature = 2;    ///< additional where nothing is known of the curvature

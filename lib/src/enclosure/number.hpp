@@ -10,10 +10,10 @@
 
 namespace phasetree::enclosure {
 
-/// The enclosure of a number that varies in a box. It consists of its value and gradient at the box's centre (the
-/// gradient is NaN on a seam), and the ranges of its value, of the components of its gradient, and of its second
-/// derivatives. It is a number type like those of phasetree/math/number.hpp: evaluating a field's equation with it
-/// gives bounds for all points of a box. Where a comparison is undecided, the result covers both branches.
+/// The enclosure of a number that varies in a box. It consists of the value and gradient at the box's centre, and of
+/// the ranges of the value, the gradient's components and the second derivatives. The gradient at the centre is NaN on
+/// a seam. It is a number type like those of phasetree/math/number.hpp: evaluating a field's equation with it gives
+/// bounds for all points of a box. Where a comparison is undecided, the result covers both branches.
 ///
 /// A *seam* is a surface on which the equation switches from one branch to another, such as the points where the
 /// operands of a minimum are equal.

@@ -60,8 +60,8 @@ struct Readings {
 std::optional<Readings> readings_of(const Nest&);
 
 /// Whether a loop among items that are not in loops can be written, as far as this is known before the preceding steps
-/// are processed. Each operand must be a value from before the loop, which is the same in all iterations or advances
-/// from one to the next, or a value of the same iteration, or of the latest one.
+/// are processed. Each operand must be a value of the same iteration, a value of the latest iteration, or a value from
+/// before the loop. The last kind must be the same in all iterations or advance from one to the next.
 bool is_loop(const Trace&, const NestItem&);
 
 }  // namespace phasetree::glsl

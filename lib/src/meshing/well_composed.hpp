@@ -2,10 +2,10 @@
 //
 // The surface is a manifold if the points of each phase are well-composed (Latecki, "3D Well-Composed Pictures", 1997):
 // their voxels nowhere touch only along an edge or only at a corner. We require less, because a cube may have several
-// vertices (cube_patches.hpp). In each cube, and for each phase, the edges that lead out of the phase form rings from
-// side to side of the cube, because each is linked to one other on both of its sides. Triangles around an edge of the
-// grid have vertices in four cubes, so every edge of a triangle leads across one side of a cube, or is the diagonal
-// between two cubes that share one edge. Only two problems can then remain:
+// vertices (cube_patches.hpp). In each cube, consider the edges that lead out of a phase. They form rings from side to
+// side of the cube, because each is linked to one other on both of its sides. Triangles around an edge of the grid have
+// vertices in four cubes. So every edge of a triangle leads across one side of a cube, or is the diagonal between two
+// cubes that share one edge. Only two problems can then remain:
 //   - a patch has two rings of a phase, which touch at its vertex;
 //   - both faces of a wall across a side belong to the same patch, so that they may share an edge there.
 #pragma once

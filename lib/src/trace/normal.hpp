@@ -61,9 +61,9 @@ class NormalOf {
         bool is_sound = false;  ///< whether the gradient agrees with the value
     };
 
-    /// The component of a side at an offset from that end of the bracket. It is sound if its value is farther from zero
-    /// than the rounding error, and if the plane given by this value and gradient crosses the ray within the bracket,
-    /// up to rounding errors.
+    /// The component of a side at an offset from that end of the bracket. It is sound under two conditions: its value
+    /// is farther from zero than the rounding error, and the plane given by this value and gradient crosses the ray
+    /// within the bracket, up to rounding errors.
     Sample sample(Side side, const glm::vec3& away) const {
         const bool is_near = side == near_side;
         const Component c = component_((is_near ? c_.p_in : c_.p_out) + away, is_near ? c_.from : c_.to);

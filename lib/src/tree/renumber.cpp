@@ -9,7 +9,7 @@ namespace phasetree {
 
 namespace {
 
-// Recreates each node whose parameters change. A tree that consists of a single field keeps its handle.
+// Recreates each node whose parameters change. Unchanged subtrees, such as pure fields, keep their handles.
 class Renumbering {
   public:
     Renumbering(std::span<const Phase> numbers, const NodeCopied& copied) : numbers_(numbers), copied_(copied) {
