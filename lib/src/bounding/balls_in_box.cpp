@@ -9,7 +9,7 @@ namespace phasetree::bounding {
 
 namespace {
 
-// Of more balls little is known together that their slope does not tell.
+// With more balls, enclosing them says little more than their Lipschitz bound.
 constexpr std::size_t most_enclosed = 12;
 
 Enclosure enclosed(const float* ball, const Vec3<Enclosure>& q, const Enclosure::Vector& half) {

@@ -11,7 +11,7 @@ using rewriting::ArenaScope, rewriting::Threshold;
 
 namespace {
 
-// On which side of a threshold a value lies. A value that is equal to the threshold lies on all three.
+// The side of a threshold on which a value lies. A value equal to the threshold lies on all three.
 enum class Side { below, at, above };
 
 Side reversed(Side side) {
@@ -38,8 +38,8 @@ class Cutter {
         std::ranges::fill(planes_, Plane{});
     }
 
-    // A box around the part of `box` that is in a level set. For {v = τ}, `already_cut` says whether the box has been
-    // cut before to where v ≤ τ (below) or v ≥ τ (above) can hold; with `at` it has not been cut.
+    // A box around the part of `box` in a level set. For {v = τ}, `already_cut` says whether the box has already been
+    // cut to where v ≤ τ (below) or v ≥ τ (above) can hold; `at` means that it has not been cut.
     LaneBox box_around(const LevelSet& set, const LaneBox& box, Side already_cut = Side::at) {
         const auto [v, side, tau] = set;
         const Range& range = enclosed_[v].value;
@@ -64,22 +64,22 @@ class Cutter {
             case Op::minimum:
                 return of_extremum(Side::above, set, box, already_cut);
             case Op::corner:
-                // Up to 0 it is the maximum; above 0 it is no less than either operand.
+                // Up to 0 it equals the maximum; above 0 it is at least as large as either operand.
                 if (tau <= 0) return of_extremum(Side::below, set, box, already_cut);
                 return by_plane(set, side == Side::above ? box : of_both(in, Side::below, tau, box));
             case Op::nearer:
-                // It is no less than the first operand.
+                // It is at least as large as the first operand.
                 return by_plane(set, side == Side::above ? box : box_around({in.a, Side::below, tau}, box));
             case Op::smooth_minimum:
-                // It is no more than either operand.
+                // It is at most as large as either operand.
                 return by_plane(set, side == Side::below ? box : of_both(in, Side::above, tau, box));
             case Op::absolute:
                 if (side == Side::below)
                     return box_around({in.a, Side::above, -tau}, box_around({in.a, Side::below, tau}, box));
                 return unite(box_around({in.a, side, tau}, box), box_around({in.a, reversed(side), -tau}, box));
             default:
-                // Of a box that was cut to v ≤ τ only the part where v ≥ τ is left to find, and the reverse. If it was
-                // not cut, reversed() gives `at` again.
+                // In a box already cut to v ≤ τ, only the part where v ≥ τ remains to be found, and vice versa. If it
+                // was not cut, reversed() returns `at` again.
                 return by_plane({v, side == Side::at ? reversed(already_cut) : side, tau}, box);
         }
     }
@@ -90,13 +90,13 @@ class Cutter {
         PlaneCut cut{};
     };
 
-    // A box around the points of `box` at which both operands are on one side of τ.
+    // A box around the points of `box` where both operands are on one side of τ.
     LaneBox of_both(const Instruction& in, Side side, float tau, const LaneBox& box) {
         return box_around({in.b, side, tau}, box_around({in.a, side, tau}, box));
     }
-    // A box around a level set of a maximum. With `of_both_side` below, the maximum is on that side of τ where both
-    // operands are; it is on the other side where one of them is; and it is at τ where one operand is at τ and both are
-    // on the side `of_both_side`. The same is true of a minimum with `of_both_side` above.
+    // A box around a level set of a maximum, for which `of_both_side` is `below`. The maximum is on that side of τ
+    // where both operands are, and on the other side where either operand is. It equals τ where one operand equals τ
+    // and both are on the side `of_both_side`. The same is true of a minimum, with `of_both_side` `above`.
     LaneBox of_extremum(Side of_both_side, const LevelSet& set, const LaneBox& box, Side already_cut) {
         const auto [v, side, tau] = set;
         const Instruction& in = enclosed_.program.code[v];
@@ -107,7 +107,7 @@ class Cutter {
         return unite(box_around({in.a, side, tau}, rest, of_both_side),
                      box_around({in.b, side, tau}, rest, of_both_side));
     }
-    // A box around a level set of a value by its linear bound, without a look at its operands.
+    // A box around a level set of a value from its linear bound, without considering its operands.
     LaneBox by_plane(const LevelSet& set, const LaneBox& box) {
         Plane& plane = planes_[set.value];
         if (!plane.is_found) plane = {true, {NearlyLinear(enclosed_[set.value], half_), middle_, margin_}};
@@ -116,15 +116,15 @@ class Cutter {
                                          : plane.cut.at(set.tau, box);
     }
 
-    // After this many steps of the recursion boxes are left as they are, because a value that is an operand of many
-    // others is visited once for each way to it.
+    // The maximum number of steps of the recursion, after which boxes are left as they are. A value that is an operand
+    // of many others is visited once for each path to it.
     static constexpr int most_steps = 200;
 
     const EnclosedProgram& enclosed_;
     glm::vec3 middle_;
     Enclosure::Vector half_{};
     float margin_;
-    std::span<Plane> planes_;  // of each value, found when it is needed first
+    std::span<Plane> planes_;  // of each value, found on first use
     int steps_ = 0;
 };
 

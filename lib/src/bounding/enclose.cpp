@@ -1,4 +1,4 @@
-// The enclosures of a program's values; interface_bounds.cpp has what follows from them for interfaces.
+// Computes the enclosures of a program's values. interface_bounds.cpp derives bounds of the interfaces from them.
 #include "bounding/enclose.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using rewriting::assign_slots, rewriting::has_local_primitive;
 
 namespace {
 
-// The steps of a program without those whose results are known from the previous program, for interpret().
+// The steps of a program for interpret(), except those whose results are known from the previous program.
 struct UnknownSteps {
     std::span<const Instruction> code;
     std::span<const std::uint32_t> previous;
@@ -46,14 +46,13 @@ Encloser::Encloser(const ProgramContext& context, const Bounds& box, std::span<c
     point_of_box_ = std::construct_at(scratch.allocate<AffinePoint>(1).data(), AffinePoint::of_box(centre_, half_));
 }
 
-// For each instruction its number in the previous program, if it is a primitive or a map of space that was there; else
-// 0.
+// For each instruction: its index in the previous program, if it is a primitive or a map of space that occurred there;
+// otherwise 0.
 std::span<const std::uint32_t> Encloser::previous_numbers(const WorkingProgram& program) const {
     const std::span<const Instruction> before = last_.program.code;
     const std::span<std::uint32_t> previous = scratch_.allocate<std::uint32_t>(program.code.size());
     std::ranges::fill(previous, 0u);
-    std::size_t at =
-        0;  // Mostly the instructions are in the same order, so the search goes on from the last one found.
+    std::size_t at = 0;  // The order is usually the same, so the search continues from the last instruction found.
     for (std::size_t i = 1; i < previous.size() && !before.empty(); ++i) {
         const Instruction& in = program.code[i];
         if (in.op < Op::first_primitive || (in.a != 0 && previous[in.a] == 0)) continue;
@@ -67,7 +66,7 @@ std::span<const std::uint32_t> Encloser::previous_numbers(const WorkingProgram& 
     return previous;
 }
 
-// For each instruction the specialisation that the previous program had for it; empty if there are no local
+// For each instruction: the specialisation that the previous program had for it. Empty if there are no local
 // primitives.
 std::span<Specialisation> Encloser::previous_specialisations(const WorkingProgram& program,
                                                              std::span<const std::uint32_t> previous) const {
@@ -80,7 +79,7 @@ std::span<Specialisation> Encloser::previous_specialisations(const WorkingProgra
     return found;
 }
 
-// The data of the specialisation that the local primitive with these constants had in the box around this one.
+// The data of the specialisation that the local primitive with these constants had in the surrounding box.
 std::span<const float> Encloser::data_around(std::uint32_t source) const {
     std::span<const float> data;
     for (const Specialisation& s : around_)
@@ -88,7 +87,7 @@ std::span<const float> Encloser::data_around(std::uint32_t source) const {
     return data;
 }
 
-// How far up the values of the local primitive with these constants are required.
+// The upper limit up to which the values of the local primitive with these constants are required.
 double Encloser::farthest_required(std::uint32_t source) const {
     for (const RequiredOfLocal& r : required_)
         if (r.source == source) return static_cast<double>(r.high) + 2 * static_cast<double>(context_.value_error);
@@ -120,15 +119,15 @@ void Encloser::enclose_instructions(const WorkingProgram& program, std::span<con
                                     std::span<Specialisation> found) {
     const UnknownSteps steps{program.code, previous, context_.constants.data(), last_.slot};
     const auto enclose_rounded = [&](const auto& solid, const auto& q, Enclosure& result) {
-        // Most primitives are given the point of the box itself, of which enough is known already.
+        // Most primitives take the point of the box itself, for which the AffinePoint already exists.
         if constexpr (std::is_same_v<decltype(q), const PointInRegisters<Enclosure>&>)
             if (q.slot == 0) return enclose_convex(solid, *point_of_box_, result);
         const std::optional<AffinePoint> affine = AffinePoint::of(q, half_);
         return affine && enclose_convex(solid, *affine, result);
     };
-    // The instruction of the local primitive that was enclosed last. interpret() does not tell the number of an
-    // instruction, but it visits those that are not left out in their order, so the next local primitive that is not
-    // known from the previous program is the one that is being visited.
+    // The instruction of the local primitive that was enclosed last. interpret() does not report the index of an
+    // instruction, but it visits the instructions that are not skipped in order. So the current one is the next local
+    // primitive that is not known from the previous program.
     std::size_t local = 0;
     interpret(
         steps, registers_,
@@ -158,7 +157,7 @@ void Encloser::enclose_instructions(const WorkingProgram& program, std::span<con
         [&](Enclosure& e) { e.tighten(half_); });
 }
 
-// Keeps the specialisations, given for each instruction, of those instructions that have one.
+// Keeps the specialisations of those instructions that have one.
 void Encloser::keep_specialisations(std::span<Specialisation> found) {
     const std::span<const Instruction> code = last_.program.code;
     std::size_t count = 0;
@@ -173,9 +172,9 @@ void Encloser::keep_specialisations(std::span<Specialisation> found) {
     specialisations_ = found.first(count);
 }
 
-// The enclosure of the value of an output, without the output's sign. Components are 1-Lipschitz, also in pruned
-// programs (pruning/prune.hpp has the proof), so their gradients are within ±1 even where the enclosures of the
-// instructions say less.
+// The enclosure of an output's value, without the output's sign. Components are 1-Lipschitz, even in pruned programs
+// (for the proof, see pruning/prune.hpp). So their gradients are within ±1 even where the enclosures of the
+// instructions are wider.
 Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
     Enclosure e = last_[o.value];
     for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
@@ -185,13 +184,13 @@ Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
 
 std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
-    // A fold of space may jump, and then it has no gradient.
+    // A fold of space may jump, in which case it has no gradient.
     if (context_.has_folds && std::ranges::any_of(program.code, [](const Instruction& in) { return is_fold(in.op); }))
         return std::nullopt;
     if (size > longest_enclosed && (size > 4 * longest_enclosed || !has_local_primitive(program))) return std::nullopt;
     enclose_values(program);
 
-    // The margin is for the rounding error of a value in a ray's evaluation and for that of the value at the centre.
+    // The margin covers the rounding error of a value evaluated for a ray and that of the value at the centre.
     const double margin = 2 * static_cast<double>(context_.value_error);
     const std::span<float> low = scratch_.allocate<float>(size), high = scratch_.allocate<float>(size);
     const auto set = [&](std::size_t i, const Range& v) {
@@ -200,7 +199,7 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     };
     for (std::uint32_t i = 0; i < size; ++i) {
         const Range& v = last_[i].value;
-        if (!(v.low <= v.high)) return std::nullopt;  // The value is not a number somewhere.
+        if (!(v.low <= v.high)) return std::nullopt;  // The value is NaN somewhere.
         set(i, v);
     }
     for (const ProgramOutput& o : program.outputs) set(o.value, enclosure_of_output(o).value);

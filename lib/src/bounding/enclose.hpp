@@ -17,33 +17,33 @@ using rewriting::RequiredOfLocal, rewriting::Specialisation;
 struct AffinePoint;
 struct NearlyLinear;
 
-/// What is known of the interfaces in a box besides the ranges of values.
+/// What is known about the interfaces in a box, apart from the ranges of values.
 struct InterfaceBounds {
     LinearBound bound;
     Curvature curvature;
-    Bounds box;                                    ///< around the interfaces; empty if no ray can meet one
-    std::span<const CertificateStep> certificate;  ///< for phases of rays in which the curvature is not bounded
+    Bounds box;                                    ///< encloses the interfaces; empty if no ray can meet one
+    std::span<const CertificateStep> certificate;  ///< for rays in phases in which the curvature is unbounded
     std::span<const Specialisation> specialisations;
 };
 
-/// Programs of more instructions are not enclosed, because that would take longer than it saves; those with local
+/// Programs with more instructions are not enclosed, because that would take longer than it saves. Programs with local
 /// primitives, for which it saves more, are enclosed up to four times this length.
 inline constexpr std::size_t longest_enclosed = 64;
 
 /// Encloses the values of programs in a box (bounding/enclosed_program.hpp) by interval arithmetic with gradients and
-/// curvatures, which bounds them better than Lipschitz bounds in a ball around the box do. If a program is what pruning
-/// has left of the one before it, the enclosures of its primitives are taken from that.
+/// curvatures. The bounds are tighter than those from Lipschitz bounds in a ball around the box. If a program results
+/// from pruning the previous one, the enclosures of its primitives are reused.
 class Encloser {
   public:
-    /// What is allocated in `scratch` must stay as long as any result is used. `around` holds the specialisations that
-    /// local primitives had in a box around this one, and `required` how far up their values are required in this one;
-    /// of those that it does not name all are.
+    /// Memory allocated in `scratch` must live as long as any result is used. `around` contains the specialisations
+    /// that local primitives had in the surrounding box. `required` contains the upper limits up to which their values
+    /// are required in this box; primitives that it does not list are required everywhere.
     Encloser(const ProgramContext&, const Bounds& box, std::span<const Specialisation> around,
              std::span<const RequiredOfLocal> required, Arena& scratch);
 
-    /// The ranges of a program's values. Nothing for a program that is too long or that folds space.
+    /// The ranges of a program's values. Nothing if the program is too long or folds space.
     std::optional<ValueRanges> value_ranges(const WorkingProgram&);
-    /// The rest, of the program whose ranges were asked for last.
+    /// The bounds of the interfaces of the program last passed to value_ranges().
     InterfaceBounds interface_bounds() const;
 
   private:
@@ -70,7 +70,7 @@ class Encloser {
     const AffinePoint* point_of_box_;
     std::span<const Specialisation> around_;
     std::span<const RequiredOfLocal> required_;
-    // These are of the last program.
+    // Of the last program:
     EnclosedProgram last_;
     Enclosure* registers_ = nullptr;
     std::span<const Specialisation> specialisations_;

@@ -19,13 +19,14 @@ using rewriting::Arena, rewriting::Specialisation;
 
 /// The specialisation of a local primitive in the box in which it is enclosed.
 struct SpecialisationInBox {
-    std::span<const float> around;  ///< the data of its specialisation in a box around this one, or empty
+    std::span<const float> around;  ///< the data of its specialisation in the surrounding box, or empty
     Arena& scratch;
     double farthest = std::numeric_limits<double>::infinity();  ///< larger values are not required
-    Specialisation found{};                                     ///< what enclosing has found; its data are in `scratch`
+    Specialisation found{};                                     ///< the specialisation found by enclosing; its data are
+                                                                ///< in `scratch`
 };
 
-/// The value of a local primitive at the centre of a region, by its specialisation there if there is one.
+/// The value of a local primitive at the centre of a region, from its specialisation there if it has one.
 template <AnyLocalPrimitive P>
 float value_by_specialisation(const float* constants, const Region& at, SpecialisationInBox& specialisation) {
     std::vector<float> floats;
@@ -43,17 +44,20 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
     return P::Specialised::distance(found.data.data(), at.point());
 }
 
-/// The enclosure of a long primitive. Noise has an enclosure of its own, and a network has one inside of its cube,
-/// beyond which points are projected onto the cube (Siren::Network). The few pieces of a mesh in a small box bound its
-/// gradient, and so do few voxels, with more of which the values' range is known; few balls are enclosed one by one. Of
-/// all others (an image, Voronoi cells), and of those elsewhere, only the value at the centre is used and that their
-/// slope is at most 1 in their own space.
+/// The enclosure of a long primitive:
+///  - Noise has its own enclosure. So has a network inside its cube; beyond the cube, points are projected onto it
+///    (Siren::Network).
+///  - The few mesh pieces in a small box bound the gradient, and so do a few voxels. More voxels only bound the range
+///    of values.
+///  - A few balls are enclosed one by one.
+///  - For all others (images, Voronoi cells), and for the above elsewhere, only the value at the centre is used,
+///    together with the Lipschitz bound of 1 in their own space.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
     const Region at(q);
     if constexpr (std::is_same_v<P, Siren::Network>) {
-        // The second number of a network's data is half of the cube's side.
+        // The second number of a network's data is half the side of the cube.
         const auto half_of_cube = static_cast<double>(constants[1]);
         if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.half_extents), at);
     }
@@ -86,7 +90,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     return Enclosure(value, values, slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }
 
-/// The enclosure of any other primitive, by its equation.
+/// The enclosure of any other primitive, from its equation.
 template <class P>
 Enclosure enclose_primitive(const float* constants, const Vec3<Enclosure>& q) {
     const Enclosure e = program::distance_of<P>(constants, q);

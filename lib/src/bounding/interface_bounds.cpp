@@ -1,5 +1,5 @@
-// What follows from the enclosures of a program's values for the interfaces in a box: how much they curve, the plane to
-// which they keep, the box around them, and how their sign is certified.
+// Derives bounds of the interfaces in a box from the enclosures of a program's values: their curvature, a linear bound,
+// a box around them, and a certificate of their sign.
 #include <cmath>
 
 #include "bounding/cut.hpp"
@@ -9,10 +9,10 @@
 
 namespace phasetree::bounding {
 
-// The bounds of the curvature of s, the distance within which the label stays the same. There are two choices of s
-// (Routine::is_by_own): minus the label's own component, whose curvature is at most minus the lower bound of that
-// component's; or the minimum of the other components, which curves upward no more than the most curved of them. The
-// choice with the smaller sum of bounds is taken.
+// The bounds of the curvature of s, the distance within which the label is constant. There are two definitions of s
+// (Routine::is_by_own). One is minus the label's own component, whose curvature is at most minus the lower bound of
+// that component's curvature. The other is the minimum of the other components, which curves upwards no more than the
+// most curved of them. The definition with the smaller sum of bounds is chosen.
 Curvature Encloser::curvature() const {
     const std::span<const ProgramOutput> outputs = last_.program.outputs;
     // Index 0 is for rays in the phase of the first output, 1 for rays in any other. `by_others` bounds the curvature
@@ -36,13 +36,13 @@ Curvature Encloser::curvature() const {
     for (std::size_t i = 0; i < 2; ++i) result.bound[i] = rounded_up(result.is_by_own ? by_own[i] : by_others[i]);
     result.is_by_first =
         is_shared || std::ranges::none_of(outputs.subspan(1), [&](const ProgramOutput& o) { return is_clear(o); });
-    if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In the first phase s is minus the first component.
-    // Where the first component alone tells where rays may be, it is s in the other phases.
+    if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In the first phase, s is minus the first component.
+    // Where the first component alone determines where rays may be, it is s in the other phases.
     if (result.is_by_first) result.bound[1] = rounded_up(of_first);
     return result;
 }
 
-// The linear bound of the field f about the origin of coordinates, in floats.
+// The linear bound of the field f in floats, relative to the origin of coordinates.
 LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& f) const {
     LinearBound bound;
     if (!(linear.slack < 1e30)) return bound;
@@ -50,17 +50,17 @@ LinearBound Encloser::linear_bound(const NearlyLinear& linear, const Enclosure& 
     const float largest_coordinate = std::max({farthest.x, farthest.y, farthest.z});
     for (int i = 0; i < 3; ++i) bound.normal[i] = static_cast<float>(linear.normal[static_cast<std::size_t>(i)]);
     bound.offset = static_cast<float>(linear.at_centre - glm::dot(glm::dvec3(bound.normal), glm::dvec3(box_.centre())));
-    // The last summand is for the rounding error of normal·p + offset.
+    // The last term covers the rounding error of normal·p + offset.
     bound.slack =
         static_cast<float>(linear.slack) * (1 + 1e-6f) + 3 * context_.value_error + 1e-6f * largest_coordinate;
-    // Directions of rays are of unit length to within 10⁻⁵.
+    // Ray directions have unit length to within 10⁻⁵.
     bound.spread = static_cast<float>(linear.spread(f, half_)) * (1 + 1e-3f) + 1e-5f;
     return bound;
 }
 
-// A box around the zeros of the first component, by its own linear bound. That leaves a slab, and if half the slab's
-// thickness is less than 15 % of the box's extent along the normal, it is enough. Otherwise the zeros are also bounded
-// by those of the values that the component is made of.
+// A box around the zeros of the first component, from its own linear bound. This leaves a slab, which is enough if half
+// the slab's thickness is less than 15 % of the box's extent along the normal. Otherwise, the zeros are also bounded by
+// those of the values from which the component is computed.
 Bounds Encloser::box_around_interface(const NearlyLinear& linear, const LinearBound& bound) const {
     const PlaneCut plane(linear, box_.centre(), cut_margin(box_, context_.value_error));
     const Bounds box = plane.at(0, LaneBox(box_)).bounds();
@@ -70,14 +70,14 @@ Bounds Encloser::box_around_interface(const NearlyLinear& linear, const LinearBo
 
 InterfaceBounds Encloser::interface_bounds() const {
     const std::span<const ProgramOutput> outputs = last_.program.outputs;
-    const Enclosure f = enclosure_of_output(outputs[0]);  // This is the first component, except for its sign.
+    const Enclosure f = enclosure_of_output(outputs[0]);  // the first component, except for its sign
     const NearlyLinear linear(f, half_);
     InterfaceBounds result;
     result.specialisations = specialisations_;
     result.curvature = curvature();
     result.bound = linear_bound(linear, f);
     result.box = box_;
-    // If the other phases are opaque, the only interfaces that rays can meet are zeros of the first component.
+    // If all other phases are opaque, rays can only meet zeros of the first component.
     if (result.curvature.is_by_first) result.box = box_around_interface(linear, result.bound);
     if (result.box.empty()) return result;
 

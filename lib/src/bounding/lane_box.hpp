@@ -8,7 +8,7 @@
 
 namespace phasetree::bounding {
 
-/// A box in two vector registers, for code whose time goes into cutting boxes. Along the fourth axis, which pads the
+/// A box in two vector registers, for code that spends its time cutting boxes. Along the fourth axis, which pads the
 /// registers, it is the interval [0, 0]. The default is the empty box.
 struct LaneBox {
     using Lanes [[gnu::vector_size(16)]] = float;

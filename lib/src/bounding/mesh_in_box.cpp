@@ -15,11 +15,11 @@ using mesh::Edge, mesh::Face, mesh::PieceList, mesh::Vertex;
 
 namespace {
 
-// Gradients within this angle of an axis differ from it by a chord of 1 at most. With a wider cone their ranges would
-// hold 0 along every coordinate, and say little more than that the field is 1-Lipschitz.
+// Gradients within this angle of an axis differ from it by a chord of at most 1. For a wider cone, the ranges would
+// include 0 along every coordinate, and say little more than that the field is 1-Lipschitz.
 constexpr double widest = std::numbers::pi / 3;
 
-// Calls f(normal, largest angle to a face about the piece) for each piece.
+// Calls f(normal, largest angle to a face adjacent to the piece) for each piece.
 template <class F>
 void for_each_normal(const float* data, F&& f) {
     const float* piece = data + PieceList::head;
@@ -59,7 +59,7 @@ std::optional<FieldInBox> mesh_in_box(const float* pieces, const PointRange& at)
     FieldInBox field;
     field.value = static_cast<double>(centre.value());
     field.curvature = is_one_face(pieces) ? Range{} : Range::all();
-    // A unit vector within the angle of the axis differs from it by a chord at most. Normals are rounded to floats.
+    // A unit vector within this angle of the axis differs from it by at most a chord. Normals are rounded to floats.
     const double chord = 2 * std::sin(angle / 2) + 1e-6;
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);

@@ -10,18 +10,18 @@ namespace phasetree::bounding {
 
 using enclosure::Enclosure, enclosure::Range;
 
-/// A linear function and a bound of how far a field f departs from it in a box:
+/// A linear function and an upper bound of the deviation of a field f from it in a box:
 ///     |f(p) − (at_centre + normal·(p − centre))| ≤ slack.
-/// It is a LinearBound in doubles and about the box's centre. There are two ways to find it, and the smaller slack is
-/// taken: the mean value theorem with the middle of the gradient's range as the normal, or Taylor's formula of first
-/// order, with the gradient at the centre and the bounds of the second derivative. If nothing is known of the gradient,
-/// the slack is infinite.
+/// It is a LinearBound in doubles, relative to the box's centre. There are two ways to find it, and the one with the
+/// smaller slack is chosen. One is the mean value theorem, with the middle of the gradient's range as the normal. The
+/// other is Taylor's formula of first order, with the gradient at the centre and the bounds of the second derivative.
+/// If nothing is known about the gradient, the slack is infinite.
 struct NearlyLinear {
     Enclosure::Vector normal{};
     double at_centre, slack;
-    bool is_by_curvature = false;  ///< whether it is by Taylor's formula
+    bool is_by_curvature = false;  ///< whether Taylor's formula was used
 
-    /// `half` holds the box's half extents.
+    /// `half` contains the box's half extents.
     NearlyLinear(const Enclosure& f, const Enclosure::Vector& half) : at_centre(f.centre), slack(0) {
         double by_gradient = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -44,7 +44,7 @@ struct NearlyLinear {
         at_centre += 0.5 * (above - below);
         slack = 0.5 * (above + below);
     }
-    /// A bound of the distance of the gradient from the normal.
+    /// An upper bound of the distance of the gradient from the normal.
     double spread(const Enclosure& f, const Enclosure::Vector& half) const {
         double squared = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ struct NearlyLinear {
     }
 };
 
-/// Narrows the value's range to what a linear bound allows in a box of these half extents.
+/// Narrows the value's range to what a linear bound allows in a box with these half extents.
 inline void tighten_by_linear_bound(Enclosure& f, const Enclosure::Vector& half) {
     const NearlyLinear linear(f, half);
     double half_width = linear.slack;

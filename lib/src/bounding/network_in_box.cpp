@@ -16,8 +16,8 @@ using kernel::absolute_lane, kernel::network_lanes;
 namespace {
 
 // A neuron's Taylor polynomial: its value and its 3 first, 6 second and 10 third partial derivatives, in the order xx,
-// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is a bound of the fourth derivatives;
-// a layer combines it with the weights' absolute values.
+// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is an upper bound of the fourth
+// derivatives, which a layer combines using the absolute values of the weights.
 struct alignas(64) Jet {
     std::array<double, network_lanes> all;
 
@@ -53,18 +53,18 @@ Range eigenvalues(const double* h) {
     if (!(p > 0)) return {mean, mean};
     const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     const double angle = std::acos(std::clamp(determinant / (2 * p * p * p), -1.0, 1.0)) / 3;
-    const double rounding_error = 1e-7 * (p + std::abs(mean));  // Near ±1 acos has half of the digits.
+    const double rounding_error = 1e-7 * (p + std::abs(mean));  // near ±1, acos has half of the digits
     return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3) - rounding_error,
             mean + 2 * p * std::cos(angle) + rounding_error};
 }
 
-// Replaces the polynomial of z by that of sin z, in a box of this radius.
+// Replaces the polynomial of z with that of sin z, in a box of this radius.
 void activate(Jet& z, double radius) {
     const double q = z.fourth();
     const double sine = std::sin(z.value()), cosine = std::cos(z.value());
     double *first = z.first(), *second = z.second(), *third = z.third();
     const double n1 = norm1(first), n2 = norm2(second), n3 = norm3(third);
-    // These are the bounds t, k and g of the third, second and first derivative in the box (see the header).
+    // The bounds t, k and g of the third, second and first derivatives in the box (see the header).
     const double t = n3 + radius * q;
     const double k = n2 + radius * (n3 + radius / 2 * q);
     const double g = n1 + radius * (n2 + radius / 2 * (n3 + radius / 3 * q));
@@ -119,7 +119,7 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
     FieldInBox result;
     result.value = f.value();
     for (std::size_t i = 0; i < 3; ++i) {
-        // A symmetric multilinear form is largest where all its arguments are equal (Banach, 1938), so a bound along
+        // A symmetric multilinear form is largest where all its arguments are equal (Banach, 1938). So a bound along
         // lines also bounds the mixed derivatives.
         double change = fourth * radius * radius * radius / 6;
         for (std::size_t j = 0; j < 3; ++j) {

@@ -8,11 +8,11 @@
 
 namespace phasetree::bounding {
 
-/// Cuts boxes to where a nearly linear field f can be below, at or above a threshold, by
+/// Cuts boxes to where a nearly linear field f can be below, at or above a threshold. f satisfies
 ///     |f(p) − (at_middle + normal·(p − middle))| ≤ slack.
-/// The part of a box in a half-space is bounded along each axis by itself: a point is farthest along that axis if its
-/// other coordinates lower f as much as they can. If nothing is known of f, the slack is infinite or NaN, and boxes
-/// stay as they are.
+/// The part of a box in a half-space is bounded along each axis separately: a point is farthest along that axis if its
+/// other coordinates lower f as much as they can. If nothing is known about f, the slack is infinite or NaN, and boxes
+/// are not cut.
 class PlaneCut {
   public:
     PlaneCut() = default;

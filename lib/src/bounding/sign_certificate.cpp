@@ -15,7 +15,7 @@ using rewriting::Threshold;
 
 namespace {
 
-// A curvature of this size or more counts as unbounded.
+// Curvatures of at least this size count as unbounded.
 constexpr double unbounded = 1e30;
 
 // The upper half of a float's bits, rounded up.
@@ -50,14 +50,14 @@ class Certifier {
                 return add_operands(in, sign, tau,
                                     is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
             case Op::corner:
-                // Up to 0 it is the maximum; above 0 it is no less than either operand.
+                // Up to 0 it equals the maximum; above 0 it is at least as large as either operand.
                 if (tau <= 0)
                     return add_operands(in, sign, tau,
                                         is_above ? PackedCertificateStep::either : PackedCertificateStep::both);
                 return is_above ? add_operands(in, sign, tau, PackedCertificateStep::either_one_way)
                                 : add_leaf(v, sign, tau);
             case Op::smooth_minimum:
-                // It is no more than either operand.
+                // It is at most as large as either operand.
                 return is_above ? add_leaf(v, sign, tau)
                                 : add_operands(in, sign, tau, PackedCertificateStep::either_one_way);
             case Op::absolute:
@@ -83,7 +83,7 @@ class Certifier {
     }
     bool add_leaf(std::uint32_t v, double sign, double tau) {
         const Range& curvature = enclosed_[v].curvature;
-        // The kernel needs leaves that are 1-Lipschitz, so a steeper value is scaled down.
+        // The kernel needs 1-Lipschitz leaves, so steeper values are scaled down.
         const double factor = 1 / std::max(1.0, static_cast<double>(enclosed_.program.lipschitz[v]));
         const auto bound = [&](double upward) {
             return upward < unbounded ? static_cast<float>(std::max(upward, 0.0) * factor) * (1 + 1e-3f)
@@ -91,7 +91,7 @@ class Certifier {
         };
         const float up = bound(curvature.high), down = bound(-curvature.low);
         has_bounded_leaf_ = has_bounded_leaf_ || up < Bounds::infinity || down < Bounds::infinity;
-        // With the sign −1 the leaf is minus the value, whose second derivatives have these bounds exchanged.
+        // With the sign −1, the leaf is minus the value, so the bounds of its second derivatives are exchanged.
         const bool is_above = sign > 0;
         return push({PackedCertificateStep::leaf, v, static_cast<float>(tau), static_cast<float>(sign * factor),
                      is_above ? up : down, is_above ? down : up});

@@ -10,12 +10,12 @@ struct ValueRanges {
     std::span<const float> slope;  ///< a Lipschitz bound of each value in the box
     EnclosedProgram enclosed;
     std::array<double, 3> half;  ///< the box's half extents, rounded up
-    double margin;               ///< a bound of the rounding error of one value
+    double margin;               ///< an upper bound of the rounding error of one value
 
     float low(std::uint32_t i) const { return lows[i]; }
     float high(std::uint32_t i) const { return highs[i]; }
-    /// Whether a − b > least is proven for the whole box: by the two ranges, by an enclosure of the difference, or, at
-    /// most `depth` times, by the operands of minima and maxima.
+    /// Whether a − b > least is proven for the whole box: from the two ranges, from an enclosure of the difference, or,
+    /// recursively up to `depth` levels, from the operands of minima and maxima.
     bool is_above(std::uint32_t a, std::uint32_t b, float least, int depth = 1) const;
 };
 

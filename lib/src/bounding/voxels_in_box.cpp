@@ -13,19 +13,19 @@ using voxels::Table;
 
 namespace {
 
-// Boxes in which more voxels count are bounded by their blocks.
+// In a box with more relevant voxels, their blocks give the bounds.
 constexpr int most_voxels = 512;
 
-// The voxels that count in a box, as the first and the last along each axis.
+// The voxels that are relevant in a box, as the first and the last along each axis.
 struct Counted {
     std::array<int, 3> first, last;
-    std::array<bool, 3> is_beyond;  // whether the box goes beyond where the field changes along the axis
+    std::array<bool, 3> is_beyond;  // whether the box extends beyond where the field varies along the axis
 
     Counted(const float* data, const PointRange& box, bool is_spline) {
         for (std::size_t i = 0; i < 3; ++i) {
             const auto spacing = 1 / static_cast<double>(data[voxels::inverse_spacing + i]);
             const double centre = (box.centre[i] - static_cast<double>(data[voxels::first + i])) / spacing;
-            // A coordinate in voxels is rounded as a float.
+            // Coordinates in voxels are rounded to floats.
             const double half_extent = box.half_extents[i] / spacing + 1e-6 * (std::abs(centre) + 64);
             const auto size = static_cast<double>(data[voxels::size + i]);
             const double beyond = is_spline ? 0.5 : 0;
@@ -34,11 +34,11 @@ struct Counted {
                          high = std::clamp(centre + half_extent, 0.0, size - 1);
             const double lowest = is_spline ? std::floor(low + 0.5) - 1 : std::floor(low);
             const double highest = std::floor(is_spline ? high + 0.5 : high) + 1;
-            // A spline also has the copies next to the border voxels, where the differences are zero.
+            // A spline also uses the copies next to the border voxels, where the differences are zero.
             const double copies = is_spline ? 1 : 0;
             first[i] = static_cast<int>(std::max(lowest, -copies));
             last[i] = static_cast<int>(std::min(highest, size - 1 + copies));
-            // At the border the last cell of two voxels goes on.
+            // At the border, the last cell of two voxels is extrapolated.
             if (!is_spline) first[i] = std::max(std::min(first[i], static_cast<int>(size) - 2), 0);
         }
     }
@@ -60,7 +60,7 @@ Range range_of_blocks(const Table& table, const Counted& counted) {
     return values;
 }
 
-// The values of the voxels that count, and the ranges of their differences.
+// The values of the relevant voxels, and the ranges of their differences.
 class Differences {
   public:
     Differences(const Table& table, const Counted& counted) : counted_(counted) {
@@ -102,7 +102,8 @@ class Differences {
     }
 
   private:
-    // The range of f at all voxels behind which so many voxels count as it needs; [0, 0] if there are none.
+    // The range of f over all voxels that have the required number of relevant voxels after them; [0, 0] if there are
+    // none.
     template <class F>
     Range over(const std::array<int, 3>& needs, const F& f) const {
         Range range{Range::most, -Range::most};
@@ -121,9 +122,9 @@ class Differences {
     std::array<int, 3> stride_{};
 };
 
-// Of the eigenvalues of a symmetric matrix whose entries are in these ranges (Gershgorin's circles).
+// The range of the eigenvalues of a symmetric matrix whose entries are in these ranges (Gershgorin's circles).
 Range eigenvalues(const std::array<Range, 3>& diagonal, const std::array<Range, 3>& others) {
-    // others[i] is the entry that is in neither the row nor the column i.
+    // others[i] is the entry that is in neither row i nor column i.
     Range all{Range::most, -Range::most};
     for (std::size_t i = 0; i < 3; ++i) {
         double radius = 0;
@@ -144,7 +145,7 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
     const Differences differences(table, counted);
     FieldInBox field;
     field.values = differences.values();
-    // The values of the field are rounded as its equation rounds.
+    // Round the values of the field as its equation does.
     const double rounding_error = 4e-7 * field.values.magnitude();
     field.values = {field.values.low - rounding_error, field.values.high + rounding_error};
     std::array<double, 3> inverse;

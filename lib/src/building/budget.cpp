@@ -9,9 +9,9 @@ namespace phasetree::building {
 
 namespace {
 
-// A number from 1 to 4 that is another one for each box, by a hash of its centre. Among boxes that are all alike, as
-// those of a pattern are, a falling least saving would divide first none and then all; divided by this number, their
-// savings differ, and some come before others.
+// A number from 1 to 4 that differs from box to box: a hash of the box's centre. Where boxes are all alike, as in a
+// pattern, lowering the least saving would first divide none of them and then all. Divided by this number, their
+// savings differ, so that only some are divided.
 float tie_breaker(const Bounds& box) {
     const glm::vec3 c = box.centre();
     std::uint64_t hash = 0;

@@ -8,12 +8,12 @@ namespace phasetree::building {
 
 using rewriting::ProgramContext;
 
-/// What all steps of a build know and none of them changes. Lengths are in the scene's unit of length.
+/// Constant data of a build, shared by all its steps. Lengths are in scene units.
 struct BuildContext {
     const CellOptions& options;
     BuildProgress& progress;
     ProgramContext program;
-    float reach;  ///< how far beyond a cell's share of space its program must be right
+    float reach;  ///< how far beyond a node's box its program must be valid
     float size;   ///< the diagonal of the object's bounds
 };
 

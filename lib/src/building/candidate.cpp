@@ -17,17 +17,18 @@ using rewriting::ArenaScope, rewriting::finest_spacing, rewriting::has_grid, rew
 
 namespace {
 
-// Of a box that is cut, what is left is enclosed again if its surface is less than this share of that before.
+// If cutting a box reduces its surface to less than this fraction, the rest is enclosed again.
 constexpr float much_smaller = 0.7f;
-// A ray that crosses a box as large as a fold's period is expected to pass this many interfaces of its copies: it
-// enters and leaves one in each of about two copies.
+// The number of interfaces of a fold's copies that a ray is expected to meet in a box as large as the fold's period: it
+// enters and leaves one interface in each of about two copies.
 constexpr float copies_in_period = 4;
-// The work, in simple instructions, of the few operations by which the lists of parts of several phases are joined to a
+// The work, in simple instructions, of the few operations that combine the lists of parts of several phases into a
 // program's outputs.
 constexpr float work_of_joining = 24;
-// Lists of parts are much of a program's work if they are at least a quarter of it, what joins them left aside.
+// Lists of parts count as much of a program's work if they are at least this fraction of it, without the operations
+// that combine them.
 constexpr float least_share_of_work = 0.25f;
-// A box less than this times as large as a part has lists that are short enough, for few parts are near it.
+// In a box smaller than this many times a part, lists are short enough, because few parts are near it.
 constexpr float few_parts = 1.5f;
 
 // Finds the cell that a node could become.
@@ -41,23 +42,23 @@ class CandidateSearch {
           region_(node.box.inflated(context.reach)),
           encloser_(context.program, region_, node.specialisations, node.required, worker.scratch) {}
 
-    // The candidate with what is left of a program; nothing if no ray can meet an interface in the box.
+    // The candidate for what is left of a program; nothing if no ray can meet an interface in the box.
     //
-    // The program is enclosed and pruned in turn, as long as pruning deletes something, for the enclosures of what is
-    // left are tighter. Then the box is cut to the interfaces, and if that leaves much less of it, all begins again in
-    // what is left of the box.
+    // Enclosing and pruning alternate as long as pruning deletes something, because the enclosures of what is left are
+    // tighter. Then the box is cut to the interfaces. If that shrinks it considerably, everything is repeated in the
+    // smaller box.
     std::optional<Candidate> find(const WorkingProgram& program) {
-        constexpr int most_rounds = 3;  // Rounds after pruning and rounds after a cut are counted together.
+        constexpr int most_rounds = 3;  // Rounds after pruning and after a cut count together.
         Candidate cell{program, {region_}};
         Encloser* encloser = &encloser_;
         for (int round = 0;; ++round) {
             const std::optional<ValueRanges> ranges = encloser->value_ranges(cell.program);
-            if (!ranges) break;  // The program is too long to be enclosed, or folds space.
+            if (!ranges) break;  // The program is too long to enclose, or folds space.
             const auto pruned = prune(cell.program, *ranges, context_.program, worker_.arenas());
             if (!pruned) return std::nullopt;
-            // A program of the same length is taken for the same program. It may have a cheaper operation or a smaller
-            // slope, which is not worth another round; the one that was enclosed is right, too. After the last round
-            // pruning still says whether anything is left.
+            // Treat a program of the same length as the same program. It may have a cheaper operation or a smaller
+            // slope, which is not worth another round; the enclosed one is correct, too. After the last round, pruning
+            // still decides whether anything is left.
             const bool is_all_left = pruned->code.size() == cell.program.code.size() &&
                                      pruned->outputs.size() == cell.program.outputs.size();
             if (!is_all_left && round < most_rounds) {
@@ -74,7 +75,7 @@ class CandidateSearch {
     }
 
   private:
-    // Takes over what is known of the interfaces of a cell, and cuts its box. False if there are none.
+    // Stores what is known of the interfaces in a cell, and cuts its box to them. False if there are none.
     bool apply(const InterfaceBounds& interface, Candidate& cell) {
         cell.facts.bound = interface.bound;
         cell.facts.curvature = interface.curvature;
@@ -86,23 +87,23 @@ class CandidateSearch {
         cell.facts.box = intersect(cell.facts.box, interface.box.inflated(context_.reach));
         return !interface.box.empty() && !cell.facts.box.empty();
     }
-    // Whether the program is worth being enclosed again in what is left of the box. That is not done with local
-    // primitives, because the node's children start from the specialisations in the node's whole box.
+    // Whether enclosing the program again in the cut box is worthwhile. It is not done with local primitives, because
+    // the node's children start from the specialisations in the node's whole box.
     bool is_much_smaller(const Candidate& cell, const Bounds& before) const {
         return surface(cell.facts.box) < much_smaller * surface(before) &&
                !(context_.program.has_local_primitives && has_local_primitive(cell.program));
     }
-    // An encloser for a smaller box in the region. It extends beyond the box by the reach, in which programs must be
-    // right.
+    // An encloser for a smaller box in the region. It extends beyond the box by the reach, within which programs must
+    // be valid.
     Encloser* narrower_encloser(const Bounds& box) {
         return std::construct_at(worker_.scratch.allocate<Encloser>(1).data(), context_.program,
                                  intersect(region_, box.inflated(context_.reach)), std::span<const Specialisation>(),
                                  std::span<const RequiredOfLocal>(), worker_.scratch);
     }
     void price(Candidate& cell) const {
-        // A ray passes through many of the copies of a fold, and through many blocks of a pattern of which nothing is
-        // known in the box. So the cost is multiplied by the expected numbers of copies and of blocks.
-        // Components have slopes of at most 1, so a linear bound that is off by 1 tells nothing of them.
+        // A ray passes many of the copies of a fold, and many blocks of a pattern about which nothing is known in the
+        // box. So the cost is multiplied by the expected numbers of copies and blocks. Components have slopes of at
+        // most 1, so a linear bound with a spread of 1 says nothing about them.
         const bool has_blocks = std::isfinite(node_.pattern_period) && !(cell.facts.bound.spread < 1) &&
                                 (has_local_primitive(cell.program) || has_grid(cell.program));
         const float blocks = has_blocks ? std::max(1.f, size_ / node_.pattern_period) : 1.f;
@@ -114,15 +115,15 @@ class CandidateSearch {
         const float of_parts = work_of_parts(cell.program, cell.specialisations);
         if (!is_searched && of_parts >= least_share_of_work * (cell.work.all - work_of_joining))
             cell.work_of_parts = of_parts;
-        // Lists in small boxes are short unless what is wanted is far from the parts, as a wide wall around a mesh is;
-        // and then smaller boxes would be very many.
+        // Lists in small boxes are short, unless the interface is far from the parts, as with a thick wall around a
+        // mesh; then there would be a great many smaller boxes.
         cell.is_searched = is_searched && size_ > few_parts * finest_spacing(cell.program, context_.program.constants);
     }
 
-    // Whether a primitive of many parts has no list of those that matter.
+    // Whether a primitive of many parts lacks a list of the parts that matter.
     bool has_search(const Candidate& cell) const {
         const std::span<const Instruction> code = cell.program.code;
-        for (std::uint32_t i = 1; i < code.size(); ++i)  // the instruction 0 is the point
+        for (std::uint32_t i = 1; i < code.size(); ++i)  // instruction 0 is the point
             if (program::traits(code[i].op).has_many_parts &&
                 std::ranges::find(cell.specialisations, i, &Specialisation::value) == cell.specialisations.end())
                 return true;
@@ -132,7 +133,7 @@ class CandidateSearch {
     const BuildNode& node_;
     const BuildContext& context_;
     Worker& worker_;
-    float size_;     // of the node's box, which is cut once the first candidate has been found
+    float size_;     // of the node's box, which is cut once the first candidate is found
     Bounds region_;  // the node's box, inflated by the reach of its cells
     Encloser encloser_;
 };
@@ -151,10 +152,10 @@ bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
     node.box = intersect(node.box, whole->facts.box);
     if (node.box.empty()) return false;
     if (!context.program.has_far_bounds) return true;
-    // A cell may be cheaper without far bounds. The node keeps them, since they may be of use to its children.
+    // A cell may be cheaper without far bounds. The node keeps them, because its children may need them.
     if (const auto near = without_far_bounds(node.program, context.program, worker.arenas())) {
         const auto other = search.find(*near);
-        if (!other) return false;  // It has the same signs, and is proven to have no interface in the box.
+        if (!other) return false;  // It has the same signs, and provably no interface in the box.
         if (other->cost < node.cell.cost) node.cell = *other;
     }
     return true;

@@ -14,41 +14,42 @@ using rewriting::RequiredOfLocal, rewriting::Specialisation;
 /// A cell that a box could become.
 struct Candidate {
     WorkingProgram program;
-    CellFacts facts{};  ///< its box is around the interfaces, and may be smaller than the one it was made for
+    CellFacts facts{};  ///< its box encloses the interfaces, and may be smaller than the node's box
     std::span<const CertificateStep> certificate{};
     std::span<const Specialisation> specialisations{};
     Work work{};
     float cost = 0;
-    /// Whether each sample in it is a search among many parts (PrimitiveOfParts), because too many matter in the box,
-    /// and the box is so large that few will in smaller ones.
+    /// Whether each sample is a search among many parts (PrimitiveOfParts). This is so if too many parts matter in the
+    /// box, and the box is so large that fewer will matter in smaller ones.
     bool is_searched = false;
-    /// The work of its lists of balls or of pieces of a mesh (PrimitiveOfParts), if that is much of all its work and
-    /// none of them is searched; else 0.
+    /// The work of its lists of balls or of mesh pieces (PrimitiveOfParts), if that is a large part of its work and
+    /// none of them is searched; otherwise 0.
     float work_of_parts = 0;
 };
 
-/// A box of the recursive subdivision, with what is left of the object's program in it.
+/// A box of the recursive subdivision, with the part of the object's program that is left in it.
 struct BuildNode {
     Bounds box;
     WorkingProgram program;
-    std::span<const Specialisation> specialisations{};  ///< in this box; until prepare(), in the box around it
+    std::span<const Specialisation> specialisations{};  ///< in this box; before prepare(), in the parent's box
     std::span<const RequiredOfLocal> required{};        ///< of local primitives, in this box
     int depth = 0;
-    /// How many divisions in a row have had no gain. The count starts again at a box that is divided in any case.
+    /// The number of consecutive divisions without a gain. The count restarts at a box that is always divided.
     int futile_divisions = 0;
     SubdivisionPolicy policy{};
-    /// The cost of the cells here divided by that of the box around it from which on no division has saved a fifth.
+    /// The cost of the cells here, divided by that of the ancestor since which no division has saved a fifth.
     float cost_ratio = 1;
-    float fold_period = Bounds::infinity;     ///< the smallest period of the folds that still may jump: finest_jump()
+    float fold_period = Bounds::infinity;     ///< the smallest period of the folds that may still jump: finest_jump()
     float pattern_period = Bounds::infinity;  ///< the size of the smallest features of patterns: finest_pattern()
-    /// What a trial has found of boxes as small as that, here or in a box around this one; nothing without a trial.
+    /// The result of a trial for boxes as small as a pattern's features, made here or for an ancestor; nothing without
+    /// a trial.
     std::optional<bool> is_small_cheaper{};
-    double share = 1;  ///< about how much of the whole build the subdivision of this box is
-    Candidate cell{};  ///< what the box becomes if it is not divided
+    double share = 1;  ///< approximate share of this box's subdivision in the whole build
+    Candidate cell{};  ///< the cell that the box becomes if it is not divided
 };
 
 /// Prunes a node's program in its box, cuts the box to the interfaces, and finds the cell that it could become. False
-/// if no ray can meet an interface there. What is kept is in the worker's arena of programs.
+/// if no ray can meet an interface there. Results are allocated in the worker's arena of programs.
 bool prepare(BuildNode&, const BuildContext&, Worker&);
 
 }  // namespace phasetree::building

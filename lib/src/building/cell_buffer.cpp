@@ -65,7 +65,8 @@ CellBuffer& CellBuffers::last() {
 void CellBuffers::append(CellBuffers& more) {
     for (CellBuffer& buffer : more.buffers_)
         if (!buffer.cells.empty()) {
-            // What is unused of a vector that has grown, or was made as large as the one before it, may be half of it.
+            // Up to half of a vector's capacity may be unused, because it has grown, or was made as large as the
+            // previous one.
             buffer.for_each_vector(buffer.mark(), [](auto& vector, std::size_t) { vector.shrink_to_fit(); });
             buffers_.push_back(std::move(buffer));
         }

@@ -14,7 +14,7 @@ using kernel::Curvature, kernel::LinearBound;
 using program::ProgramOutput;
 using rewriting::WorkingProgram;
 
-/// Cells in the order in which they were found, with their programs. It is a stack: the last cells can be discarded.
+/// Cells with their programs, in the order in which they were found. It is a stack: the last cells can be discarded.
 struct CellBuffer {
     /// A cell, whose program and certificate are ranges of the vectors below.
     struct Cell {
@@ -22,7 +22,7 @@ struct CellBuffer {
         LinearBound bound;
         Curvature curvature;
         std::uint32_t first_instruction = 0, instructions = 0;
-        std::uint32_t leading = 0;  ///< how many of the instructions compute the first component (Routine::leading)
+        std::uint32_t leading = 0;  ///< the number of instructions that compute the first component (Routine::leading)
         std::uint32_t first_output = 0, outputs = 0;
         std::uint32_t first_certificate_step = 0, certificate_steps = 0;
     };
@@ -32,21 +32,21 @@ struct CellBuffer {
     std::vector<CertificateStep> certificates;
     std::vector<float> specialised_data;  ///< the data of specialised instructions
 
-    /// The sizes of these vectors at some time.
+    /// The sizes of these vectors at some point.
     struct Mark {
         std::size_t cells, code, outputs, certificates, specialised_data;
     };
     Mark mark() const {
         return {cells.size(), code.size(), outputs.size(), certificates.size(), specialised_data.size()};
     }
-    /// About how many bytes the cells between two marks take as long as they exist, Embree's tree over them included:
-    /// as they were found; their boxes and bounds again; their routines, or those that they share; and the unused
-    /// capacity of vectors and tables.
+    /// The approximate number of bytes that the cells between two marks take during their lifetime, including Embree's
+    /// tree over them. It consists of the cells as found; another copy of their boxes and bounds; their routines, or
+    /// those that they share; and the unused capacity of vectors and tables.
     static std::size_t bytes(const Mark& from, const Mark& to);
     void discard_from(const Mark&);
     void reserve(const Mark&);
 
-    /// Appends a cell. `cell` gives its box and what is known in it; its other members are set here.
+    /// Appends a cell. `cell` contains its box and what is known in it; this function sets its other members.
     void add(Cell cell, const WorkingProgram&, std::span<const CertificateStep>);
 
     std::span<const Instruction> code_of(const Cell& c) const {
@@ -65,7 +65,7 @@ struct CellBuffer {
     void for_each_vector(const Mark&, F&&);
 };
 
-/// A sequence of buffers, to which those of other workers can be appended without a copy of their cells.
+/// A sequence of buffers. Those of other workers can be appended without copying their cells.
 class CellBuffers {
   public:
     struct Mark {
@@ -74,9 +74,9 @@ class CellBuffers {
     };
     Mark mark() const { return {buffers_.size(), buffers_.back().mark()}; }
     void discard_from(const Mark&);
-    /// The buffer for the next cell. When it is full a new one is begun, because a vector that grows moves all it has.
+    /// The buffer for the next cell. Starts a new one when it is full, because a growing vector moves its contents.
     CellBuffer& last();
-    /// Takes all cells of another, which is then empty.
+    /// Takes all cells of another sequence, leaving it empty.
     void append(CellBuffers&);
     std::size_t cells() const;
     auto begin() { return buffers_.begin(); }
@@ -88,7 +88,7 @@ class CellBuffers {
     std::vector<CellBuffer> buffers_ = std::vector<CellBuffer>(1);
 };
 
-/// Indices are kept in 32 bits. No table of cells has 2³² entries, because a budget is at most 64 GB (cells/data.cpp).
+/// Indices have 32 bits. No table of cells has 2³² entries, because a budget is at most 64 GiB (cells/data.cpp).
 inline std::uint32_t narrow(std::size_t n) {
     return static_cast<std::uint32_t>(n);
 }

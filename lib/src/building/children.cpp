@@ -18,8 +18,8 @@ using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::readable_step
 
 namespace {
 
-// Evaluates a node's program at the centres of boxes, one in each lane. The result reads lane 0, which has the values
-// for the first box; Children::prepare() reads the lanes of the others.
+// Evaluates a node's program at the centres of boxes, one per lane. The result reads lane 0, which holds the values for
+// the first box; Children::prepare() reads the lanes of the others.
 ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
     SharedConstants& constants = worker.pool.constants();
     std::size_t count = 0;

@@ -12,16 +12,17 @@ using rewriting::ArenaScope, rewriting::LiveSet;
 
 namespace {
 
-// The cost of an instruction, in halves of that of a simple one.
+// The cost of an instruction, in halves of a simple one.
 unsigned half_instructions(const Instruction& in, std::span<const float> constants) {
     const OpTraits& t = traits(in.op);
     return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
                         : t.half_instructions;
 }
 
-// How many batches a visit takes on average for rays on one side of the interface, whose curvature has this bound.
+// The average number of batches per visit for rays on one side of the interface, given the bound of the curvature
+// there.
 float batches(const CellFacts& cell, const LinearBound& bound, float curvature_bound, bool has_certificate) {
-    // Where no linear bound is known, the slack counts three times as much as the largest that is known, which is 1.
+    // An unknown slack counts three times as much as the largest known one, which is 1.
     float slack = 3, spread = 1;
     if (bound.slack < Bounds::infinity) {
         const float thickness = 0.5f * glm::dot(glm::abs(bound.normal), cell.box.extent());
@@ -54,10 +55,10 @@ Work work(const WorkingProgram& program, std::span<const float> constants,
     return {all, all - 0.5f * static_cast<float>(others)};
 }
 
-// Half of the rays are assumed to be in the first phase and half in the others; all of them in the first if the others
-// are opaque, and none if it is opaque itself. Where more than two phases meet, rays in the first phase evaluate its
-// component alone, and the whole program once where they leave it; but that is expected only of the vacuum and of a
-// phase that is alone clear.
+// Assumes that half of the rays are in the first phase and half in the others; all are in the first if the others are
+// opaque, and none if the first is opaque. Where more than two phases meet, rays in the first phase evaluate its
+// component alone, and the whole program once, where they leave it. This is expected only of the vacuum, and of a phase
+// that is the only clear one.
 float cost(const CellFacts& cell, const WorkingProgram& program, const Work& work, PhaseSet opaque) {
     const float all = cost_model::batch + cost_model::instruction * work.all;
     const auto is_opaque = [&](const ProgramOutput& o) { return opaque.contains(o.phase); };

@@ -3,57 +3,58 @@
 #include "kernel/linear_bound.hpp"
 #include "rewriting/specialise.hpp"
 
-/// The surface area heuristic for cells: what rays are expected to spend in a cell. The number of rays that enter a box
-/// is proportional to its surface, and each of them pays for entering the cell and for batches of samples that are as
-/// long as the cell's program:
-///     cost = surface · (visit + batches · (batch + instruction · work)),
-/// where the number of batches is larger the less is known of the field. A box that is divided costs traversal ·
-/// surface and what its children cost.
+/// The surface area heuristic for cells: the expected time that rays spend in a cell. The number of rays that enter a
+/// box is proportional to its surface. Each of them pays for entering the cell and for batches of samples, whose cost
+/// depends on the cell's program:
+///     cost = surface · (visit + batches · (batch + instruction · work)).
+/// The less is known about the field, the more batches there are. A divided box costs traversal · surface plus the cost
+/// of its children.
 ///
-/// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they serve only to compare a
-/// box with the cells that it could be divided into. The constants were measured (benchmarks/experiments.md).
+/// Costs are in nanoseconds times an area, up to a common factor. They are rough, because they only serve to compare a
+/// box with the cells into which it could be divided. The constants were measured (benchmarks/experiments.md).
 namespace phasetree::building {
 
 using kernel::Curvature, kernel::LinearBound;
 using rewriting::Arena, rewriting::Specialisation, rewriting::WorkingProgram;
 
 namespace cost_model {
-// These are in nanoseconds.
-/// Of one more node of Embree's hierarchy, which stands for a box that is divided.
+// In nanoseconds:
+/// visiting one more node of Embree's hierarchy, for a box that is divided
 inline constexpr float traversal = 12;
-inline constexpr float visit = 60;          ///< of entering a cell
-inline constexpr float batch = 25;          ///< of a batch of samples,
-inline constexpr float instruction = 2.4f;  ///< and of each simple instruction in it
-// These count batches.
-inline constexpr float batches_of_linear_field = 1.8f;   ///< where the field is linear
-inline constexpr float batches_by_slack = 0.7f;          ///< more, times the share of the box within the bound's slack
-inline constexpr float batches_by_spread = 3;            ///< more, times the variation of the gradient
-inline constexpr float batches_with_certificate = 0.5f;  ///< more where curvature is known by a certificate alone
-inline constexpr float batches_without_curvature = 2;    ///< more where nothing is known of curvature
-/// How many rays start at an interface for each unit of its area. (A ray that enters a box passes its surface twice.)
+inline constexpr float visit = 60;          ///< entering a cell
+inline constexpr float batch = 25;          ///< a batch of samples
+inline constexpr float instruction = 2.4f;  ///< each simple instruction in a batch
+// In batches:
+inline constexpr float batches_of_linear_field = 1.8f;   ///< for a linear field
+inline constexpr float batches_by_slack = 0.7f;          ///< additional, times the share of the box within the slack
+inline constexpr float batches_by_spread = 3;            ///< additional, times the variation of the gradient
+inline constexpr float batches_with_certificate = 0.5f;  ///< additional where only a certificate bounds the curvature
+inline constexpr float batches_without_curvature = 2;    ///< additional where nothing is known of the curvature
+/// The number of rays that start at an interface, per unit of its area. (A ray that enters a box passes its surface
+/// twice.)
 inline constexpr float starting_rays = 0.5f;
 }  // namespace cost_model
 
-/// How much work a batch is, in simple instructions: of all of a program, and of its first component alone, which
-/// differs if more than two phases meet.
+/// The work of a batch in simple instructions: for the whole program, and for its first component alone, which differs
+/// if more than two phases meet.
 struct Work {
     float all = 0, first = 0;
 };
 Work work(const WorkingProgram&, std::span<const float> constants, std::span<const Specialisation>, Arena& scratch);
 
-/// Half of a box's surface, to which the number of rays that enter it is proportional.
+/// Half of a box's surface, which is proportional to the number of rays that enter it.
 inline float surface(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// About the area of one interface across a box.
+/// The approximate area of one interface across a box.
 inline float interface_area(const Bounds& box) {
     const glm::vec3 e = box.extent();
     return std::max({e.x * e.y, e.y * e.z, e.z * e.x});
 }
 
-/// What the cost of a cell depends on besides its program.
+/// What the cost of a cell depends on, apart from its program.
 struct CellFacts {
     Bounds box{};
     LinearBound bound{};

@@ -1,6 +1,6 @@
-// The recursive subdivision. Whether a box is divided is decided from below, as in the construction of a bounding
-// volume hierarchy by the surface area heuristic: the box becomes one cell unless the cells of its children cost less
-// (cost_model.hpp). What decides whether to go further down is a bound of what that can save.
+// The recursive subdivision. Decisions are made bottom-up, as when building a bounding volume hierarchy by the surface
+// area heuristic: a box becomes one cell unless the cells of its children cost less (cost_model.hpp). How deep to go
+// depends on a bound of the possible saving.
 #include "building/divide.hpp"
 
 #include <tbb/parallel_for.h>
@@ -25,32 +25,32 @@ using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::first_compone
 
 namespace {
 
-// Progress is reported down to this depth; what is below is done soon. A share is reported once: when a box at this
-// depth is done, or, above this depth, when a box becomes a cell without a trial or when no ray can meet an interface
-// in any of its children.
+// Progress is reported down to this depth; what lies deeper takes little time. Each share is reported exactly once. At
+// this depth, that is when a box is done. Above it, that is when a box becomes a cell without a trial, or when no ray
+// can meet an interface in any of its children.
 constexpr int reported_depth = 5;
-// Down to this depth the children of a box are divided in parallel.
+// Down to this depth, the children of a box are divided in parallel.
 constexpr int parallel_depth = 3;
 
-// A division counts as a gain if it leaves less than this share of the cost.
+// A division counts as a gain if it reduces the cost below this fraction.
 constexpr float gain = 0.8f;
 
-// A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because rays pay
-// for each search far more than the division takes; unless fewer divisions than usual are wanted, as for a first look,
-// which has few rays.
+// A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because each
+// search costs rays far more than the division. This does not apply if fewer divisions than usual are requested, as for
+// a preview, which has few rays.
 constexpr int more_divisions_of_searches = 3;
 int more_divisions(const Candidate& cell, const CellOptions& options) {
     return cell.is_searched && options.deepest >= CellOptions().deepest ? more_divisions_of_searches : 0;
 }
 
-// What cells cost together, and about how much area of interfaces is in them.
+// The total cost of cells, and the approximate area of the interfaces in them.
 struct CellCosts {
     float all = 0, interface_area = 0;
 };
 
 CellCosts divide(const BuildNode&, const BuildContext&, Worker&);
 
-// Makes a node one cell.
+// Turns a node into one cell.
 CellCosts add_cell(const BuildNode& node, Worker& worker) {
     const ArenaScope programs(worker.programs), scratch(worker.scratch);
     const Candidate& cell = node.cell;
@@ -61,8 +61,8 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
     FirstComponentFirst ordered{program};
     if (program.outputs.size() > 2) {
         ordered = first_component_first(program, worker.arenas());
-        // If the first component takes nearly all of the work, as a neural field does, rays evaluate the whole program
-        // at once and know their labels.
+        // If the first component takes nearly all of the work, as in a neural field, rays evaluate the whole program at
+        // once and so know their labels.
         if (cell.work.all < 1.03f * cell.work.first) ordered.leading = narrow(program.code.size() - 1);
     }
     const std::span<CertificateStep> certificate = worker.scratch.copy(cell.certificate);
@@ -82,7 +82,7 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
-    // Lists of millions would be divided until they took all memory there is. A ray gains little by shorter ones than
+    // Lists of millions of parts would be divided until memory is exhausted. Rays gain little from lists shorter than
     // this, and there are eight times as many of them (benchmarks/experiments.md).
     constexpr float short_list = 192;
     constexpr int divided_in_any_case = 3;  // levels
@@ -90,14 +90,14 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
         cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
     const int deepest = context.options.deepest + more_divisions(cell, context.options);
     const bool is_small = diagonal < 64 * context.reach;
-    // is_worth_dividing() must come last, because it notes the saving that it refuses: that of a box which would be
+    // is_worth_dividing() must come last, because it records the saving that it rejects: that of a box which would be
     // divided if there were more memory.
     return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= deepest || is_small ||
            has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
            !budget.is_worth_dividing(node.box, cell.cost - least);
 }
 
-// Finds the cells of a node: itself, or those of its children if they cost less.
+// Finds the cells of a node: either the node itself, or the cells of its children if they cost less.
 CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker& worker) {
     if (is_final(node, context, worker.pool.budget())) {
         if (node.depth <= reported_depth) context.progress.add(node.share);
@@ -108,20 +108,20 @@ CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker&
     CellCosts divided = divide(node, context, worker);
     if (node.depth == reported_depth) context.progress.add(node.share);
     divided.all += cost_model::traversal * surface(node.box);
-    // Rays also start at the interfaces. A single cell is assumed to have one interface across it; if the children have
+    // Rays also start at interfaces. A single cell is assumed to have one interface across it. If the children have
     // found more, more rays start in it than its cost accounts for.
     const Bounds& box = node.cell.facts.box;
     const float excess_area = std::max(0.f, divided.interface_area - interface_area(box));
     const float starting = cost_model::starting_rays * excess_area / surface(box);
-    // The cost takes a ray to pass one interface or two in a cell. Where a cell has many balls or pieces of a mesh it
-    // passes many, or stops at the first, and cells of few are better in any case.
+    // The cost assumes that a ray passes one or two interfaces in a cell. In a cell with many balls or mesh pieces it
+    // passes many, or stops at the first. Then, cells with few parts are always better.
     if (node.cell.is_searched || divided.all < node.cell.cost * (1 + starting)) return divided;
     worker.cells.discard_from(before);
     worker.account.reset_to(bytes_before);
     return add_cell(node, worker);
 }
 
-// The division of one node: its children, and who finds their cells.
+// The division of one node: its children, and the workers that find their cells.
 class Division {
   public:
     Division(const BuildNode& node, const BuildContext& context, Worker& worker)
@@ -133,7 +133,7 @@ class Division {
     CellCosts run() {
         for_each_child([&](std::size_t i, Worker& own) { children_.prepare(i, own); });
         left_count_ = children_.left_count();
-        // If a child is left, the shares of the children are reported instead, each where its cells are found.
+        // If a child is left, the shares of the children are reported instead, where their cells are found.
         if (left_count_ == 0 && node_.depth < reported_depth) context_.progress.add(node_.share);
         cost_ratio_ = node_.cost_ratio * children_.cost() / node_.cell.cost;
 
@@ -154,8 +154,8 @@ class Division {
     }
 
   private:
-    // Calls f with each child's number and the worker that finds its cells. In parallel each child has a worker of its
-    // own, so the cells are in the order of the children, whichever thread finds them.
+    // Calls f with each child's index and the worker that finds its cells. In parallel, each child has its own worker,
+    // so the cells are in the order of the children, whichever thread finds them.
     template <class F>
     void for_each_child(F&& f) {
         if (!borrowed_.empty())
@@ -174,8 +174,8 @@ class Division {
     }
     // Whether a box is so large that its division need not save anything yet.
     bool is_too_coarse(const BuildNode& child) const {
-        // Endless copies repeat an object whose features are smaller than the period of the fold. So boxes are measured
-        // by that period, and not by the size of the whole.
+        // Endless copies repeat an object whose features are smaller than the period of the fold. So boxes are compared
+        // with that period instead of the size of the whole.
         const float large =
             std::isfinite(child.fold_period) ? 0.25f * child.fold_period : child.policy.large * context_.size;
         const float diagonal = child.box.diagonal();
@@ -185,11 +185,11 @@ class Division {
         return child.cell.is_searched || diagonal > large ||
                (is_uneven && diagonal > child.policy.fine * context_.size);
     }
-    // Whether nothing is known of a pattern until boxes are smaller than its features, and it is worth going there. A
-    // trial tells the latter, once for a box and all in it, if that is many divisions away.
+    // Whether nothing is known about a pattern until boxes are smaller than its features, and dividing down to that
+    // size is worthwhile. If it takes many divisions, a trial decides, once for a box and everything in it.
     bool may_show_pattern(BuildNode& child, Worker& own) const {
         if (!is_pattern_unknown(child)) return false;
-        constexpr float far = 32;  // times as large as boxes in which the pattern is known
+        constexpr float far = 32;  // times the size of boxes in which the pattern is known
         const bool is_far = child.box.diagonal() > far * known_share_of_period * child.pattern_period;
         if (is_far && !child.is_small_cheaper) child.is_small_cheaper = may_gain_by_known_pattern(child, context_, own);
         return child.is_small_cheaper.value_or(true);
@@ -201,7 +201,7 @@ class Division {
     Children children_;
     std::ptrdiff_t left_count_ = 0;
     float cost_ratio_ = 1;                        // BuildNode::cost_ratio after this division
-    std::vector<WorkerPool::Borrowed> borrowed_;  // one for each child; none if they are not divided in parallel
+    std::vector<WorkerPool::Borrowed> borrowed_;  // one per child; none if they are not divided in parallel
 };
 
 // Finds the cells of the children of a node.
@@ -222,8 +222,8 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     Worker worker{pool};
     if (!prepare(root, context, worker)) return {};
     // The root is divided whenever the budget allows, without a comparison with a single cell, because boxes that are
-    // large relative to the object always are (SubdivisionPolicy). Its saving is taken to be all of its cost. A budget
-    // for a single cell (divide_within.cpp) refuses that and so learns where savings begin.
+    // large relative to the object always are (SubdivisionPolicy). Its saving is taken to be its whole cost. A budget
+    // for a single cell (divide_within.cpp) rejects that, and so finds where savings begin.
     if (budget.is_worth_dividing(root.box, root.cell.cost))
         divide(root, context, worker);
     else

@@ -1,8 +1,8 @@
-// Cells within a budget of memory. First they are built without regard to it. If that exceeds the budget, they are
-// built again from the coarse side: first one cell; then only boxes are divided whose division saves much, then also
-// those that save less, as long as the memory suffices. Each attempt takes about twice the memory and the time of the
-// one before, so all of them together take about twice the time of the last. Each also tells about what the next will
-// take, so that few of them are in vain.
+// Builds cells within a memory budget. The first attempt divides without restriction. If it exceeds the budget, the
+// cells are built again from coarse to fine: first a single cell; then only boxes whose division saves a lot are
+// divided; then also boxes that save less, as long as memory suffices. Each attempt takes about twice the memory and
+// time of the previous one, so all of them together take about twice the time of the last. Each attempt also predicts
+// the needs of the next, so that few fail.
 #include "building/divide_within.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 // The factor by which the least saving falls from one attempt to the next.
 class ReductionFactor {
   public:
-    // Chooses the factor such that memory will about double. With the last factor it grew by `growth`.
+    // Chooses the factor so that memory about doubles. With the last factor, it grew by `growth`.
     void adapt(double growth) {
         const double doubling = growth > 1.01 ? std::pow(factor_, std::numbers::ln2 / std::log(growth)) : largest;
         last_growth_ = growth;

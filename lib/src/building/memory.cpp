@@ -1,5 +1,5 @@
-// How much memory there is for cells. Linux limits a group of processes, a container for one, by files
-// (https://docs.kernel.org/admin-guide/cgroup-v2.html, memory.max; before that memory.limit_in_bytes).
+// Determines how much memory is available for cells. Linux limits a group of processes, such as a container, through
+// files (https://docs.kernel.org/admin-guide/cgroup-v2.html, memory.max; in version 1, memory.limit_in_bytes).
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -18,15 +18,15 @@ namespace {
 
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-// The number in a file; no limit if there is no file or no number ("max").
+// The number in a file; no limit if the file is missing or contains no number ("max").
 std::uint64_t limit_in(const std::filesystem::path& file) {
     std::uint64_t bytes = 0;
     std::ifstream in(file);
     return in >> bytes ? bytes : no_limit;
 }
 
-// The smallest limit among those of a group and of all groups around it. In a container the mounted root is its own
-// group, and the path may be unknown.
+// The smallest limit of a group and all its ancestors. In a container, the mounted root is the container's own group,
+// and the path may not exist there.
 std::uint64_t limit_of_group(const std::filesystem::path& root, const std::string& path, const char* file) {
     std::uint64_t least = limit_in(root / file);
     std::filesystem::path group = root;
@@ -37,7 +37,7 @@ std::uint64_t limit_of_group(const std::filesystem::path& root, const std::strin
     return least;
 }
 
-// A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" of the first version.
+// A line of /proc/self/cgroup is "0::/path", or "4:memory:/path" in version 1.
 std::uint64_t limit_of_groups() {
     std::uint64_t least = no_limit;
     std::ifstream groups("/proc/self/cgroup");

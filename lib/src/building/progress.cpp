@@ -7,7 +7,7 @@ namespace phasetree::building {
 void BuildProgress::add(double share) {
     if (!callback_) return;
     const double done = done_of_attempt_.fetch_add(share, std::memory_order_relaxed) + share;
-    // If another thread is reporting, nobody waits for it: the next report includes this share.
+    // If another thread is reporting, do not wait: the next report includes this share.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock.owns_lock()) report(done);
 }

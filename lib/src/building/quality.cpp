@@ -6,7 +6,7 @@ namespace phasetree::building {
 
 float required_saving(BuildQuality quality, const BoxKind& box) {
     const float size = box.relative_size;
-    // A share that grows with the inverse fourth power of the size; at the size `small` it has doubled.
+    // A share that grows with the inverse fourth power of the size; it has doubled at the size `small`.
     const auto share_by_fourth_power = [&](float of_large_boxes, float small) {
         const float square = (small / size) * (small / size);
         return of_large_boxes * (1 + square * square);

@@ -6,7 +6,7 @@
 
 namespace phasetree::building {
 
-/// The boxes into which a box is divided: it is halved along its longest axis and along each other axis that is not
+/// The boxes into which a box is divided: it is halved along its longest axis, and along each other axis that is not
 /// much shorter.
 struct SubBoxes {
     static constexpr std::size_t most = 8;

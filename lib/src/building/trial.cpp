@@ -11,7 +11,7 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The child of middle cost among those that are left, of which there must be one.
+// The child of median cost among those that are left, of which there must be one.
 const BuildNode& middle_child(Children& children) {
     std::array<const BuildNode*, SubBoxes::most> left{};
     std::size_t count = 0;
@@ -22,8 +22,7 @@ const BuildNode& middle_child(Children& children) {
     return *left[count / 2];
 }
 
-// See may_gain_by_known_pattern(). The ratio is what the divisions down to this node cost, divided by what one cell
-// instead of them costs.
+// See may_gain_by_known_pattern(). The ratio is the cost of the divisions down to this node, relative to a single cell.
 bool may_gain(const BuildNode& node, float ratio, const BuildContext& context, Worker& worker) {
     const ArenaScope programs(worker.programs), scratch(worker.scratch);
     Children children(node, context, worker);

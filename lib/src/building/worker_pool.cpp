@@ -6,7 +6,7 @@ namespace phasetree::building {
 
 SharedConstants::SharedConstants(std::span<const float> of_program)
     : count_(of_program.size()),
-      // What is not used of the room costs no memory, for it is not written to.
+      // The unused part of this room costs no memory, because it is never written.
       memory_(std::make_unique_for_overwrite<float[]>(of_program.size() + room * workers_with_room)) {
     std::ranges::copy(of_program, memory_.get());
 }
@@ -28,7 +28,7 @@ WorkerPool::Borrowed WorkerPool::borrow() {
         const std::scoped_lock lock(mutex_);
         if (idle_.empty()) {
             number = ++count_;
-            idle_.reserve(count_);  // There must be room for it already when it is given back, which may not fail.
+            idle_.reserve(count_);  // Reserve room now, because giving a worker back must not fail.
         } else {
             worker = std::move(idle_.back());
             idle_.pop_back();

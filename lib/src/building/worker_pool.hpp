@@ -15,16 +15,17 @@ using rewriting::Arena, rewriting::Arenas;
 
 class WorkerPool;
 
-/// The constants of an object's program, which may be millions of balls, once for all workers of a build. Behind them
-/// each worker has room for the data of specialised instructions, because a routine takes all constants from one array.
+/// The constants of an object's program, shared by all workers of a build; they may be millions of balls. After them,
+/// each worker has room for the data of specialised instructions, because a routine takes all constants from a single
+/// array.
 class SharedConstants {
   public:
     explicit SharedConstants(std::span<const float> of_program);
 
-    /// An array of the constants with these behind them; it is valid until the worker asks again. If there is too
-    /// little room, it is made in `own`.
+    /// An array of the constants followed by `more`, valid until the worker's next call. If there is too little room,
+    /// it is built in `own`.
     const float* with(std::span<const float> more, std::size_t worker, std::vector<float>& own);
-    /// The index in that array of the first of these.
+    /// The index of the first appended constant in that array.
     std::uint32_t first_behind(std::size_t worker, std::size_t count) const {
         return narrow(fits(worker, count) ? count_ + worker * room : count_);
     }
@@ -37,29 +38,29 @@ class SharedConstants {
     std::unique_ptr<float[]> memory_;
 };
 
-/// The memory with which the cells of one part of the object are found, and those that have been found. It is not a
-/// thread: which part a worker has is fixed by the subdivision, and any one thread at a time runs it.
+/// The memory for finding the cells of one part of the object, and the cells found. It is not a thread: the subdivision
+/// determines which part a worker gets, and one thread at a time runs it.
 struct Worker {
     WorkerPool& pool;
     Arena programs{}, scratch{};
     CellBuffers cells{};
     MemoryAccount account{};           ///< of these cells
-    std::size_t number = 0;            ///< among the workers of the build
-    std::vector<float> specialised{};  ///< the data of the specialised instructions of the program that is evaluated
-    std::vector<float> constants{};    ///< used only where SharedConstants have no room
+    std::size_t number = 0;            ///< its number among the workers of the build
+    std::vector<float> specialised{};  ///< data of the specialised instructions of the program being evaluated
+    std::vector<float> constants{};    ///< used only if SharedConstants has no room
 
     Arenas arenas() { return {programs, scratch}; }
 };
 
-/// Workers that are used again and again, because the system takes longer to map new memory for a small part of an
-/// object than its cells take. Any thread may borrow one.
+/// Reuses workers, because mapping new memory for a small part of an object would take longer than finding its cells.
+/// Thread-safe.
 class WorkerPool {
   public:
     WorkerPool(CellBudget& budget, std::span<const float> constants) : constants_(constants), budget_(budget) {}
     CellBudget& budget() const { return budget_; }
     SharedConstants& constants() { return constants_; }
 
-    /// A worker that is given back at the end of a scope.
+    /// A worker that is returned to the pool at the end of a scope.
     class Borrowed {
       public:
         Borrowed(WorkerPool& pool, std::unique_ptr<Worker> worker) : pool_(&pool), worker_(std::move(worker)) {}
@@ -87,7 +88,7 @@ class WorkerPool {
     SharedConstants constants_;
     CellBudget& budget_;
     std::mutex mutex_;
-    std::size_t count_ = 0;  ///< how many workers there are, besides the first
+    std::size_t count_ = 0;  ///< the number of workers besides the first
     std::vector<std::unique_ptr<Worker>> idle_;
 };
 

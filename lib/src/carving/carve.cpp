@@ -1,9 +1,9 @@
-// Which planes bound a solid well. What makes them certain is in support.cpp; here directions are chosen, and no choice
-// can be wrong, only poor.
+// Chooses planes that bound a solid tightly. support.cpp guarantees that the planes are valid; this file only chooses
+// directions, so a choice may be poor but never wrong.
 //
-// First come the six sides of a box. Then the solid's own flat sides: rays are traced by spheres onto it from all
-// around, and normals that several of them meet are directions. Then corners are cut off: of the polyhedron so far the
-// corner that is farthest from the solid is cut by a plane across the way from the solid to it.
+// First come the six sides of a box. Then come the solid's own flat sides: rays are sphere-traced onto it from all
+// around, and normals found by several rays become directions. Finally, corners are cut off: the corner of the current
+// polyhedron that is farthest from the solid is cut by a plane perpendicular to the direction from the solid to it.
 #include "phasetree/carving/carve.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using carving::BallBatch, carving::EmptyBalls, carving::Support, carving::suppor
 
 namespace {
 
-// Directions nearer to each other than this (5°) count as one.
+// Directions closer to each other than this (5°) count as the same.
 constexpr double same_direction = 0.9962;
 constexpr std::size_t rays = 96, longest_walk = 96;
 
@@ -60,12 +60,13 @@ class Carver {
     }
 
   private:
-    // How many evaluations are left; none if there is nothing to look for.
+    // The number of evaluations left; 0 if the solid is empty.
     std::size_t left() const {
         if (is_empty_) return 0;
         return options_.most_evaluations - std::min(options_.most_evaluations, field_.evaluations());
     }
-    // The height of a plane across d. Of what is left, no direction gets more than twice an even share of all.
+    // The height of a plane perpendicular to d. No direction gets more than twice an even share of the remaining
+    // evaluations.
     double support(const glm::dvec3& d) {
         const auto planes = static_cast<std::size_t>(
             options_.directions.empty() ? options_.most_planes : static_cast<int>(options_.directions.size()) + 6);
@@ -76,7 +77,7 @@ class Carver {
         return r.height;
     }
 
-    // Sides are rounded outward to floats.
+    // Rounds the sides outwards to floats.
     void carve_box() {
         for (int side = 0; side < 6 && !is_empty_; ++side) {
             glm::dvec3 d(0);
@@ -159,7 +160,7 @@ class Carver {
     }
 
     void cut_corners() {
-        std::vector<glm::dvec3> done;  // corners that nothing cuts
+        std::vector<glm::dvec3> done;  // corners that no plane cuts off
         while (count() < options_.most_planes && left() > 0) {
             const auto corners = ConvexPolyhedron(box_, planes_).mesh().corners;
             std::vector<std::pair<double, glm::dvec3>> far;
@@ -181,7 +182,8 @@ class Carver {
             if (!cut(next->second)) done.push_back(next->second);
         }
     }
-    // By a plane across the way from the solid, or else across that from the middle. Whether one takes it off.
+    // Cuts a corner off with a plane perpendicular to the direction from the solid, or otherwise to the direction from
+    // the middle. Returns whether one of them succeeds.
     bool cut(const glm::dvec3& corner) {
         for (const glm::dvec3& way : {field_.gradient(corner), corner - glm::dvec3(box_.centre())}) {
             if (!(glm::length(way) > 1e-3 * tolerance_) || left() == 0) continue;
@@ -201,7 +203,7 @@ class Carver {
         half.normal[axis] = sign;
         return half;
     }
-    // Those that have a face; all of them around a solid so thin that there are no faces.
+    // The planes that have a face; all planes if the solid is so thin that there are no faces.
     std::vector<HalfSpace> planes_that_matter(const ConvexPolyhedron& solid) const {
         std::vector<HalfSpace> all;
         for (const ConvexPolyhedron::Face& face : solid.faces())
@@ -218,7 +220,7 @@ class Carver {
     Bounds box_;
     std::vector<HalfSpace> planes_;
     bool is_within_tolerance_ = true;
-    bool is_empty_ = false;  // certainly
+    bool is_empty_ = false;  // proven to be empty
 };
 
 void check(const CarveOptions& options) {
@@ -263,7 +265,7 @@ Field as_field(const CarvedBounds& carved) {
     if (carved.box.empty()) throw ModelError("there is nothing within the carved bounds");
     Polyhedron node;
     for (const HalfSpace& h : carved.planes) {
-        // Rounded outward: a normal's rounding moves the plane by no more than this within the box.
+        // Round outwards: rounding a normal moves the plane by no more than this within the box.
         double farthest = 0;
         for (int i = 0; i < 8; ++i) farthest = std::max(farthest, glm::length(glm::dvec3(carved.box.corner(i))));
         node.normals.emplace_back(h.normal);

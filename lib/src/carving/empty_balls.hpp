@@ -1,5 +1,5 @@
-// What is certain of a field from its values alone: around a point where a 1-Lipschitz field is r > 0 there is a ball
-// of radius r without anything of the solid {f ≤ 0}.
+// Proves regions empty from a field's values alone: around a point where a 1-Lipschitz field is r > 0, a ball of radius
+// r contains nothing of the solid {f ≤ 0}.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace phasetree::carving {
 
-/// A ball that is certainly empty, about a point of floats; or, if the radius is not positive, a point that may be
-/// anything. `is_solid` points are of the solid.
+/// A ball about a point of floats that is proven empty. If the radius is not positive, nothing is known about the
+/// point, except that it belongs to the solid if `is_solid` is set.
 struct Ball {
     glm::dvec3 centre{0};
     double radius = 0;
@@ -19,7 +19,7 @@ struct Ball {
 };
 using BallBatch = std::array<Ball, batch_size>;
 
-/// Evaluates a field at eight points at a time, and counts.
+/// Evaluates a field at eight points at a time, and counts the evaluations.
 class EmptyBalls {
   public:
     EmptyBalls(const Field& field, const Bounds& box, const CarveOptions& options)
@@ -49,14 +49,14 @@ class EmptyBalls {
         }
         return balls;
     }
-    /// The direction in which the field grows; no unit vector.
+    /// The direction in which the field grows; not normalised.
     glm::dvec3 gradient(const glm::dvec3& p) const { return glm::dvec3(evaluator_.gradient(glm::vec3(p), Phase{1})); }
 
     std::size_t evaluations() const { return evaluations_; }
 
   private:
-    /// More than the error of a value at p: as of values that are traced (src/trace/prepare.cpp), 10⁻⁶ of the farthest
-    /// coordinate that it may depend on.
+    /// An upper bound of the error of a value at p. As for traced values (src/trace/prepare.cpp), it is 10⁻⁶ of the
+    /// farthest coordinate on which the value may depend.
     double rounding_error_at(const glm::dvec3& p) const {
         return 1e-6 * std::max({farthest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }

@@ -1,15 +1,15 @@
-// The support of a solid along a direction d, the maximum of d·p over it, from empty balls.
+// Computes the support of a solid along a direction d, the maximum of d·p over it, from empty balls.
 //
-// Space is divided into beams along d, of rectangular section, each with a *top*: above it nothing of the solid is in
-// the beam. At first the top is that of the box. A ball of radius r about a point of the beam's axis covers the whole
-// section, whose corners are ρ from the axis, so far to either side of it:
+// Space is divided into beams along d with rectangular cross-sections. Each beam has a *top*, above which it contains
+// nothing of the solid. Initially, the top is that of the box. A ball of radius r about a point at height c on the
+// beam's axis covers the whole cross-section, whose corners are ρ from the axis, between the
 //
-//     heights c − √(r² − ρ²) to c + √(r² − ρ²),  if r > ρ.
+//     heights c − √(r² − ρ²) and c + √(r² − ρ²),  if r > ρ.
 //
-// If that comes up to the top, the top falls to its lower end. So a beam is walked downward as a ray is traced by
-// spheres. Near a face that lies across d large balls from far above are the best: a ball that touches the face comes
-// as near to it as ρ²/2r all over the section. Once no ball brings the top further down, the beam is divided in two
-// along its longer side. The beam with the highest top is always the next; its top bounds the solid, at any time.
+// If that range reaches up to the top, the top falls to its lower end. So a beam is walked downwards like a ray in
+// sphere tracing. Near a face perpendicular to d, large balls from far above work best: a ball that touches the face
+// stays within ρ²/2r of it all over the cross-section. Once no ball lowers the top further, the beam is divided in two
+// along its longer side. The beam with the highest top is always processed next; at any time, its top bounds the solid.
 #include "carving/support.hpp"
 
 #include <glm/geometric.hpp>
@@ -42,11 +42,11 @@ struct Beam {
     bool operator<(const Beam& o) const { return top < o.top; }
 };
 
-// Where the balls are tried, above the top as multiples of the half diagonal.
+// The positions of the trial balls above the top, in multiples of the half diagonal.
 constexpr std::array<double, batch_size - 1> above{0, 0.5, 1, 2, 6, 20, 60};
 
-// Lowers the beam's top as far as eight balls prove. The last of them is tried just below the top, where the solid may
-// be met; `seen` rises to the height of what is met.
+// Lowers the beam's top as far as eight balls prove. The last ball is tried just below the top, where it may meet the
+// solid; `seen` rises to the height of such a point.
 void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, double& seen) {
     std::array<glm::dvec3, batch_size> points;
     const double rho = beam.half_diagonal();
@@ -56,7 +56,7 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
     for (bool is_lower = true; is_lower;) {
         is_lower = false;
         for (const Ball& ball : balls) {
-            // Rounded to floats the centre is a little off the axis.
+            // Rounding to floats moves the centre slightly off the axis.
             const glm::dvec3 at = frame.local(ball.centre);
             const double corner =
                 std::hypot(beam.half_u + std::abs(at.x - beam.u), beam.half_v + std::abs(at.y - beam.v));
@@ -97,7 +97,7 @@ Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box,
         const double before = beam.top;
         walk(beam, frame, field, tolerance, seen);
         if (beam.top < low.z) continue;  // nothing of the solid is in it
-        // As long as it pays it goes on; else its halves do.
+        // Continue with the beam while that pays; otherwise, continue with its halves.
         if (before - beam.top > 0.5 * rho) {
             beams.push(beam);
             continue;

@@ -1,4 +1,4 @@
-// How InterfaceCells come into being: they are built, or read from a file.
+// Creating InterfaceCells: built from an object, or read from a file.
 #include <chrono>
 #include <utility>
 

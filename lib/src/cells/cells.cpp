@@ -1,4 +1,4 @@
-// The questions that InterfaceCells answer, but for the search along a ray (search.cpp).
+// Queries of InterfaceCells, except the search along a ray (search.cpp).
 #include "phasetree/cells/cells.hpp"
 
 #include <algorithm>

@@ -8,29 +8,29 @@
 
 namespace phasetree::cells {
 
-/// What decides, besides the object, which cells are built. Cells of other settings would be others.
+/// The settings that determine, together with the object, which cells are built.
 struct BuildSettings {
     float resolution = 0;
     PhaseSet opaque;
     int deepest = 0;
     BuildQuality quality{};
-    std::size_t most_bytes = 0;  ///< the limit of memory that held, also where none was given
+    std::size_t most_bytes = 0;  ///< the memory limit in effect, whether given or the default
 };
 
-/// A door to what of InterfaceCells only reading, writing and comparing of files of cells may see.
+/// Gives the reader, writer and comparison of cell files access to the parts of InterfaceCells that they need.
 struct CellsFile {
     struct Contents {
         const CellTables& tables;
-        const Program& program;  ///< with the cells' constants behind its own
+        const Program& program;  ///< followed by the cells' own constants
         BuildSettings settings;
     };
     static Contents contents(const InterfaceCells&);
-    /// What building the cells of an object with these options would have. Throws ModelError.
+    /// The settings with which the cells of this object would be built. Throws ModelError.
     static BuildSettings settings(const Phased&, const CellOptions&);
 
     /// Returns the tables, and appends the cells' constants to those of the object's program.
     using Reader = std::function<CellTables(Program&, const BuildSettings&)>;
-    /// The cells of an object, whose tables are read and not built.
+    /// Creates the cells of an object from tables that are read instead of built.
     static std::shared_ptr<const InterfaceCells> read(const Phased&, const CellOptions&, const Reader&);
 };
 

@@ -9,9 +9,9 @@ namespace phasetree::cells {
 
 using kernel::Curvature;
 
-/// A bound of curvature in eight bits, rounded up by an eighth at most. The code is a float's exponent and the upper
-/// three bits of its fraction, of the curvature times the object's diagonal. 0 is no curvature, 255 an unknown one. A
-/// bound below 2⁻¹⁰/diagonal is rounded up to that, and one that is too large for the code becomes unknown.
+/// Encodes an upper bound of curvature in eight bits, rounding up by at most an eighth. The code is the exponent and
+/// the upper three fraction bits of the float (curvature · the object's diagonal). Code 0 means no curvature, 255
+/// unknown. Bounds below 2⁻¹⁰/diagonal are rounded up to that value; bounds too large for the code become unknown.
 class CurvatureCode {
   public:
     static constexpr std::uint8_t unknown = 255;

@@ -10,7 +10,7 @@ using cells::CurvatureCode;
 
 namespace {
 
-// The limit of memory. There are 2³² indices, which is enough for the cells in 64 gigabytes.
+// The memory limit, capped at 64 GiB: cell indices have 32 bits, which is enough for the cells that fit there.
 std::size_t limit_bytes(const CellOptions& options) {
     constexpr std::size_t largest = std::size_t{64} << 30;
     return std::min(options.most_bytes > 0 ? options.most_bytes : default_cell_bytes(), largest);

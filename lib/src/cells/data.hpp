@@ -8,12 +8,12 @@
 
 namespace phasetree {
 
-/// What InterfaceCells keep: the tables of their cells, the program of the whole object, and what they were built with.
+/// The contents of InterfaceCells: the tables of the cells, the program of the whole object, and the build settings.
 struct InterfaceCells::Data : cells::CellTables {
     using Cell = cells::InterfaceCell;
 
-    /// Sets what follows from the object's bounds and the options. The tables, `whole` and `build_seconds` are set by
-    /// who builds or reads the cells.
+    /// Sets everything that follows from the object's bounds and the options. The caller, which builds or reads the
+    /// cells, sets the tables, `whole` and `build_seconds`.
     Data(const Phased& object, const CellOptions&);
 
     std::optional<Evaluator> whole;
@@ -38,19 +38,19 @@ struct InterfaceCells::Data : cells::CellTables {
     }
     std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
 
-    /// What is asked for along a ray within one cell.
+    /// The arguments of a search along a ray within one cell.
     struct Search {
         const TracedRay& ray;
         float t_min, t_max;
         std::optional<Phase> carried;
         const std::optional<LeavingHint>& leaving_hint;
-        Evaluator::Workspace* workspace;  ///< null for the thread's own
+        Evaluator::Workspace* workspace;  ///< null to use the calling thread's
     };
-    /// Defined in search.cpp, for that file alone.
+    /// Defined in search.cpp, and called only there.
     inline std::optional<Crossing> first_crossing(std::size_t cell, const Search&, TraceCounters&) const;
 
   private:
-    /// Whether the cell's bounds of curvature do not cover all phases that a ray may be in, so that it needs the
+    /// Whether the ray may be in a phase for which the cell has no bound of curvature, so that the search needs the
     /// certificate.
     inline bool needs_certificate(const Cell&, const kernel::Routine&, const std::optional<Phase>& carried) const;
 };

@@ -22,8 +22,8 @@ std::array<char, 24> as_chars(std::string_view text) {
     return chars;
 }
 
-// A hash of all that gives the tables their meaning: the list of operations, with how many floats each has, and the
-// constants that steps and registers depend on.
+// A hash of everything that determines what the tables mean: the list of operations with their numbers of floats, and
+// the constants on which steps and registers depend.
 std::uint64_t layout_of_tables() {
     Checksum sum;
     const auto put = [&](std::uint64_t n) { sum.put(&n, sizeof n); };
@@ -40,7 +40,7 @@ std::uint64_t layout_of_tables() {
     return sum.get();
 }
 
-// A hash of an object as it was recorded, with only its own constants.
+// A hash of an object as recorded, with only its own constants.
 std::uint64_t fingerprint(const Program& program, std::size_t own_constants) {
     Checksum sum;
     for (const Instruction& in : program.instructions) {

@@ -3,13 +3,13 @@
 #include "cells/cells_file.hpp"
 #include "cells/file_header.hpp"
 
-/// The format of files of cells: a header, and behind it the tables one after another, as they lie in the machine's
-/// memory. What differs from machine to machine or from version to version is in the header, so that nothing needs to
-/// be converted. The object's program is not in the file: it is recorded again, which takes no time beside the build,
-/// and its fingerprint must be that in the file.
+/// The format of cell files: a header, followed by the tables one after another, exactly as in the machine's memory.
+/// The header identifies everything that differs between machines and versions, so that nothing needs conversion. The
+/// file does not contain the object's program. The reader records the program again, which takes negligible time
+/// compared with the build, and compares its fingerprint with the one in the file.
 namespace phasetree::cells {
 
-/// An InterfaceCell without gaps between its members, whose bytes would be undefined.
+/// An InterfaceCell without padding, whose bytes would be undefined.
 struct StoredCell {
     Bounds box;
     LinearBound bound;
@@ -21,22 +21,22 @@ struct StoredCell {
     InterfaceCell cell() const;
 
   private:
-    static constexpr unsigned by_own = 1, by_first = 2;  ///< the bits of `flags`
+    static constexpr unsigned by_own = 1, by_first = 2;  ///< bits of `flags`
 };
 
-/// How many bytes an item of each section has, in the order of CellsFileHeader::Section.
+/// The size in bytes of an item of each section, in the order of CellsFileHeader::Section.
 inline constexpr std::array<std::uint64_t, CellsFileHeader::sections> item_bytes{
     sizeof(StoredCell),    sizeof(RoutineTables::Shape),  sizeof(Step),          sizeof(OutputSlot),
     sizeof(std::uint32_t), sizeof(PackedCertificateStep), sizeof(std::uint32_t), sizeof(float)};
 
-/// The kind of machine, which does not include its instruction set: tables are the same with any.
+/// The kind of machine. The instruction set is not part of it, because the tables are the same for all of them.
 std::string_view machine();
-/// The text in an array of the header. Control characters and bytes beyond ASCII, which could disturb a terminal, are
-/// replaced by "?".
+/// The text in an array of the header. Control characters and non-ASCII bytes, which could disturb a terminal, become
+/// "?".
 std::string as_text(const std::array<char, 24>&);
 
-/// The header of a file of these cells, without what is known only when they are built: counts, checksums and whether
-/// they are coarser. The first `own_constants` constants of the program are the object's.
+/// The header of a file of these cells, except for the fields known only after the build: counts, checksums and whether
+/// the cells are coarser. The first `own_constants` constants of the program are the object's.
 CellsFileHeader header_of(const Program&, std::size_t own_constants, const BuildSettings&);
 
 }  // namespace phasetree::cells

@@ -10,7 +10,7 @@ namespace phasetree::cells {
 
 using support::Checksum;
 
-/// The beginning of a file of cells. The sections follow it one after another, and nothing is behind them.
+/// The header of a cell file. The sections follow in order, and the file ends after the last one.
 struct CellsFileHeader {
     enum Section : std::size_t {
         cells,
@@ -30,14 +30,14 @@ struct CellsFileHeader {
     std::uint32_t format, byte_order;
     std::array<char, 24> library;  ///< the build of the library: build_id()
     std::array<char, 24> machine;
-    std::uint64_t layout;   ///< a hash of what gives the tables their meaning (file_format.cpp)
-    std::uint64_t program;  ///< a hash of the object's program
+    std::uint64_t layout;   ///< layout_of_tables() in file_format.cpp
+    std::uint64_t program;  ///< fingerprint() of the object's program
     std::uint64_t opaque, most_bytes;
     float resolution;
     std::int32_t deepest;
     std::uint32_t quality, is_coarser;
     std::uint64_t routines;                      ///< CellTables::routine_count
-    std::array<std::uint64_t, sections> counts;  ///< how many items each section has
+    std::array<std::uint64_t, sections> counts;  ///< the number of items in each section
     std::uint64_t tables_checksum, header_checksum;
 
     std::uint64_t own_checksum() const {

@@ -11,7 +11,7 @@ namespace {
 void add_cells(const CellBuffer& buffer, const CurvatureCode& code, RoutineBuilder& routines, CellTables& tables) {
     for (const CellBuffer::Cell& c : buffer.cells) {
         const RoutineBuilder::BuiltRoutine& r = routines.add(buffer, c);
-        // The linear bound is of the first component, so it helps only a ray that evaluates this alone.
+        // The linear bound describes the first component, so it only helps rays that evaluate this component alone.
         const bool is_bound_of_use = c.outputs == 2 || routines.tables.shapes[r.shape].leading > 0;
         tables.cells.push_back({c.box, is_bound_of_use ? c.bound : LinearBound{}, r.shape, r.first_data,
                                 code.encode(c.curvature.bound[0]), code.encode(c.curvature.bound[1]),
@@ -29,8 +29,8 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
     RoutineBuilder routines(constants);
     tables.cells.reserve(found.cells());
     tables.first_certificate.reserve(found.cells() + 1);
-    // At most all data of specialised instructions are appended. A vector that grows holds its content twice for a
-    // while.
+    // At most, all data of specialised instructions are appended. Reserve now: a growing vector holds its contents
+    // twice for a while.
     std::size_t more = 0;
     for (const CellBuffer& buffer : found) more += buffer.specialised_data.size();
     constants.reserve(constants.size() + more);

@@ -8,9 +8,8 @@
 
 namespace phasetree::cells {
 
-/// Makes the tables of cells from what a build has found. Cells with equal programs share one routine. Constants of
-/// fused instructions are appended to `constants`. It sets neither how many constants were recorded nor whether the
-/// cells are coarser. Throws BuildCancelled.
+/// Makes the tables of the cells found by a build. Cells with equal programs share a routine. Appends the constants of
+/// fused instructions to `constants`. The caller sets `recorded_constants` and `is_coarser`. Throws BuildCancelled.
 CellTables make_tables(building::CellBuffers, std::vector<float>& constants, const CurvatureCode&,
                        const std::function<bool()>& cancelled);
 

@@ -23,8 +23,8 @@ class CellsReader {
   public:
     explicit CellsReader(const fs::path& path) : path_(path), file_(open(path)) {}
 
-    // The tables of a file that fits the program and the settings. The constants of its cells are appended to the
-    // program's.
+    // Returns the tables if the file matches the program and the settings. Appends the constants of the cells to those
+    // of the program.
     CellTables read(Program& program, const BuildSettings& settings) {
         const Header h = header();
         const Header wanted = header_of(program, program.constants.size(), settings);
@@ -105,7 +105,7 @@ class CellsReader {
         return h;
     }
 
-    // Requires that the header `h` of the file is as `wanted`.
+    // Requires that the file's header `h` matches `wanted`.
     void require_same(const Header& h, const Header& wanted) const {
         const auto differs = [&](const std::string& what) { return error(Reason::differing, what); };
         if (h.library != wanted.library)
@@ -124,12 +124,12 @@ class CellsReader {
             throw differs(
                 fmt::format("its cells were built with {} divisions, and wanted are {}", h.deepest, wanted.deepest));
         if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
-        // If the cells are not coarser, the limit did not matter, and any higher one gives the same.
+        // If the cells are not coarser, the limit had no effect, and any higher limit gives the same cells.
         if (h.is_coarser ? h.most_bytes != wanted.most_bytes : h.most_bytes > wanted.most_bytes)
             throw differs("its cells were built with another limit of memory");
     }
 
-    // Requires that the file has as many bytes as its header says, before memory is allocated for them.
+    // Requires that the file has the size implied by its header, before memory is allocated.
     void require_size(const Header& h) const {
         std::uint64_t rest = file_.size() - sizeof(Header);
         for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {

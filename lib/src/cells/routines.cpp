@@ -15,7 +15,7 @@ using rewriting::data_of_specialised;
 
 namespace {
 
-// A hash of words, which are put in two at a time.
+// A hash of 64-bit words, added two at a time.
 class Hash64 {
   public:
     explicit Hash64(std::uint64_t start) : hash_(start) {}
@@ -42,8 +42,8 @@ bool is_leaf(const CertificateStep& step) {
     return step.kind == PackedCertificateStep::leaf;
 }
 
-// Calls f with the value of each leaf of a certificate, in their order. A routine must keep these values; the rest of
-// a certificate does not concern it.
+// Calls f with the value of each leaf of a certificate, in order. A routine must keep these values; the rest of the
+// certificate does not affect it.
 template <class F>
 void for_each_value(std::span<const CertificateStep> certificate, F&& f) {
     for (const CertificateStep& step : certificate)
@@ -127,7 +127,7 @@ RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, con
     return built;
 }
 
-// The index of the shape of a routine, which is appended unless there is an equal one.
+// The index of this shape in the table. Appends it unless an equal shape exists.
 std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32_t leading) {
     Hash64 hash(leading);
     for (const Step& s : assembly.steps) hash.put(as_one_word(s.op, s.to), as_one_word(s.a, s.b));

@@ -16,8 +16,8 @@ using evaluation::Assembly;
 using kernel::OutputSlot, kernel::PackedCertificateStep, kernel::Routine, kernel::Step;
 using rewriting::Fuser;
 
-/// The routines of all cells. Those that differ only in where their constants are have one shape, and there are so few
-/// shapes that the processor's caches hold them.
+/// The routines of all cells. Routines that differ only in the location of their constants share a shape, so that all
+/// shapes fit in the processor's caches.
 struct RoutineTables {
     /// A routine without its constants: ranges of the vectors below.
     struct Shape {
@@ -42,7 +42,7 @@ struct RoutineTables {
     void shrink_to_fit();
 };
 
-/// Makes the routines of cells: fuses and assembles their programs, equal programs once.
+/// Builds the routines of cells by fusing and assembling their programs. Equal programs share a routine.
 class RoutineBuilder {
   public:
     /// Constants of fused instructions are appended to `constants`.
@@ -51,19 +51,20 @@ class RoutineBuilder {
     /// A routine, and where its certificate finds its values.
     struct BuiltRoutine {
         std::uint32_t shape, first_data;
-        /// Where in `kept_slots_` the slots of this routine's certificate leaves begin, in the order of the leaves.
+        /// The index in `kept_slots_` of the first slot for the leaves of this routine's certificate, in the order of
+        /// the leaves.
         std::uint32_t first_kept;
     };
-    /// Turns the data of specialised instructions into constants. It must be called once for each buffer, before the
-    /// cells in it are added.
+    /// Turns the data of specialised instructions into constants. Call it once per buffer, before adding the cells in
+    /// it.
     void intern_specialised_data(CellBuffer&);
-    /// The routine of a cell. The buffer must stay where it is as long as other cells are added.
+    /// The routine of a cell. The buffer must not move or be destroyed while cells are being added.
     const BuiltRoutine& add(const CellBuffer&, const CellBuffer::Cell&);
     /// Appends a certificate for this routine.
     void pack_certificate(const BuiltRoutine&, std::span<const CertificateStep>,
                           std::vector<PackedCertificateStep>&) const;
 
-    /// How many different programs were added.
+    /// The number of different programs added.
     std::size_t count() const { return built_.size(); }
     RoutineTables tables;
 
@@ -86,7 +87,7 @@ class RoutineBuilder {
 
     Fuser fuse_;
     std::unordered_map<Key, BuiltRoutine, Hash> built_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> shapes_;  ///< the indices of shapes by their hash
+    std::unordered_multimap<std::uint64_t, std::uint32_t> shapes_;  ///< indices of shapes by hash
     std::vector<std::uint32_t> kept_values_;  ///< of the certificate leaves of the cell being added
     std::vector<std::uint32_t> kept_slots_;   ///< of the certificate leaves of all routines
 };

@@ -10,12 +10,12 @@ using cells::BuildSettings, cells::CellsFile;
 
 namespace {
 
-// By bits: −0 is not 0 here.
+// Compares bits, so that −0 differs from 0.
 bool are_same(std::span<const float> a, std::span<const float> b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-// Whether a program is that of cells, which have appended constants to its own.
+// Whether a recorded program equals the program of cells, which have appended their constants to it.
 bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t own_constants) {
     const auto same_instruction = [](const Instruction& a, const Instruction& b) {
         return a.op == b.op && a.a == b.a && a.b == b.b && a.data == b.data;
@@ -37,7 +37,7 @@ bool are_cells_of(const InterfaceCells& cells, const Phased& object, const CellO
     const bool has_same_settings = own.resolution == wanted.resolution && own.quality == wanted.quality &&
                                    own.deepest == wanted.deepest && own.opaque.bits == wanted.opaque.bits &&
                                    has_same_limit;
-    // The program is compared last, because recording it may take longest.
+    // Compare the program last, because recording it may take the longest.
     return has_same_settings && is_program_of(record(object), program, tables.recorded_constants);
 }
 

@@ -1,5 +1,5 @@
-// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so it is one
-// function from the caller to the kernel.
+// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so everything
+// between the caller and the kernel is a single function.
 #include "cells/data.hpp"
 #include "trace/march.hpp"
 
@@ -20,11 +20,11 @@ inline std::optional<Crossing> InterfaceCells::Data::first_crossing(std::size_t 
                                                                     TraceCounters& counters) const {
     ++counters.visits;
     const Cell& c = cells[cell];
-    // The next cell that a ray meets is often a neighbour in this list, too.
+    // The next cell that the ray meets is often a neighbour in this list.
     __builtin_prefetch(cells.data() + cell + 1);
     __builtin_prefetch(cells.data() + (cell > 0 ? cell - 1 : 0));
     Routine r = routine(c);
-    // These are not needed before the ray is clipped, and are on their way from memory until then.
+    // Prefetch these now: they are needed only after the ray is clipped.
     __builtin_prefetch(r.data);
     __builtin_prefetch(r.data + r.count);
     if (needs_certificate(c, r, search.carried)) {

@@ -21,7 +21,7 @@ constexpr std::uint32_t first_primitive = static_cast<std::uint32_t>(Op::first_p
 constexpr std::uint32_t first_data_primitive = first_primitive + static_cast<std::uint32_t>(Primitives::size);
 constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(Primitives::size);
 
-// How many constants each operation has; 0 for a primitive with data, which has as many as it says itself.
+// The number of constants of each operation. It is 0 for a primitive with data, whose data contain the number.
 std::array<std::size_t, operations> all_floats() {
     std::array<std::size_t, operations> all{};
     for (std::uint32_t op = 0; op < first_primitive; ++op) all[op] = has_constant(static_cast<Op>(op)) ? 1 : 0;
@@ -41,14 +41,14 @@ bool is_known(std::uint32_t op) {
 bool has_data(std::uint32_t op) {
     return op >= first_data_primitive && op < first_map;
 }
-// Whether the upper half of a float is not NaN.
+// Whether a float with these upper 16 bits is not NaN.
 bool is_number(std::uint16_t half) {
     return !std::isnan(std::bit_cast<float>(std::uint32_t{half} << 16));
 }
 bool is_phase(float phase) {
     return phase >= 0 && phase < static_cast<float>(Phase::capacity) && phase == std::floor(phase);
 }
-// Whether a range of a vector of this size lies within it.
+// Whether a range lies within a vector of this size.
 bool fits(std::uint64_t first, std::uint64_t count, std::size_t size) {
     return first <= size && count <= size - first;
 }
@@ -82,7 +82,7 @@ class Validation {
     }
 
   private:
-    // Whether `count` slots from `first` on were written.
+    // Whether steps have written all `count` slots from `first` on.
     bool is_written(std::uint32_t first, std::uint32_t count) const {
         if (!fits(first, count, written_.size())) return false;
         return std::all_of(written_.begin() + first, written_.begin() + first + count, [](char w) { return w != 0; });
@@ -92,7 +92,8 @@ class Validation {
         const OpTraits& t = traits(static_cast<Op>(s.op));
         const bool takes_point = s.op >= first_primitive;
         const std::uint32_t size = t.gives_point ? 3 : 1;
-        // An operand that the operation does not take is given as slot 0, which holds the input from the start.
+        // Slot 0 replaces an operand that the operation does not take. It always counts as written, because it holds
+        // the input.
         if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
         if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
             return false;
@@ -104,8 +105,8 @@ class Validation {
         if (!fits(s.first_step, s.steps, routines_.steps.size()) ||
             !fits(s.first_output, s.outputs, routines_.outputs.size()))
             return false;
-        // The input takes three slots, and a step writes three at most. More slots would never be written, but a
-        // damaged file could ask for much memory with them.
+        // The input takes three slots, and each step writes at most three. More slots would never be written, but a
+        // damaged file could demand a lot of memory with them.
         if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
         if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
         written_.assign(s.slots, 0);
@@ -126,8 +127,8 @@ class Validation {
             if (!has_constants(routines_.steps[s.first_step + i].op, routines_.data[c.first_data + i])) return false;
         return true;
     }
-    // Whether an operation finds its constants at an index. A primitive with data reads as many floats as the data
-    // themselves say. So a specialised primitive checks its data, and any other one may only refer to the data of the
+    // Whether an operation finds its constants at an index. The length of a primitive with data depends on the data
+    // themselves. So a specialised primitive checks its own data. Any other primitive may only refer to the data of the
     // same primitive in the object's program, which are complete.
     bool has_constants(std::uint32_t op, std::uint32_t at) const {
         static const auto floats = all_floats();
@@ -143,14 +144,14 @@ class Validation {
         return is_sound;
     }
 
-    // Whether these steps are a tree in postfix order, by the depth of the stack that evaluates them.
+    // Whether these steps form a tree in postfix order, determined from the depth of an evaluation stack.
     bool is_certificate(std::uint32_t first, std::uint32_t end, std::uint32_t slots) const {
         if (end - first > most_certificate_steps) return false;
         std::size_t depth = 0;
         for (std::uint32_t i = first; i < end; ++i) {
             const PackedCertificateStep& s = tables_.certificates[i];
-            // A leaf is pushed onto the stack, and any other step replaces two entries by one. Bounds of second
-            // derivatives may be infinite, but must be numbers.
+            // A leaf pushes one entry; any other step replaces two entries by one. Bounds of second derivatives may be
+            // infinite but not NaN.
             if (s.kind == PackedCertificateStep::leaf) {
                 if (s.slot >= slots || !is_number(s.factor) || !is_number(s.up) || !is_number(s.down)) return false;
                 ++depth;
@@ -167,7 +168,7 @@ class Validation {
     std::span<const float> constants_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
         object_data_;            // the operation and first constant of each primitive with data
-    std::vector<char> written_;  // whether a step so far has written each slot
+    std::vector<char> written_;  // whether an earlier step has written each slot
 };
 
 }  // namespace

@@ -6,10 +6,11 @@
 
 namespace phasetree::cells {
 
-/// Checks tables that come from elsewhere, so that rays need not check any index: every step has a known operation,
-/// reads only slots that were written before it, and finds all its constants; every certificate is a tree in postfix
-/// order. What routines compute is not checked. Returns what is wrong, or "". `program` is the object's, with the
-/// cells' constants behind its own.
+/// Checks untrusted tables, so that tracing need not check any index. Every step must have a known operation, read only
+/// slots written before it, and find all its constants. Every certificate must be a tree in postfix order. The values
+/// that routines compute are not checked.
+/// Returns a description of the damage, or "" if there is none. `program` is the object's, followed by the cells'
+/// constants.
 std::string describe_damage(const CellTables&, const Program& program);
 
 }  // namespace phasetree::cells

@@ -7,9 +7,9 @@
 
 namespace phasetree::enclosure {
 
-/// A lower bound of a − b in a box of the given half extents. It is the better of two: by the ranges of the gradients,
-/// and by the gradients at the centre with the bounds of curvature. Where one solid continues another their gradients
-/// are nearly the same, so that the difference is known far better than either value.
+/// A lower bound of a − b in a box with the given half extents. It is the better of two bounds: one from the ranges of
+/// the gradients, and one from the gradients at the centre and the bounds of curvature. Where one solid continues
+/// another, their gradients are nearly the same, so the difference is known much more accurately than either value.
 inline double least_difference(const Enclosure& a, const Enclosure& b, const Enclosure::Vector& half) {
     double by_gradient = 0, by_bend = 0, squared_half = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -18,7 +18,7 @@ inline double least_difference(const Enclosure& a, const Enclosure& b, const Enc
         squared_half += half[i] * half[i];
     }
     by_bend += 0.5 * std::max(b.curvature.high - a.curvature.low, 0.0) * squared_half;
-    // by_bend is not a number if a gradient at the centre is not known. The comparison is then false.
+    // by_bend is NaN if a gradient at the centre is unknown. The comparison is then false.
     return a.centre - b.centre - (by_bend < by_gradient ? by_bend : by_gradient);
 }
 

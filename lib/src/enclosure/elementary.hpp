@@ -10,8 +10,8 @@
 namespace phasetree::enclosure {
 
 namespace detail {
-/// The enclosure of g(x) from the ranges of g, g′ and g″ over those of x, and g and g′ at the centre:
-/// (g∘x)″ = g′ x″ + g″ x′².
+/// The enclosure of g(x) from the ranges of g, g′ and g″ over the range of x, and g and g′ at the centre: (g∘x)″ = g′
+/// x″ + g″ x′².
 inline Enclosure composed(const Enclosure& x, double g, double slope, const Range& values, const Range& slopes,
                           const Range& bends) {
     Enclosure r(g, values, each_axis([&](std::size_t i) { return x.gradient[i] * slopes; }),
@@ -19,7 +19,7 @@ inline Enclosure composed(const Enclosure& x, double g, double slope, const Rang
     r.set_curvature(x.curvature * slopes + squares_of_slope(x) * bends);
     return r;
 }
-/// The range of the sine: −1 or 1 where the range contains that of an extremum, else at the ends.
+/// The range of the sine: −1 or 1 if x contains the position of an extremum, otherwise the values at the ends.
 inline Range range_of_sine(const Range& x) {
     const double turn = 2 * std::numbers::pi, quarter = std::numbers::pi / 2;
     if (x.high - x.low >= turn) return {-1, 1};
@@ -27,7 +27,7 @@ inline Range range_of_sine(const Range& x) {
     const auto has = [&](double at) { return std::floor((x.high - at) / turn) > std::floor((x.low - at) / turn); };
     return {has(-quarter) ? -1 : std::min(low, high), has(quarter) ? 1 : std::max(low, high)};
 }
-/// Beyond, sine_of() and cosine_of() promise nothing.
+/// The domain in which sine_of() and cosine_of() are valid.
 inline bool is_in_domain_of_sine(const Enclosure& x) {
     return x.value.magnitude() <= 1e4;
 }
@@ -57,7 +57,7 @@ inline Enclosure length_of(const Enclosure& a, const Enclosure& b) {
     return length(a, b);
 }
 
-/// Constant beyond ±80, with a seam there.
+/// Constant outside ±80, with seams there.
 inline Enclosure exponential(const Enclosure& x) {
     const Enclosure a = min(max(x, Enclosure(-80.f)), Enclosure(80.f));
     const double e = std::exp(a.centre);

@@ -1,4 +1,4 @@
-// Interval arithmetic with gradients and curvatures: a number type as those of phasetree/math/number.hpp.
+// Interval arithmetic with gradients and curvatures: a number type like those of phasetree/math/number.hpp.
 #pragma once
 
 #include "enclosure/elementary.hpp"   // IWYU pragma: export

@@ -10,16 +10,16 @@
 
 namespace phasetree::enclosure {
 
-/// Proven bounds of a field in a box, except for the rounding errors of doubles.
+/// Proven bounds of a field in a box, up to the rounding errors of doubles.
 struct FieldInBox {
     double value = 0;                  ///< at the box's centre
     std::array<double, 3> gradient{};  ///< at the box's centre
     std::array<Range, 3> gradients{};  ///< anywhere in the box
     Range curvature{};                 ///< d²f/dt² along straight lines of unit speed
-    Range values = Range::all();       ///< what is known of the value beyond what follows from the gradients
+    Range values = Range::all();       ///< what is known of the value, apart from what follows from the gradients
 };
 
-/// The region in which the point lies at which a field is evaluated, when its coordinates are known as enclosures.
+/// The region that contains the point at which a field is evaluated, if its coordinates are given as enclosures.
 struct Region : PointRange {
     std::array<const Enclosure*, 3> x;
 
@@ -40,7 +40,7 @@ struct Region : PointRange {
 };
 
 /// The enclosure of f(q), where f is known in the region of q, and q is known as a function of the box's points. Along
-/// a line (f∘q)″ = q′ᵀf″q′ + f′·q″.
+/// a line, (f∘q)″ = q′ᵀf″q′ + f′·q″.
 inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     Enclosure e;
     e.centre = f.value;
@@ -56,7 +56,7 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     }
     e.value = limited(std::max(f.value - change, f.values.low), std::min(f.value + change, f.values.high));
     const double bent = std::sqrt(squared_slope) * detail::curvature_of(at.x);
-    // |q′|² lies between zero and its bound, so q′ᵀf″q′ lies between zero and the curvature times this bound.
+    // |q′|² lies between zero and its upper bound, so q′ᵀf″q′ lies between zero and the curvature times this bound.
     e.set_curvature(hull(f.curvature, {}) * detail::squared_stretch(at.x) + within(bent));
     return e;
 }

@@ -9,7 +9,7 @@
 
 namespace phasetree::enclosure {
 
-/// The template's minimum and maximum look like seams, but the sum has none: for δ = b − a it is (a + b)/2 − h(δ) with
+/// The template's minimum and maximum look like seams, but the sum has none. For δ = b − a, it is (a + b)/2 − h(δ) with
 /// h(δ) = |δ|/2 + r/6·max(1 − |δ|/r, 0)³, and 0 ≤ h″ ≤ max(1 − |δ|/r, 0)/r.
 inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     const Enclosure apart = b - a;
@@ -24,8 +24,8 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     return s;
 }
 
-/// The curvature follows from the falloff's own derivatives: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has
-/// φ″ = (1 − u)(30u − 6) with u = x², from −6 to 4.8.
+/// The curvature follows from the derivatives of the falloff: φ(x) = (1 − x²)³ for x = d/R in [0, 1] has φ″ = (1 −
+/// u)(30u − 6) with u = x², which ranges from −6 to 4.8.
 inline Enclosure falloff(const Enclosure& d, float radius) {
     Enclosure f = phasetree::falloff<Enclosure>(d, radius);
     const double k = 1 / static_cast<double>(radius);
@@ -41,7 +41,7 @@ inline Enclosure falloff(const Enclosure& d, float radius) {
     if (d.value.low < 0 || d.value.high * k > 1) bends = hull(bends, {});  // flat beyond
     const Range by_slope = detail::squares_of_slope(d) * (bends * (k * k));
     const Range straight = d.curvature * (slopes * k);
-    // At a skeleton φ′ vanishes as d does: φ′(d)/d = −6(1 − x²)²/R².
+    // On a skeleton, φ′ vanishes at the same rate as d: φ′(d)/d = −6(1 − x²)²/R².
     const auto share = [](double x) { return -6 * (1 - x * x) * (1 - x * x); };
     Range shares = hull({share(low), share(low)}, {share(high), share(high)});
     if (d.value.low < 0) shares = hull(shares, {});
@@ -51,8 +51,8 @@ inline Enclosure falloff(const Enclosure& d, float radius) {
 }
 
 namespace detail {
-/// Improves the enclosure of a convex function of the numbers x that grows with each of them and is 1-Lipschitz: its
-/// derivatives by them are weights from 0 to 1.
+/// Improves the enclosure of a convex function of the numbers x that increases with each of them and is 1-Lipschitz:
+/// its derivatives with respect to them are weights from 0 to 1.
 inline Enclosure tightened_by_convexity(Enclosure f, std::initializer_list<const Enclosure*> x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
@@ -67,9 +67,9 @@ inline Enclosure tightened_by_convexity(Enclosure f, std::initializer_list<const
 }
 }  // namespace detail
 
-/// Where one operand is never positive, the result is the maximum of it and the corner of the others, by the template's
-/// equation. And the function is convex: outside it is the largest sum of its operands weighted by a vector of unit
-/// length without negative components.
+/// Where one operand is never positive, the result is the maximum of that operand and the corner of the others,
+/// according to the template's equation. The function is also convex: outside, it is the largest sum of its operands
+/// weighted by a unit vector without negative components.
 inline Enclosure corner(const Enclosure& a, const Enclosure& b) {
     if (a.value.high <= 0 || b.value.high <= 0) return max(a, b);
     return detail::tightened_by_convexity(phasetree::corner<Enclosure>(a, b), {&a, &b});
@@ -90,7 +90,7 @@ inline Enclosure select_smoothly(const Decision& d, const Enclosure& yes, const 
     return r;
 }
 
-/// Where a comparison is decided for the whole box only one branch is evaluated.
+/// If a comparison is decided for the whole box, only one branch is evaluated.
 template <class Yes, class No>
 Enclosure choose_smoothly(const Decision& d, const Yes& yes, const No& no) {
     if (!d.can_be_false) return yes();
@@ -104,7 +104,7 @@ Enclosure also_known_as(const Enclosure& f, const Other& other) {
     return is_certain ? g : f;
 }
 
-/// The squared distance to a convex set is convex, and no more curved than that to a point.
+/// The squared distance to a convex set is convex, and no more curved than the squared distance to a point.
 inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm::vec3& along, float inverse) {
     Enclosure r = phasetree::squared_distance_to_segment<Enclosure>(q, along, inverse);
     const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
@@ -123,7 +123,7 @@ inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
     return f;
 }
 
-/// The template's choice of quadrants looks like seams, but sine and cosine have none.
+/// The template's selection of quadrants looks like seams, but sine and cosine have none.
 inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
     SineCosine<Enclosure> r = phasetree::sine_cosine<Enclosure>(x);
     if (!(x.value.magnitude() < 1e4)) return r;

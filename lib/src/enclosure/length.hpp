@@ -6,8 +6,8 @@
 namespace phasetree::enclosure {
 
 namespace detail {
-/// An upper bound of |dx/dv|² for a vector x and any direction v of unit length. That is the largest eigenvalue of JᵀJ,
-/// where J is the Jacobian, and is at most the largest sum of absolute values in a row of it (Gershgorin).
+/// An upper bound of |dx/dv|² for a vector x and any direction v of unit length. This is the largest eigenvalue of JᵀJ,
+/// where J is the Jacobian. It is at most the largest row sum of absolute values of that matrix (Gershgorin).
 template <std::size_t n>
 double squared_stretch(const std::array<const Enclosure*, n>& x) {
     std::array<std::array<Range, 3>, 3> squared{};
@@ -46,7 +46,7 @@ Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure
     f.set_curvature({std::max(f.curvature.low, curvature.low), std::min(f.curvature.high, curvature.high)});
     return f;
 }
-/// As squared_stretch(), for a vector whose gradients are constant.
+/// Like squared_stretch(), for a vector with constant gradients.
 template <std::size_t n>
 double squared_stretch_of_affine(const std::array<const Enclosure*, n>& x) {
     double most = 0;
@@ -61,7 +61,7 @@ double squared_stretch_of_affine(const std::array<const Enclosure*, n>& x) {
     }
     return most;
 }
-/// Whether the gradients of all these numbers are constant, as those of a point's coordinates mostly are.
+/// Whether the gradients of all these numbers are constant, as those of a point's coordinates usually are.
 template <std::size_t n>
 bool are_affine(const std::array<const Enclosure*, n>& x) {
     double width = 0;
@@ -71,8 +71,8 @@ bool are_affine(const std::array<const Enclosure*, n>& x) {
     }
     return width == 0;
 }
-/// The length of a vector whose gradients are constant, computed without its square as an intermediate result. Arrays
-/// have four numbers for three axes, so that the loops fit vector registers.
+/// The length of a vector with constant gradients, computed without its square as an intermediate result. Arrays have
+/// four numbers for three axes, so that loops fit vector registers.
 template <std::size_t n>
 Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
     using Axes = std::array<double, 4>;

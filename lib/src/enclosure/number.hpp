@@ -10,23 +10,24 @@
 
 namespace phasetree::enclosure {
 
-/// The enclosure of a number that varies in a box: its value and gradient at the box's centre (the gradient is NaN on a
-/// seam), and the ranges of its value, of its gradient's components and of its second derivatives. It is a number type
-/// as those of phasetree/math/number.hpp: evaluated with it, a field's equation gives bounds for all points of a box.
-/// Where a comparison is undecided both branches count.
+/// The enclosure of a number that varies in a box. It consists of the value and gradient at the box's centre, and of
+/// the ranges of the value, the gradient's components and the second derivatives. The gradient at the centre is NaN on
+/// a seam. It is a number type like those of phasetree/math/number.hpp: evaluating a field's equation with it gives
+/// bounds for all points of a box. Where a comparison is undecided, the result covers both branches.
 ///
-/// A *seam* is a surface on which the equation changes from one branch to another, as a minimum does where its operands
-/// are equal.
+/// A *seam* is a surface on which the equation switches from one branch to another, such as the points where the
+/// operands of a minimum are equal.
 ///
-/// For a continuous field that is differentiable but on seams, the gradient's ranges hold every one-sided gradient, so
-/// that f(p) − f(centre) lies in their product with p − centre (tightened()). `curvature` holds d²f/dt² along every
-/// straight line of unit speed; a seam across which the slope jumps up or down counts as an infinite one. So, for
-/// points a distance h apart, f half way lies above the mean of f at both by −curvature.high·h²/8 to
-/// −curvature.low·h²/8; and f is semiconcave with the constant curvature.high: minima of such fields are so too,
+/// For a continuous field that is differentiable except on seams, the gradient's ranges contain every one-sided
+/// gradient. So f(p) − f(centre) lies in their product with p − centre (tightened()). `curvature` contains d²f/dt²
+/// along every straight line of unit speed; a seam across which the slope jumps up or down counts as infinite. So
+/// consider two points a distance h apart: f midway lies above the mean of f at both by −curvature.high·h²/8 to
+/// −curvature.low·h²/8. Hence f is semiconcave with the constant curvature.high, and so are minima of such fields,
 /// whatever their seams.
 ///
-/// It is computed in double without directed rounding. Its users must allow for the rounding errors of floats, which
-/// are larger: for twice the bound of one value's, because primitives may be known at the centre by floats, too.
+/// It is computed in double, without directed rounding. Users must allow for the rounding errors of floats, which are
+/// larger. They must allow for twice the error bound of a single value, because primitives at the centre may also be
+/// computed in floats.
 struct Enclosure {
     using Vector = std::array<double, 3>;
 
@@ -43,7 +44,7 @@ struct Enclosure {
                                      const Range& b)
         : centre(c), value(v), gradient(g), centre_gradient(cg), curvature(b), value_curvature(v * b) {}
 
-    /// The coordinate of a point of the box along an axis; `middle` and `half` are those of the box.
+    /// The coordinate of a point of the box along an axis; `middle` and `half` describe the box.
     [[gnu::always_inline]] static Enclosure coordinate(int axis, double middle, double half) {
         Enclosure e;
         e.centre = middle;
@@ -55,12 +56,13 @@ struct Enclosure {
         }
         return e;
     }
-    /// Cuts the value's range to what the value at the centre and the gradient allow in a box of these half extents.
+    /// Narrows the value's range to what the value at the centre and the gradient allow in a box with these half
+    /// extents.
     void tighten(const Vector& half) {
         const double half_width =
             gradient[0].magnitude() * half[0] + gradient[1].magnitude() * half[1] + gradient[2].magnitude() * half[2];
         const double low = std::max(value.low, centre - half_width), high = std::min(value.high, centre + half_width);
-        value = {std::min(low, high), std::max(low, high)};  // one number, but for rounding errors, if they cross
+        value = {std::min(low, high), std::max(low, high)};  // if they cross, they are equal up to rounding errors
     }
     Enclosure tightened(const Vector& half) const {
         Enclosure e = *this;
@@ -88,7 +90,7 @@ template <class F>
 [[gnu::always_inline]] inline Enclosure::Vector each_number(F&& f) {
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
-/// The range of the product of the slopes of a and b along any line; and that of the square of the slope of a.
+/// The range of the product of the slopes of a and b along any line, and that of the square of the slope of a.
 inline Range products_of_slopes(const Enclosure& a, const Enclosure& b) {
     return within(std::sqrt(a.squared_slope() * b.squared_slope()));
 }
@@ -96,7 +98,7 @@ inline Range squares_of_slope(const Enclosure& a) {
     return limited(0, a.squared_slope());
 }
 
-/// The gradient at the centre where that lies on a seam: the branches need not agree on one.
+/// The gradient at the centre if that lies on a seam, where the branches need not agree.
 inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quiet_NaN(),
                                                std::numeric_limits<double>::quiet_NaN(),
                                                std::numeric_limits<double>::quiet_NaN()};
@@ -166,7 +168,7 @@ inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quie
     return b * a;
 }
 
-/// A comparison over a box: whether it is true at the centre, whether the two are equal there, and whether it can be
+/// A comparison over a box: whether it is true at the centre, whether both sides are equal there, and whether it can be
 /// true or false anywhere in the box.
 struct Decision {
     bool centre, is_tie, can_be_true, can_be_false;
@@ -188,7 +190,7 @@ struct Decision {
     const Decision d = less(a, b);
     Enclosure r = select(d, a, b);
     r.value = {std::min(a.value.low, b.value.low), std::min(a.value.high, b.value.high)};
-    // On the seam of a minimum the slope falls, which bounds the curvature from above.
+    // On the seam of a minimum, the slope falls, so the curvature is still bounded from above.
     if (d.can_be_true && d.can_be_false) r.set_curvature({-Range::most, std::max(a.curvature.high, b.curvature.high)});
     return r;
 }

@@ -8,7 +8,7 @@ namespace phasetree::enclosure {
 struct Range {
     double low = 0, high = 0;
 
-    /// Stands for infinity. It is finite, so that its product with zero is not NaN.
+    /// Represents infinity. It is finite, so that its product with zero is not NaN.
     static constexpr double most = 1e100;
     static constexpr Range all() { return {-most, most}; }
 

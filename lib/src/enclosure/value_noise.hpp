@@ -29,20 +29,20 @@ struct FadeRange {
     static Range at(double v) { return {v, v}; }
 };
 
-/// The values at a lattice cell's corners; bit i of a corner's number says whether it is the upper one along axis i.
+/// The values at a lattice cell's corners; bit i of a corner's index is set if it is the upper corner along axis i.
 template <std::size_t dimensions>
 using Corners = std::array<double, std::size_t{1} << dimensions>;
 
-/// Bounds value noise and its derivatives in a region that touches few cells of the lattice, by the values at the
-/// corners of these cells. Between the corners noise is a product of one-dimensional blends,
+/// Bounds value noise and its derivatives in a region that touches few cells of the lattice, from the values at the
+/// corners of these cells. Between the corners, noise is a product of one-dimensional blends,
 ///     ∂f/∂xᵢ = F′ᵢ · E[Δᵢw],   ∂²f/∂xᵢ² = F″ᵢ · E[Δᵢw],   ∂²f/∂xᵢ∂xⱼ = F′ᵢ F′ⱼ · E[ΔᵢΔⱼw],
-/// where E are means of differences Δ of the corners' values, so they lie between the smallest and the largest of
-/// these.
+/// where E denotes means of differences Δ of the corners' values. So these lie between the smallest and the largest of
+/// the differences.
 template <std::size_t dimensions>
 class NoiseInBox {
   public:
-    /// Regions that touch more than eight cells, or four along an axis, count as large: their bounds are those of all
-    /// space.
+    /// Regions that touch more than eight cells, or four along an axis, count as large: they get bounds that hold
+    /// everywhere.
     explicit NoiseInBox(const Region& at) : at_(at) {
         for (std::size_t i = 0; i < dimensions; ++i) {
             low_[i] = std::floor(at.centre[i] - at.half_extents[i]);
@@ -54,7 +54,7 @@ class NoiseInBox {
         is_large_ = is_large_ || all_ > 8;
     }
 
-    /// `corners(cell)` gives the values at the corners of a cell of the lattice.
+    /// `corners(cell)` returns the values at the corners of a lattice cell.
     template <class F>
     FieldInBox operator()(F&& corners) const {
         FieldInBox f;
@@ -63,7 +63,8 @@ class NoiseInBox {
         at_centre(corners(centre), centre, f);
         if (is_large_) {
             // F′ is at most 15/8, and |F″| at most 10/√3 (FadeRange). Corners are in [−1, 1], so a first difference is
-            // at most 2, and a second one at most 4. The curvature is the largest sum of a row (Gershgorin), as below.
+            // at most 2, and a second difference at most 4. The curvature is the largest row sum (Gershgorin), as
+            // below.
             f.values = {-1, 1};
             for (std::size_t i = 0; i < dimensions; ++i) f.gradients[i] = within(3.75);
             f.curvature = within(2 * 5.7735027 + 4 * 3.515625 * (dimensions - 1));
@@ -147,7 +148,7 @@ class NoiseInBox {
 
     static bool is_upper(std::size_t corner, std::size_t axis) { return (corner >> axis & 1) != 0; }
 
-    /// The range of the corners' differences along one axis; or, with `other`, of the second differences along both.
+    /// The range of the corners' differences along one axis; with `other`, of the second differences along both axes.
     static Range of_differences(const Corners<dimensions>& w, std::size_t axis, std::size_t other) {
         Range all{Range::most, -Range::most};
         for (std::size_t corner = 0; corner < w.size(); ++corner) {

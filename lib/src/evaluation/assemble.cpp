@@ -10,7 +10,7 @@ using program::gives_point, program::operands;
 
 namespace {
 
-// Hands out register slots; a freed one is used again.
+// Allocates register slots, reusing freed ones.
 class Slots {
   public:
     std::uint32_t take(std::uint32_t size) {
@@ -58,7 +58,8 @@ Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutp
     for (std::uint32_t i = 0; i < code.size(); ++i) {
         const Instruction& in = code[i];
         const int n = operands(in.op);
-        // A map writes its result one component at a time, so it takes its slots before its operand's are freed.
+        // A map writes its result one component at a time, so its slots are taken before those of its operand are
+        // freed.
         slot[i] = slots.take(size_of(in.op));
         if (in.op != Op::input) {
             result.steps.push_back(

@@ -13,19 +13,19 @@ struct Assembly {
     std::vector<Step> steps;
     std::vector<std::uint32_t> data;  ///< for each step, the index of its first constant
     std::vector<OutputSlot> outputs;
-    std::uint32_t slots = 0;  ///< how many slots the registers must have
+    std::uint32_t slots = 0;  ///< the number of slots that the registers need
 
-    /// The routine, which refers to this assembly and to the constants.
+    /// The routine. It refers to this assembly and to the constants.
     Routine routine(const float* constants) const {
         return {steps.data(), data.data(), constants, steps.size(), outputs.data(), outputs.size()};
     }
 };
 
-/// A value that is not an output but is read after the program has run, and the slot in which it is then found.
+/// A value that is not an output but is read after the program has run, and the slot that then holds it.
 struct KeptValue {
     std::uint32_t value = 0, slot = 0;
 };
-/// Assigns slots to the values of a program. A value whose last use is past gives its slot to later ones.
+/// Assigns slots to the values of a program. After its last use, a value's slot is reused for later values.
 Assembly assemble(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
                   std::span<KeptValue> kept = {});
 

@@ -1,5 +1,5 @@
-// Runs a routine with any number type, one number at a time: for gradients and enclosures. Kernels have an interpreter
-// of their own (kernel/kernel.inl).
+// Runs a routine with any number type, one number at a time, for gradients and enclosures. Kernels have their own
+// interpreter (kernel/kernel.inl).
 #pragma once
 
 #include "kernel/kernel.hpp"
@@ -20,7 +20,7 @@ struct PointInRegisters {
     operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
 };
 
-/// The steps of a routine in the form that interpret() takes.
+/// The steps of a routine in the form that interpret() expects.
 class RoutineSteps {
   public:
     explicit RoutineSteps(const Routine& routine) : routine_(routine) {}
@@ -33,11 +33,12 @@ class RoutineSteps {
     const Routine& routine_;
 };
 
-/// Runs the steps that are not left out. Registers 0 … 2 hold the point.
-/// `distance.template operator()<P>(constants, point, to)` is called for a primitive P and must set `to` to its
-/// distance; the point is a Vec3<T> or PointInRegisters<T>. `done(number)` is called with each number that any other
-/// step has computed, also with each coordinate of a point, and with the distance of a fused primitive after its scale
-/// and offset. It is not called for plain primitives, because `distance` sees their results.
+/// Runs all steps except the skipped ones. Registers 0 … 2 hold the point.
+///
+/// For a primitive P, calls `distance.template operator()<P>(constants, point, to)`, which must set `to` to its
+/// distance; the point is a Vec3<T> or PointInRegisters<T>. Calls `done(number)` with each number that any other step
+/// has computed, including each coordinate of a point, and the distance of a fused primitive after its scale and
+/// offset. It is not called for plain primitives, because `distance` sees their results.
 template <class Steps, class T, class Distance, class Done>
 void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
@@ -51,7 +52,7 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
         if (s.op >= first_primitive) {
             const PointInRegisters<T> input{registers, s.a};
             const std::uint32_t index = s.op - first_primitive;
-            // done() is called with the first coordinate, `to`, at the end of the loop.
+            // The end of the loop calls done() with the first coordinate, `to`.
             const auto set_point = [&](const Vec3<T>& q) {
                 registers[s.to] = q.x;
                 registers[s.to + 1] = q.y;
@@ -131,7 +132,7 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
                 case Op::nearer:
                     to = nearer(a, b);
                     break;
-                case Op::first_primitive:  // no operation
+                case Op::first_primitive:  // not an operation
                     break;
             }
         }

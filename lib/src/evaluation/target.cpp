@@ -18,7 +18,7 @@ struct Target {
     bool supported;
 };
 
-// The kernels that this machine can run, the fastest first. Highway tells what the machine has, and honours
+// The kernels that this machine can run, fastest first. Highway detects what the machine supports, and honours
 // hwy::DisableTargets.
 std::vector<Target> targets() {
     const auto machine = static_cast<std::int64_t>(hwy::SupportedTargets());
@@ -37,8 +37,7 @@ std::vector<Target> targets() {
     return all;
 }
 
-// The kernel in use, for the whole process; null until it is first asked for. No result depends on it, only the time
-// that it takes.
+// The kernel in use by the whole process; null until first use. It affects only speed, never results.
 std::atomic<const Kernel*> chosen{nullptr};
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace phasetree::evaluation {
 
-/// The values of a program's instructions at one point, as a kernel left them: in one lane of their registers.
+/// The values of a program's instructions at one point, as left by a kernel in one lane of their registers.
 struct ValuesAtPoint {
     const BatchOfFloats* registers;
     std::span<const std::uint32_t> slot;

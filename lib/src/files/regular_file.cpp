@@ -11,7 +11,7 @@ namespace phasetree::files {
 
 RegularFile::RegularFile(const std::filesystem::path& path) {
     struct stat status {};
-    // Asked before opening, too: to open a device can have effects of its own, and a pipe may wait for ever.
+    // Check before opening, too: opening a device can have side effects, and opening a pipe may block forever.
     if (::stat(path.c_str(), &status) != 0) throw FileError(errno);
     if (!S_ISREG(status.st_mode)) throw FileError(EINVAL, "it is no regular file");
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);

@@ -10,7 +10,8 @@ namespace phasetree::files {
 
 using support::FileError;
 
-/// A regular file, open for reading. Directories, pipes and devices are a FileError: to read one may never end.
+/// A regular file, open for reading. Directories, pipes and devices cause a FileError, because reading them may never
+/// end.
 class RegularFile {
   public:
     explicit RegularFile(const std::filesystem::path&);
@@ -20,9 +21,9 @@ class RegularFile {
     RegularFile& operator=(const RegularFile&) = delete;
     RegularFile& operator=(RegularFile&&) = delete;
 
-    /// When it was opened.
+    /// The size when the file was opened.
     std::uint64_t size() const { return size_; }
-    /// The next bytes, all of them; false if there are not so many.
+    /// Reads exactly this many bytes; false if fewer are left.
     bool read(void* to, std::size_t count);
 
   private:

@@ -20,11 +20,11 @@ const char* const input_names[] = {"x", "y", "z"};
 struct Expression {
     std::string text;
     bool has_gradient = false;
-    bool is_stable = true;  // The text has the same value anywhere later in the same iteration.
+    bool is_stable = true;  // The text has the same value anywhere later in the iteration.
 };
 
-// Writes one body of a function, which computes with floats or with dual numbers. In the text v is the variable of a
-// leaf, c a carried variable, g an array that leaves fill, and i the counter of a loop.
+// Writes one body of a function, which computes with floats or dual numbers. Names in the text: v is the variable of a
+// leaf, c a carried variable, g an array filled by leaves, and i a loop counter.
 class FunctionWriter {
   public:
     FunctionWriter(const Nest& nest, const Readings& readings, bool is_dual, FunctionText& text)
@@ -59,8 +59,8 @@ class FunctionWriter {
         out_ += '\n';
     }
 
-    // Counts the readers of each leaf. A leaf that is carried or stored counts twice for that, so that it is never put
-    // into its reader's expression but gets a variable.
+    // Counts the readers of each leaf. Being carried or stored counts twice, so that such a leaf gets a variable
+    // instead of being inlined in its reader's expression.
     void find_what_needs_a_variable() {
         uses_.assign(nest_.leaves().size(), 0);
         const auto use = [&](const Reading& r) {
@@ -76,8 +76,8 @@ class FunctionWriter {
         for (std::size_t i = 0; i < uses_.size(); ++i) uses_[i] += 2 * static_cast<int>(readings_.writes[i].size());
     }
 
-    // Finds which leaves, carried variables and arrays depend on the inputs and so have gradients. What goes into a
-    // loop may come out of it, so this is repeated until nothing changes.
+    // Finds the leaves, carried variables and arrays that depend on the inputs and so have gradients. A loop may feed
+    // its results back, so this is repeated until nothing changes.
     void find_gradients() {
         leaf_gradient_.assign(nest_.leaves().size(), 0);
         carried_gradient_.assign(readings_.carried.size(), 0);
@@ -170,7 +170,7 @@ class FunctionWriter {
             e.text = fmt::format("v{}", i);
             e.is_stable = !readings_.escapes[i];
         }
-        // What is read as carried is always the latest value (readings.cpp), so nothing later wants the one before.
+        // A carried read always refers to the latest value (readings.cpp), so nothing later needs the previous one.
         for (std::size_t c = 0; c < readings_.carried.size(); ++c)
             if (readings_.carried[c].leaf == i) line("c{} = {};", c, fitted(e, carried_gradient_[c]));
         for (const ElementWrite& w : readings_.writes[i]) {
@@ -181,7 +181,7 @@ class FunctionWriter {
         }
         expressions_[i] = std::move(e);
     }
-    // Whether the one reader of a leaf is in the same iteration, and not in a loop further inside.
+    // Whether the single reader of a leaf is in the same iteration, and not in an inner loop.
     bool is_read_in_same_iteration(std::size_t i) const {
         const auto reads = [&](const Reading& r) { return r.kind == Reading::Kind::leaf && r.index == i; };
         for (std::size_t k = 0; k < readings_.of.size(); ++k)
@@ -210,7 +210,7 @@ class FunctionWriter {
         const std::string slot = fmt::format("\x01{}\x02", text_.slots.size() - 1);
         return {is_table ? fmt::format("pt_number(at + {} + {})", slot, index_text(r, loops)) : slot};
     }
-    // Writes the index into a table or an array in row-major order: the last of the counters varies fastest.
+    // Writes the index into a table or an array in row-major order: the last counter varies fastest.
     static std::string index_text(const Reading& r, const std::vector<const NestItem*>& loops) {
         std::string text;
         std::size_t stride = 1;
@@ -222,7 +222,7 @@ class FunctionWriter {
         }
         return text.empty() ? "0" : text;
     }
-    // The first element of an array is that of its lowest index, which is never above 0.
+    // The first element of an array has its lowest index, which is never above 0.
     static std::string offset_from(std::int64_t lowest) { return lowest < 0 ? fmt::format(" + {}", -lowest) : ""; }
     static std::string fitted(const Expression& e, bool to_dual) {
         return to_dual && !e.has_gradient ? fmt::format("vec4(0.0, 0.0, 0.0, {})", e.text) : e.text;
@@ -238,7 +238,7 @@ class FunctionWriter {
         result.text = result.has_gradient ? dual_expression(s, in) : float_expression(s, in);
         return result;
     }
-    // Comparisons and the like look at values alone.
+    // Comparisons and similar operations use only the values.
     static std::string value(const Expression& e) { return e.has_gradient ? e.text + ".w" : e.text; }
 
     std::string float_expression(const TraceStep& s, const std::vector<Expression>& in) {
@@ -335,7 +335,7 @@ FunctionText text_of(const Trace& trace) {
     Nest nest(trace, find_loops(trace));
     auto readings = readings_of(nest);
     if (!readings) {
-        // Where the loops that were found cannot be written, the function is written without any.
+        // The loops that were found cannot be written, so write the function without loops.
         std::vector<NestItem> steps;
         for (std::uint32_t i = 0; i < trace.steps.size(); ++i) steps.push_back({i, 1, 1, {}});
         nest = Nest(trace, std::move(steps));

@@ -23,7 +23,7 @@ std::string name_of_type(const char* otherwise) {
         return otherwise;
 }
 
-// A map of space has the name of the warp that it belongs to.
+// A map of space is named after its warp.
 template <class W>
 void add_warp_name(std::size_t map, std::string& name) {
     if (index_in<typename W::Map>(PointMaps()) == map) name = std::string(W::info.name);
@@ -59,7 +59,7 @@ bool takes_point(Op op) {
     return op >= Op::first_primitive;
 }
 
-// Replaces each name of a parameter by an argument.
+// Replaces the names of parameters by arguments.
 std::string with_arguments(const std::string& text, std::span<const std::string> arguments) {
     const auto is_word = [](char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '_' || c == '.';
@@ -75,7 +75,7 @@ std::string with_arguments(const std::string& text, std::span<const std::string>
     return result;
 }
 
-// What a function returns if that is all it does.
+// The beginning of a function that consists of a single return statement.
 const std::string returned = "    return ";
 bool is_expression(const std::string& text) {
     return text.size() < 60 && text.starts_with(returned) && text.find('\n') == text.size() - 1;
@@ -109,7 +109,7 @@ void Functions::finish() {
     for (std::uint32_t f = 0; f < functions_.size(); ++f) assign_offsets(f);
 }
 
-// Decides which numbers of a function stand in its text, and where the others are.
+// Decides which numbers of a function become literals in its text, and assigns offsets to the others.
 void Functions::assign_offsets(std::uint32_t number) {
     Function& function = functions_[number];
     std::vector<Instance*> instances;
@@ -211,7 +211,7 @@ std::string Functions::text(bool with_gradients) const {
         const Trace trace = trace_of(f);
         Function function{{}, {}, text_of(trace), false, {}, {}};
         for (const NumberSlot& s : function.text.slots) function.slot_texts.push_back(literal(s.numbers[0]));
-        // Those that others call stand before them.
+        // Callees are defined before their callers.
         std::string parameters;
         for (std::uint32_t k = 0; k < trace.inputs; ++k)
             parameters += fmt::format("{}{} {}", k > 0 ? ", " : "", number, static_cast<char>('x' + k));

@@ -8,38 +8,38 @@
 
 namespace phasetree::glsl {
 
-/// The functions that the instructions of some programs need. Instructions of one kind whose equations take the same
-/// way share a function: what differs between them are numbers, which the function finds from the offset `at` on. A
-/// number that is the same in all of them stands in the text.
+/// The functions required by the instructions of some programs. Instructions of one kind whose equations take the same
+/// branches share a function. They differ only in numbers, which the function reads from the offset `at` on. A number
+/// that is the same for all of them becomes a literal.
 class Functions {
   public:
-    /// Returns the number of an instruction, which others that are equal share.
+    /// Returns the index of an instruction; equal instructions share an index.
     std::uint32_t add(Op, std::span<const float> constants);
-    /// Gives all numbers their offsets; nothing may be added after that.
+    /// Assigns offsets to all numbers. Nothing may be added afterwards.
     void finish();
 
-    /// What is called for an instruction. `arguments` are x, y, z or those that the operation takes.
+    /// The text of a call for an instruction. `arguments` are x, y and z, or the operation's operands.
     std::string call(std::uint32_t instruction, std::span<const std::string> arguments, bool with_gradients) const;
     std::uint32_t function(std::uint32_t instruction) const { return instances_[instruction].function; }
     std::uint32_t at(std::uint32_t instruction) const { return instances_[instruction].at; }
     std::size_t count() const { return functions_.size(); }
-    /// How many numbers a function takes, and whether it gives a point.
+    /// The operation of a function, which determines its operands and whether it returns a point.
     Op operation(std::uint32_t function) const { return functions_[function].op; }
-    /// A call of a function whose numbers are at the offset that `at` says.
+    /// The text of a call of a function whose numbers are at the offset given by the expression `at`.
     std::string call_at(std::uint32_t function, std::span<const std::string> arguments, const std::string& at,
                         bool with_gradients) const;
     /// The definitions of all functions.
     std::string text(bool with_gradients) const;
-    /// What pt_number(i) must return.
+    /// The values that pt_number(i) must return.
     const std::vector<float>& numbers() const { return numbers_; }
 
   private:
-    /// Floats as they lie in memory: −0 is not 0.
+    /// The bit patterns of floats, so that −0 differs from 0.
     using Bits = std::vector<std::uint32_t>;
     struct Function {
         Op op{};
         std::string name;
-        FunctionText text;  // its slots are those of the first instance
+        FunctionText text;  // with the slots of the first instance
         bool takes_offset = false;
         std::vector<std::string> slot_texts;
         std::string lookup_offset;

@@ -9,10 +9,10 @@ namespace phasetree::glsl {
 namespace {
 
 constexpr std::uint32_t fewest_iterations = 3;
-// A loop that saves fewer steps than this is harder to read than what it replaces.
+// A loop that saves fewer steps than this is harder to read than the unrolled steps.
 constexpr std::uint32_t fewest_saved = 32, fewest_saved_by_prefix = 256;
-// The longest iteration that is sought, in items, the most comparisons in all, and the most steps in loops that are
-// tried.
+// Limits of the search: the length of an iteration, in items, the total number of comparisons, and the total number of
+// steps in candidate loops.
 constexpr std::size_t longest_iteration = 2048, most_comparisons = std::size_t{1} << 28,
                       most_steps_tried = std::size_t{1} << 25;
 
@@ -21,7 +21,7 @@ std::uint64_t combined(std::uint64_t a, std::uint64_t b) {
     return a * 0xff51afd7ed558ccdu;
 }
 
-// An item that is not in a loop yet, and a hash of its form: of the operations, not of the operands.
+// An item that is not yet in a loop, with a hash of its form: its operations without its operands.
 struct Candidate {
     NestItem item;
     std::uint64_t form;
@@ -45,7 +45,7 @@ class LoopSearch {
              ++length) {
             comparisons += list_.size();
             if (comparisons > most_comparisons) break;
-            // Loops around those that were found are shorter in items than these.
+            // Start again: loops around those just found may have fewer items per iteration.
             if (find_of_length(length)) length = 0;
         }
         std::vector<NestItem> items;
@@ -54,9 +54,9 @@ class LoopSearch {
     }
 
   private:
-    // Finds loops whose iterations are this many items long. Returns whether there were any.
+    // Finds loops whose iterations consist of this many items. Returns whether there are any.
     bool find_of_length(std::size_t length) {
-        // For each item, how many from it on equal the one that is an iteration later.
+        // For each item, the number of consecutive items from it on that equal the item one iteration later.
         std::vector<std::uint32_t> equal(list_.size(), 0);
         bool has_any = false;
         for (std::size_t i = list_.size() - length; i-- > 0;) {
@@ -69,7 +69,7 @@ class LoopSearch {
         std::size_t failures = 0;
         for (std::size_t i = 0; i < list_.size();) {
             const auto iterations = static_cast<std::uint32_t>(equal[i] / length + 1);
-            // A stretch that repeats may begin before the loop does, by less than an iteration.
+            // A repeating stretch may begin less than one iteration before the loop does.
             if (iterations >= fewest_iterations && failures < length) {
                 if (auto loop = longest_loop_at(i, length, iterations)) {
                     i += loop->item.count * length;
@@ -86,8 +86,8 @@ class LoopSearch {
         return list_.size() < before;
     }
 
-    // Where not all iterations are a loop the first of them may be, as in two layers of a network of the same width.
-    // That is sought only if it saves much: elsewhere it would tear apart what is a loop in another way.
+    // If not all iterations form a loop, the first ones may, as in two layers of a network with the same width. This is
+    // tried only if it saves a lot. Otherwise, it could break up what forms a loop in another way.
     std::optional<Candidate> longest_loop_at(std::size_t first, std::size_t length, std::uint32_t iterations) {
         auto found = loop_at(first, length, iterations);
         if (found) return found;

@@ -4,9 +4,9 @@
 
 namespace phasetree::glsl {
 
-/// Finds the loops of a trace: stretches of steps that repeat. Short ones are sought first, so that loops in loops are
-/// found from the inside; what repeats and is not worth a loop, or reads its operands in no regular way, stays as it
-/// is.
+/// Finds the loops of a trace: stretches of steps that repeat. Short ones are tried first, so that nested loops are
+/// found from the inside out. Repetitions that are not worth a loop, or whose operands follow no regular pattern, stay
+/// as they are.
 std::vector<NestItem> find_loops(const Trace&);
 
 }  // namespace phasetree::glsl

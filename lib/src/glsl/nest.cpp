@@ -30,8 +30,8 @@ void Nest::number(const std::vector<NestItem>& items, std::uint32_t first, std::
 }
 
 std::optional<std::uint32_t> Nest::latest(const Leaf& leaf, std::uint32_t before) const {
-    // The greatest counters, from the outermost, with which the step is still before the limit where those of the loops
-    // further inside are 0.
+    // Find the largest counters, from the outermost loop inwards, for which the step is still before the limit if all
+    // inner counters are 0.
     std::uint32_t step = leaf.first;
     if (step >= before) return std::nullopt;
     for (const NestItem* loop : leaf.loops)

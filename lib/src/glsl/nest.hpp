@@ -8,35 +8,35 @@
 
 namespace phasetree::glsl {
 
-/// A step of a trace, or a loop of them. Steps are counted from the beginning of the iteration around them.
+/// A step of a trace, or a loop of steps. Steps are counted from the beginning of the surrounding iteration.
 struct NestItem {
     std::uint32_t offset = 0;      ///< of the first step
-    std::uint32_t period = 1;      ///< how many steps of the trace an iteration is
-    std::uint32_t count = 1;       ///< of iterations
+    std::uint32_t period = 1;      ///< the number of trace steps per iteration
+    std::uint32_t count = 1;       ///< number of iterations
     std::vector<NestItem> body{};  ///< empty for a step
 
     bool is_step() const { return body.empty(); }
     std::uint32_t span() const { return period * count; }
 };
 
-/// A step that is written once and runs once for all values of the counters of the loops around it.
+/// A step that is written once, and executed for all values of the counters of its surrounding loops.
 struct Leaf {
-    std::vector<const NestItem*> loops;  ///< from the outermost
-    std::uint32_t first = 0;             ///< the step of the trace that it is where all counters are 0
+    std::vector<const NestItem*> loops;  ///< outermost first
+    std::uint32_t first = 0;             ///< the step of the trace for which all counters are 0
 };
 
-/// A trace, or a part of it, with its loops.
+/// A trace, or part of it, with its loops.
 class Nest {
   public:
-    /// The items follow each other without gaps.
+    /// The items must be contiguous.
     Nest(const Trace&, std::vector<NestItem> items);
 
     const Trace& trace() const { return *trace_; }
     const std::vector<NestItem>& items() const { return items_; }
     const std::vector<Leaf>& leaves() const { return leaves_; }
-    /// The number of the leaf that a step of the trace is an instance of.
+    /// The index of the leaf to which a step of the trace belongs.
     std::uint32_t leaf_of(std::uint32_t step) const { return leaf_of_[step - first_]; }
-    /// The last step before `before` that is an instance of a leaf.
+    /// The last step before `before` that is an instance of this leaf.
     std::optional<std::uint32_t> latest(const Leaf&, std::uint32_t before) const;
 
   private:
@@ -49,7 +49,7 @@ class Nest {
     std::vector<std::uint32_t> leaf_of_;
 };
 
-/// Counts through the values of the counters of some loops, the innermost fastest.
+/// Enumerates the values of the counters of some loops; the innermost varies fastest.
 class Counters {
   public:
     explicit Counters(std::vector<std::uint32_t> counts) : counts_(std::move(counts)), now_(counts_.size(), 0) {}
@@ -66,7 +66,7 @@ class Counters {
     std::vector<std::uint32_t> counts_, now_;
 };
 
-/// The step that an instance of a leaf is.
+/// The step of the trace for an instance of a leaf.
 template <class C>
 std::uint32_t step_at(const Leaf& leaf, const C& counters) {
     std::uint32_t step = leaf.first;

@@ -13,7 +13,7 @@ using program::gives_point, program::operands;
 
 namespace {
 
-// The number of a function and of a slot share a float, in which whole numbers up to 2²⁴ are exact.
+// The number of a function and that of a slot share a float, which represents integers up to 2²⁴ exactly.
 constexpr std::uint32_t most_functions = 2048, most_slots = 4096;
 
 }  // namespace
@@ -30,7 +30,7 @@ ProgramTable::ProgramTable(const Program& whole, Functions& functions)
 std::uint32_t ProgramTable::instruction_at(const Instruction& in) {
     const auto [known, is_new] = known_.try_emplace({in.op, in.data}, 0);
     if (is_new) {
-        // A constant that rewriting has appended is alone.
+        // A constant appended by rewriting stands alone.
         const std::uint32_t end = std::max(ends_[in.data], in.data);
         const bool is_appended = ends_[in.data] == 0 && in.data < whole_.constants.size();
         known->second =

@@ -7,25 +7,26 @@
 #include "glsl/functions.hpp"
 #include "glsl/pruned_grid.hpp"
 
-/// Programs as numbers that a shader runs, and not as text: compilers of shaders take minutes for thousands of calls,
-/// and a box of a grid needs few of them.
+/// Represents programs as numbers that a shader interprets, instead of as text. Shader compilers take minutes for
+/// thousands of calls, of which a box of a grid needs only a few.
 namespace phasetree::glsl {
 
-/// Programs that a shader reads from its numbers, four at a time. Each begins with the numbers of its steps and of its
-/// outputs; the steps and the outputs follow.
+/// Programs that a shader reads from its numbers, four at a time. Each begins with the number of its steps and the
+/// number of its outputs, followed by the steps and the outputs.
 class ProgramTable {
   public:
-    /// The constants of all programs are those of `whole`.
+    /// All programs use the constants of `whole`.
     ProgramTable(const Program& whole, Functions& functions);
 
-    /// Adds what the program needs to the functions, and returns the program's number.
+    /// Adds the functions that the program needs. Returns the program's index.
     std::size_t add(const BoxProgram&);
-    /// Appends all programs to some numbers, once functions have offsets. Returns where each begins, in fours.
+    /// Appends all programs to some numbers; the functions must have offsets. Returns the start of each program, in
+    /// units of four numbers.
     std::vector<std::size_t> append_to(std::vector<float>& numbers) const;
 
-    /// Slots that the longest program needs.
+    /// The number of slots required by the longest program.
     std::uint32_t slots() const { return slots_; }
-    /// pt_run(), which runs a program for a point; with gradients pt_d_run().
+    /// The text of pt_run(), which runs a program for a point, or with gradients that of pt_d_run().
     std::string text(bool with_gradients) const;
 
   private:
@@ -40,7 +41,8 @@ class ProgramTable {
 
     const Program& whole_;
     Functions& functions_;
-    std::vector<std::uint32_t> ends_;  // for each constant at which those of an instruction begin, where they end; or 0
+    std::vector<std::uint32_t> ends_;  // for the index of an instruction's first constant: the end of its constants;
+                                       // otherwise 0
     std::map<std::pair<Op, std::uint32_t>, std::uint32_t> known_;
     std::vector<Entry> entries_;
     std::uint32_t slots_ = 3;

@@ -20,12 +20,12 @@ using rewriting::Arena, rewriting::ArenaScope, rewriting::Arenas, rewriting::Pro
 
 namespace {
 
-// Boxes of a grid from `first` up to `end` in each direction.
+// The boxes of a grid from `first` up to `end` in each direction.
 struct BoxRange {
     glm::ivec3 first, end;
 
     bool is_one() const { return end - first == glm::ivec3(1); }
-    // Its two halves across the side of most boxes.
+    // The two halves of the range, divided across the direction with the most boxes.
     std::array<BoxRange, 2> halves() const {
         const glm::ivec3 n = end - first;
         const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;

@@ -12,19 +12,19 @@ namespace phasetree::glsl {
 
 using program::ProgramOutput;
 
-/// What is left of a program in a box.
+/// The part of a program that is left in a box.
 struct BoxProgram {
-    std::vector<Instruction> code;  ///< code[0] is the input point; its constants are those of the whole program
+    std::vector<Instruction> code;  ///< code[0] is the input point; constants are those of the whole program
     std::vector<ProgramOutput> outputs;
 };
 
-/// The bounds of an object, divided into equal boxes, with the program that is left in each of them after pruning
-/// (pruning/prune.hpp). Boxes in which the same is left share a program.
+/// The bounds of an object, divided into equal boxes, each with the program that is left in it after pruning
+/// (pruning/prune.hpp). Boxes with equal programs share one.
 struct PrunedGrid {
     std::array<int, 3> boxes{1, 1, 1};
     Bounds bounds;
     std::vector<BoxProgram> programs;
-    /// For each box, x fastest, the index of its program; or −1 − phase where there is but one phase.
+    /// For each box, x fastest: the index of its program, or −1 − phase if it contains a single phase.
     std::vector<std::int32_t> content;
 
     glm::vec3 box_size() const {
@@ -32,9 +32,9 @@ struct PrunedGrid {
     }
 };
 
-/// Divides the bounds so that their longest side has about `along` boxes. The programs are right up to `reach` beyond
-/// their boxes. `program` is rewritten, which may append constants to it. `cancelled` is polled; where it
-/// says so, BuildCancelled is thrown.
+/// Divides the bounds so that their longest side has about `along` boxes. Each program is valid up to `reach` beyond
+/// its box. `program` is rewritten, which may append constants to it. `cancelled` is polled; if it returns true,
+/// BuildCancelled is thrown.
 PrunedGrid prune_on_grid(Program& program, const Bounds&, float reach, int along,
                          const std::function<bool()>& cancelled = {});
 

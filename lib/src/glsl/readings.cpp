@@ -9,23 +9,23 @@ namespace phasetree::glsl {
 
 namespace {
 
-// An array has at most so many times the elements that are read.
+// The maximum size of an array, as a multiple of the number of elements that are read.
 constexpr std::size_t largest_spare = 8;
 
 bool same(const Operand& a, const Operand& b) {
     return a.value == b.value && std::bit_cast<std::uint32_t>(a.constant) == std::bit_cast<std::uint32_t>(b.constant);
 }
 
-// An operand of a leaf's step in all of its instances, and the steps before which it is read in them.
+// An operand of a leaf's step in all of its instances, and the steps before which each instance reads it.
 struct LeafOperand {
     std::vector<const NestItem*> loops;
-    std::vector<Operand> values;  // by the counters of the loops, the innermost fastest
+    std::vector<Operand> values;  // indexed by the counters of the loops, the innermost fastest
     std::vector<std::uint32_t> steps;
 
     std::vector<std::uint32_t> counts() const { return counts_of(loops); }
 };
 
-// For each counter, whether the operands depend on it.
+// The counters on which the operands depend.
 std::vector<std::uint32_t> counters_that_matter(const LeafOperand& operand) {
     std::vector<std::uint32_t> matter;
     const std::vector<std::uint32_t> counts = operand.counts();
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> counters_that_matter(const LeafOperand& operand) {
     return matter;
 }
 
-// The operands with the other counters at 0.
+// The operands with the other counters set to 0.
 std::vector<Operand> reduced(const LeafOperand& operand, const std::vector<std::uint32_t>& matter) {
     std::vector<Operand> result;
     Counters counters(operand.counts());
@@ -55,7 +55,7 @@ std::vector<Operand> reduced(const LeafOperand& operand, const std::vector<std::
     return result;
 }
 
-// Finds readings in a nest. In a trial the nest is a loop that may be made, and values from before it are taken as they
+// Finds readings in a nest. In a trial, the nest is a candidate loop, and values from before it are accepted as they
 // are.
 class ReadingSearch {
   public:
@@ -120,7 +120,7 @@ class ReadingSearch {
         return read_element(values, matter);
     }
 
-    // The latest value of the leaf that has computed the operand of the last instance.
+    // Reads the latest value of the leaf that computed the operand of the last instance.
     std::optional<Reading> read_variable(const LeafOperand& operand) {
         const Operand& last = operand.values.back();
         if (last.is_number() || last.value < inputs() || is_outside(last.value)) return std::nullopt;
@@ -148,7 +148,7 @@ class ReadingSearch {
         return std::nullopt;
     }
 
-    // The same where before the first value of the leaf, in each execution of the m-th loop, there is another.
+    // Does the same if, before the leaf's first value in each execution of the m-th loop, there is a different one.
     template <class IsLatest>
     std::optional<Reading> read_carried(const LeafOperand& operand, std::uint32_t leaf, std::size_t m,
                                         const std::vector<std::optional<std::uint32_t>>& latest,
@@ -219,8 +219,8 @@ class ReadingSearch {
         }
         return true;
     }
-    // Finds where all instances of a leaf go in an array. The elements of those that are read are known and must be
-    // linear in the counters; the others go to elements around these.
+    // Finds the array elements to which all instances of a leaf are written. The elements of instances that are read
+    // are known, and must be linear in the counters; other instances go to elements around them.
     bool write_instances(std::uint32_t array, std::uint32_t number,
                          const std::map<std::int32_t, std::int64_t>& elements) {
         const Leaf& leaf = nest_.leaves()[number];

@@ -23,7 +23,7 @@ std::string vector(const glm::vec3& v) {
     return fmt::format("vec3({}, {}, {})", literal(v.x), literal(v.y), literal(v.z));
 }
 
-// What must be called for the instructions of a program.
+// Adds the functions for all instructions of a program. Returns the index of each instruction in `functions`.
 std::vector<std::uint32_t> add_all(const Program& program, Functions& functions) {
     std::vector<std::uint32_t> added(program.instructions.size(), 0);
     for (std::size_t i = 1; i < program.instructions.size(); ++i) {
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> add_all(const Program& program, Functions& functions)
     return added;
 }
 
-// phasetree_distances(), or phasetree_gradients().
+// The text of phasetree_distances(), or of phasetree_gradients().
 std::string program_text(const Program& program, const Functions& functions, const std::vector<std::uint32_t>& calls,
                          bool with_gradients) {
     const char* const number = with_gradients ? "vec4" : "float";
@@ -90,7 +90,7 @@ std::string heading(const Program& program, const GlslOptions& options, std::siz
     for (const Output& o : program.outputs)
         if (o.phase.index < options.phase_names.size()) {
             std::string name = options.phase_names[o.phase.index];
-            // A name must not end the comment.
+            // Prevent a name from ending the comment.
             std::ranges::replace_if(
                 name, [](char c) { return static_cast<unsigned char>(c) < 32 || c == '\\'; }, ' ');
             text += fmt::format("// phase {}: {}\n", o.phase.index, name);
@@ -111,7 +111,7 @@ std::string definitions(const Program& program, const Bounds& bounds, float reso
     return text + fmt::format("    return {};\n}}\n\n", program.outputs.back().phase.index);
 }
 
-// Four numbers to a vector.
+// Packs four numbers per vector.
 std::string numbers_text(const std::vector<float>& numbers, bool in_texture) {
     if (in_texture)
         return "uniform highp sampler2D phasetree_numbers;\n"
@@ -135,14 +135,14 @@ void fill_rows(std::vector<float>& numbers, std::size_t row) {
     numbers.resize((numbers.size() + row - 1) / row * row, 0.f);
 }
 
-// All that evaluates the object, but not yet what reads its numbers.
+// The text that evaluates the object, without the part that reads its numbers.
 struct Evaluation {
     std::string text;
     std::vector<float> numbers;
     std::size_t boxes = 0, programs = 0;
 };
 
-// A text with a call for each instruction.
+// Evaluation as text, with one call per instruction.
 Evaluation by_calls(const Program& program) {
     Functions functions;
     const std::vector<std::uint32_t> calls = add_all(program, functions);
@@ -159,12 +159,12 @@ glsl::BoxProgram whole_of(const Program& program) {
     return whole;
 }
 
-// A loop that runs a table of instructions.
+// Evaluation by a loop that interprets a table of instructions.
 Evaluation by_table(Program program, const Bounds& bounds, float resolution, const GlslOptions& options) {
     const glsl::BoxProgram whole = whole_of(program);
     glsl::PrunedGrid grid;
     if (options.grid > 0) grid = glsl::prune_on_grid(program, bounds, 4 * resolution, options.grid, options.cancelled);
-    // The instructions of the whole say where the constants of each end; rewriting leaves them as they are.
+    // The instructions of the whole program determine where the constants of each end; rewriting leaves them unchanged.
     Functions functions;
     glsl::ProgramTable table(program, functions);
     table.add(whole);

@@ -10,8 +10,8 @@ using program::gives_point, program::operands;
 
 namespace {
 
-// One step, in the form that interpret() takes: its point, or its first number, is in register 0 and those that follow,
-// its second number in register 3, and its result from register 4 on.
+// A single step in the form that interpret() expects. Its point, or its first number, begins at register 0, its second
+// number is in register 3, and its result begins at register 4.
 class OneStep {
   public:
     OneStep(Op op, std::span<const float> constants)

@@ -7,10 +7,10 @@
 
 #include "phasetree/program/program.hpp"
 
-/// How the equations of nodes become functions of GLSL. An instruction's equation is run once over a number type that
-/// writes down what is computed (traced.hpp). What it wrote is a trace: straight-line code in which every loop of the
-/// equation is unrolled and every parameter is a number. Loops are found again in it (loops.hpp), and traces that
-/// differ only in numbers become one function whose numbers are data (functions.hpp).
+/// Translates the equations of nodes to GLSL functions. An instruction's equation is run once with a number type that
+/// records every computation (traced.hpp). The result is a trace: straight-line code in which all loops of the equation
+/// are unrolled and all parameters are numbers. Loops are then recovered from it (loops.hpp), and traces that differ
+/// only in numbers become a single function whose numbers are data (functions.hpp).
 namespace phasetree::glsl {
 
 enum class TraceOp : std::uint8_t {
@@ -19,18 +19,18 @@ enum class TraceOp : std::uint8_t {
     subtract,
     multiply,
     divide,
-    less,    ///< a < b, which only `select` takes
+    less,    ///< a < b; only `select` takes it
     select,  ///< a ? b : c
     minimum,
     maximum,
     absolute,
     root,
     floor,
-    lookup,  ///< the float at `table` + a of the instruction's data, for whole a
-    call     ///< a function that equations share
+    lookup,  ///< the float at index `table` + a of the instruction's data, for integer a
+    call     ///< a call of a shared function
 };
 
-/// Functions that equations share, and that are not written out in each of them.
+/// Functions that equations share instead of containing copies of them.
 enum class SharedFunction : std::uint8_t { none, sine, sine_of_pair, cosine_of_pair, angle, space_noise };
 
 /// A value of a trace, or a number.
@@ -50,19 +50,20 @@ struct TraceStep {
     std::array<Operand, 3> in{};
 };
 
-/// The steps of an equation in order. Values 0 … inputs − 1 are what it takes, value inputs + i is that of step i.
+/// The steps of an equation in order. Values 0 … inputs − 1 are its parameters; value inputs + i is the result of step
+/// i.
 struct Trace {
     std::uint32_t inputs = 0;
     std::vector<TraceStep> steps;
-    std::vector<Operand> results;  ///< one number, or the three of a point
-    std::span<const float> data;   ///< of the instruction, if a step is a lookup in it
+    std::vector<Operand> results;  ///< one number, or the three coordinates of a point
+    std::span<const float> data;   ///< of the instruction, if a step looks it up
     bool has_lookup = false;
 };
 
-/// The trace of an operation of programs, with its constants. It takes a point's three coordinates, or one or two
+/// The trace of a program operation with its constants. Its inputs are the three coordinates of a point, or one or two
 /// numbers.
 Trace trace_of(Op, std::span<const float> constants);
-/// The trace of a function that equations share.
+/// The trace of a shared function.
 Trace trace_of(SharedFunction);
 
 }  // namespace phasetree::glsl

@@ -1,5 +1,5 @@
-// The number type that writes down what an equation computes, as program::Recorded does for the instructions of a
-// program, but down to single additions. Operations on two numbers that are known are computed at once.
+// A number type that records what an equation computes, like program::Recorded for the instructions of a program, but
+// down to single additions. Operations on two known numbers are evaluated immediately.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace phasetree::glsl {
 
-/// A number of a trace that is being written.
+/// A number of a trace that is being recorded.
 struct Traced {
     Trace* trace = nullptr;
     Operand operand{};
@@ -23,10 +23,10 @@ struct Traced {
     float number() const { return operand.constant; }
 };
 
-/// The result of a comparison, which is not known unless both sides are.
+/// The result of a comparison, which is known only if both sides are.
 struct TracedCondition {
     Trace* trace = nullptr;
-    Operand operand{};  ///< a number that is not 0 if it is known to be true
+    Operand operand{};  ///< a nonzero number if it is known to be true
 };
 
 inline Operand write_step(Trace* trace, TraceStep step) {
@@ -128,7 +128,7 @@ inline Traced lookup(const float* table, const Traced& index) {
     return Traced(index.trace, result.value);
 }
 
-// These are called, and not written out: they are long, and equations have them often.
+// Record calls of these instead of their steps: they are long, and equations use them often.
 inline Traced sine(const Traced& x) {
     return x.is_number() ? Traced(phasetree::sine(x.number())) : write_call(SharedFunction::sine, x);
 }

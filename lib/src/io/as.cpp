@@ -13,7 +13,8 @@ namespace phasetree {
 
 namespace {
 
-// What is wrong with a value: "<subject> <complaint>", where the subject is the value asked for, or an item inside it.
+// A problem with a value. The message is "<subject> <complaint>", where the subject is the requested value or an item
+// inside it.
 struct Complaint {
     Value value;
     std::string text;
@@ -40,15 +41,15 @@ Checked read_number(Value value, const Range& range, Number& out) {
         return Complaint{value, fmt::format("must be {}, but is {}", what, shown(value))};
     };
     if (is_integer && number != std::trunc(number)) return complain("a whole number");
-    // The caller's range first: "positive" says more than the limits of the type.
+    // Check the caller's range first: "positive" says more than the limits of the type.
     if (!range.contains(number)) return complain(describe(range));
     constexpr double lowest = static_cast<double>(std::numeric_limits<Number>::lowest());
     constexpr double highest = static_cast<double>(std::numeric_limits<Number>::max());
     if (number < lowest) return complain(fmt::format("at least {}", std::numeric_limits<Number>::lowest()));
     if (number > highest) return complain(fmt::format("at most {}", std::numeric_limits<Number>::max()));
     out = static_cast<Number>(number);
-    // A positive double can be zero as a float; and one that would be subnormal is read as zero, for that is what it
-    // is where rays are traced. A limit is as the float that it would be read as: of 0.1, a little more.
+    // A positive double can become zero as a float. A float that would be subnormal is read as zero, which is what
+    // tracing treats it as. Limits are rounded to floats in the same way; for example, 0.1 becomes slightly more.
     if constexpr (!is_integer) {
         if (std::abs(out) < std::numeric_limits<Number>::min()) out = std::copysign(Number(0), out);
         const auto as_number = [&](double limit) {
@@ -74,7 +75,7 @@ glm::vec<n, Number> mixed(glm::vec<n, Number> a, const glm::vec<n, Number>& b, d
     return a;
 }
 
-// What keys say at the document's time. All of them are read, so that a mistake is found whatever the time is.
+// The value of keyframes at the document's time. All of them are read, so that mistakes are found whatever the time is.
 template <class T, class ReadOne>
 T of_keys(const Document& document, const Keys& keys, ReadOne&& read_one) {
     const Keys::Place place = keys.at(document.seconds());
@@ -121,7 +122,7 @@ Checked read(const Document&, Value value, const Range&, std::string& out) {
     return std::nullopt;
 }
 
-// "item 2 of …", counted from 1 as people do.
+// "item 2 of …", counting from 1.
 Complaint inside(Complaint complaint, std::size_t index) {
     complaint.items += fmt::format("item {} of ", index + 1);
     return complaint;
@@ -170,7 +171,7 @@ SceneError error_of(const Document& document, std::string_view what, const Compl
     return document.error(complaint.value, fmt::format("{}{} {}", complaint.items, what, complaint.text));
 }
 
-// IEC 61966-2-1, the encoded value in 0 … 1.
+// IEC 61966-2-1; the encoded value is in 0 … 1.
 float linear_of_srgb(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
@@ -228,7 +229,7 @@ glm::vec3 as_colour(const Document& document, Value value, std::string_view what
     return as<glm::vec3>(document, value, what, range);
 }
 
-// All that Readable allows.
+// All types that Readable allows.
 template bool as<bool>(const Document&, Value, std::string_view, const Range&);
 template int as<int>(const Document&, Value, std::string_view, const Range&);
 template unsigned as<unsigned>(const Document&, Value, std::string_view, const Range&);

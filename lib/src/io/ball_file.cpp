@@ -1,4 +1,4 @@
-// Balls from files: the vertices of PLY, and the rows of CSV with a header.
+// Reads balls from files: the vertices of PLY, or the rows of CSV with a header.
 #include "io/ball_file.hpp"
 
 #include <fmt/format.h>
@@ -26,10 +26,10 @@ constexpr std::size_t radius = 3, phase = 4, required = 3;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
 constexpr std::string_view too_many = "there are more balls than 16 million";
 
-// For each column of ball_columns its number among those of the file.
+// For each column of ball_columns, its index among the columns of the file.
 using ColumnIndices = std::array<std::optional<std::size_t>, ball_columns.size()>;
 
-// Which columns the vertices lack, or nothing.
+// A message that lists the columns that the vertices lack, or "".
 std::string missing_columns(const ColumnIndices& indices) {
     for (std::size_t i = 0; i < required; ++i)
         if (!indices[i])

@@ -9,10 +9,10 @@
 
 namespace phasetree::io {
 
-/// The columns of balls, in the order of BallBuilder's numbers. The last two may be missing.
+/// The columns of balls, in the order of BallBuilder's numbers. The last two are optional.
 inline constexpr std::array<std::string_view, 5> ball_columns{"x", "y", "z", "radius", "phase"};
 
-/// Adds balls to a list one by one, and checks each.
+/// Checks balls and adds them to a list, one at a time.
 class BallBuilder {
   public:
     struct Mistake {
@@ -21,7 +21,7 @@ class BallBuilder {
     };
     BallBuilder(bool has_radius, bool has_phase) : has_radius_(has_radius), has_phase_(has_phase) {}
 
-    /// Adds a ball, given its columns. Returns what is wrong with it, or nothing.
+    /// Adds a ball with these columns. Returns what is wrong with it, or nothing.
     std::optional<Mistake> add(const std::array<double, ball_columns.size()>& columns);
     BallList& balls() { return balls_; }
 
@@ -30,7 +30,7 @@ class BallBuilder {
     BallList balls_;
 };
 
-/// Readers of the content of a file, as in mesh_file.hpp.
+/// Readers of file contents, as in mesh_file.hpp.
 BallList read_ball_ply(const std::filesystem::path&, std::string_view content);
 BallList read_ball_csv(const std::filesystem::path&, std::string_view content);
 

@@ -50,7 +50,7 @@ class Diagnosis {
 
     bool is_end(std::size_t at) const { return at >= text_.size(); }
 
-    // Shown behind the last visible character, since an empty last line tells nothing.
+    // Point just after the last visible character, because an empty last line would be uninformative.
     SceneError ends_early() const {
         const std::size_t last = text_.find_last_not_of(" \t\r\n");
         const std::size_t end = last == std::string_view::npos ? 0 : last + 1;
@@ -67,8 +67,8 @@ class Diagnosis {
 
     std::size_t line_of(std::size_t at) const { return SceneError({}, text_, at, {}).line(); }
 
-    // Each is a clause for the end of a message. It names the line where, by the indentation, a bracket is missing or
-    // is too many; it is empty if nothing is found, or if that is the line of the error itself.
+    // Both functions return a clause for the end of a message. It names the line where, judging by the indentation, a
+    // bracket is missing or superfluous. It is empty if nothing is found, or if that is the line of the error itself.
     std::string hint_of_missing_bracket(std::size_t at) const {
         const auto missing = indentation_breaks(text_, at).missing;
         if (!missing || line_of(missing->at) == line_of(at)) return "";
@@ -94,7 +94,7 @@ class Diagnosis {
                      std::move(suggestion));
     }
 
-    // Behind an item or a member: a comma and what must follow it, or the bracket.
+    // After an item or a member: a comma and whatever must follow it, or the closing bracket.
     SceneError next(std::size_t at, char bracket) const {
         if (const auto broken = broken_word(at)) return *broken;
         if (is_end(at) || text_[at] != ',') return expected(at, fmt::format("',' or '{}'", bracket));
@@ -115,7 +115,7 @@ class Diagnosis {
         if (text_[at] == '"') return broken_string(at);
         const std::string word(text_.substr(at, word_end(text_, at) - at));
         if (word.empty()) return expected(at, what);
-        // The parser takes every number that is well written and finite, so what is well written is not finite.
+        // The parser accepts every well-formed finite number, so a well-formed number here is not finite.
         if (is_not_finite(word) || number_end(text_, at) == at + word.size()) {
             return error(at, fmt::format("{} is not a finite number", shown_token(text_, at)));
         }
@@ -132,7 +132,8 @@ class Diagnosis {
         return bare == "nan" || bare == "inf" || bare == "infinity";
     }
 
-    // 01, 0x10, 1.5f, truely: the parser reads a number or a literal, and is surprised by what sticks to it.
+    // For example 01, 0x10, 1.5f, truely: the parser reads a number or a literal, and then fails on the characters
+    // attached to it.
     std::optional<SceneError> broken_word(std::size_t at) const {
         const bool sticks = failure_.last_is_word && at == failure_.last_token_end && word_end(text_, at) > at;
         if (!sticks) return std::nullopt;
@@ -144,7 +145,7 @@ class Diagnosis {
 
     SceneError broken_number(std::size_t at) const {
         const std::string_view word = text_.substr(at, word_end(text_, at) - at);
-        // What other languages allow: a leading plus or zeros, and nothing before or behind the point.
+        // Syntax that other languages allow: a leading plus or leading zeros, and no digit before or after the point.
         std::string better(word.substr(std::min(word.find_first_not_of("+-"), word.size())));
         better.erase(0, std::min(better.find_first_not_of('0'), better.size()));
         if (better.empty() || !is_digit(better[0])) better.insert(0, 1, '0');
@@ -159,7 +160,7 @@ class Diagnosis {
                      is_good ? std::optional(better) : std::nullopt);
     }
 
-    // Walks the string as the parser did (RFC 8259, section 7) to the first thing that is not allowed.
+    // Scans the string as the parser did (RFC 8259, section 7), up to the first thing that is not allowed.
     SceneError broken_string(std::size_t at) const {
         const auto unterminated = [&] { return error(at, "unterminated string: no closing quote on this line"); };
         bool is_closed = false;

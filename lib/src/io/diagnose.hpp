@@ -8,26 +8,26 @@
 
 namespace phasetree::io {
 
-/// Where the parser stood when it could not go on.
+/// What the parser expected when it failed.
 enum class Expecting {
-    document,     ///< nothing was read yet
-    first_key,    ///< behind {
-    first_item,   ///< behind [
-    colon,        ///< behind a key
-    next_member,  ///< behind a member's value
-    next_item,    ///< behind an array's item
-    end_of_file,  ///< behind the one value of the document
+    document,     ///< nothing has been read yet
+    first_key,    ///< after {
+    first_item,   ///< after [
+    colon,        ///< after a key
+    next_member,  ///< after a member's value
+    next_item,    ///< after an array's item
+    end_of_file,  ///< after the document's single value
 };
 
 struct Failure {
     Expecting expecting = Expecting::document;
-    std::size_t last_token = 0;         ///< begin and
-    std::size_t last_token_end = 0;     ///< end of the last token that was good
-    bool last_is_word = false;          ///< it was a number, true, false or null
-    std::optional<std::size_t> opened;  ///< the bracket of the array or object that is open
+    std::size_t last_token = 0;         ///< begin …
+    std::size_t last_token_end = 0;     ///< … and end of the last valid token
+    bool last_is_word = false;          ///< whether that was a number, true, false or null
+    std::optional<std::size_t> opened;  ///< the opening bracket of the innermost open array or object
 };
 
-/// The parser only says that the text is wrong; this finds out what is wrong, and where.
+/// Finds out what is wrong with a text, and where. The parser itself only reports that it is wrong.
 SceneError diagnose(std::string_view name, std::string_view text, const Failure& failure);
 
 }  // namespace phasetree::io

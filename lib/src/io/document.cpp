@@ -141,14 +141,14 @@ const std::string& Document::name() const {
 
 namespace {
 
-// Whether a path, without links, is in a folder or in folders within it.
+// Whether a path without links is in a folder or one of its subfolders.
 bool is_within(const std::filesystem::path& folder, const std::filesystem::path& real) {
     const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end());
     return end == folder.end();
 }
 
-// Whether all of what a name with # may stand for is within a folder: links in its own folder may lead elsewhere, and
-// count if their names begin and end as it does.
+// Whether everything that a name with # can match is within a folder. Links in its own folder may lead elsewhere; they
+// count if their names begin and end like it.
 bool are_layers_within(const std::filesystem::path& folder, const std::filesystem::path& name) {
     const std::string file_name = name.filename().string();
     const std::string begin = file_name.substr(0, file_name.find('#'));
@@ -168,7 +168,7 @@ bool are_layers_within(const std::filesystem::path& folder, const std::filesyste
 
 // Which of the files that a text names may be read.
 struct Document::FileAccess {
-    std::optional<std::filesystem::path> within{};  // the folder, as it is without links
+    std::optional<std::filesystem::path> within{};  // the folder's path without links
     bool has_assets = true;
 };
 
@@ -176,7 +176,7 @@ std::filesystem::path Document::file(Value named) const {
     const std::filesystem::path path = std::filesystem::path(name()).parent_path() / named.string();
     if (!access_ || !access_->within) return path;
     const std::filesystem::path& folder = *access_->within;
-    // What is opened is the path without links, so that it is the one that was examined.
+    // Opens the path without links, which is the one that was checked.
     std::error_code problem;
     std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
     const bool is_stack = named.string().find('#') != std::string_view::npos;

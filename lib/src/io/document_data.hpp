@@ -10,20 +10,20 @@
 
 namespace phasetree {
 
-/// What a Document owns. All values lie in one array, the items of an array and the members of an object side by side
-/// in it, so that a document of any depth and width is destroyed without recursion.
+/// The contents of a Document. All values are in one array, in which the items of an array and the members of an object
+/// are contiguous. So a document of any depth and width is destroyed without recursion.
 struct DocumentData {
     struct Span {
         std::uint32_t first;
         std::uint32_t count;
     };
 
-    /// 16 bytes a value: a list of ten million numbers takes 160 MB.
+    /// 16 bytes per value: a list of ten million numbers takes 160 MB.
     struct Entry {
         union {
             double number;
             bool boolean;
-            Span span;  ///< of `strings` for a string, of `values` for an array or an object
+            Span span;  ///< in `strings` for a string, in `values` for an array or an object
         };
         std::uint32_t offset : 28;  ///< < Document::max_bytes = 2²⁸
         std::uint32_t kind : 4;
@@ -34,20 +34,20 @@ struct DocumentData {
     static constexpr std::uint32_t no_key = 0xFFFFFFFF;
 
     struct Key {
-        Span span;  ///< of `strings`
+        Span span;  ///< in `strings`
         std::uint32_t offset;
     };
 
-    /// The members of a wide object sorted by key, for find().
+    /// The members of a wide object, sorted by key, for find().
     struct Index {
         std::uint32_t first;  ///< the object's first member in `values`; indices are sorted by this
         std::uint32_t begin;  ///< in `by_key`
     };
-    static constexpr std::uint32_t wide = 16;  ///< objects of more members than this have an index
+    static constexpr std::uint32_t wide = 16;  ///< objects with more members than this have an index
 
     std::string name;
     std::string text;
-    std::string strings;  ///< all strings and keys, unescaped, one after the other
+    std::string strings;  ///< all strings and keys, unescaped and concatenated
     std::vector<Entry> values;
     std::vector<Key> keys;
     std::vector<Index> indices;

@@ -23,16 +23,17 @@ namespace {
 
 constexpr std::string_view indent = "  ";
 constexpr std::size_t max_columns = 120;
-constexpr std::size_t max_tab_columns = 8;  // what a tab takes at most
-// The window holds the indent, an ellipsis at either end, and this much of the line on either side of the caret; the
-// character under the caret belongs to the right side.
+constexpr std::size_t max_tab_columns = 8;  // maximum width of a tab
+// The window contains the indent, an ellipsis at either end, and this many columns of the line on either side of the
+// caret. The character under the caret belongs to the right side.
 constexpr std::size_t side_columns = (max_columns - indent.size() - 2) / 2;
 
 bool is_line_end(char c) {
     return c == '\n' || c == '\r';
 }
 
-// The columns a character may take in the window, no less than one so that a window is short in bytes, too.
+// The number of columns reserved for a character in the window. It is at least one, so that the window is also short in
+// bytes.
 std::size_t window_columns(char32_t c) {
     if (c == '\t') return max_tab_columns;
     return static_cast<std::size_t>(std::max(io::columns_of(c), 1));
@@ -85,7 +86,7 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
           for (std::size_t at = first; at < offset; ++at) {
               if (!is_line_end(text[at])) continue;
               if (text[at] == '\r' && at + 1 < text.size() && text[at + 1] == '\n') {
-                  if (at + 1 == offset) break;  // between CR and LF is still the line they end
+                  if (at + 1 == offset) break;  // between CR and LF, which belongs to the line that they end
                   ++at;
               }
               ++details->line;
@@ -97,7 +98,7 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
           std::size_t caret = first;
           while (caret < offset) {
               const std::size_t next = caret + decode(text, caret).bytes;
-              if (next > offset) break;  // an offset inside a character stands for the character
+              if (next > offset) break;  // an offset inside a character refers to that character
               caret = next;
               ++details->column;
           }
@@ -125,7 +126,7 @@ SceneError::SceneError(std::string file, std::string_view text, std::size_t offs
                       break;
                   }
               }
-              // Tabs stay, above and below, so that the caret is under its character however wide a tab is.
+              // Keep tabs in both lines, so that the caret is under its character whatever the width of a tab.
               const bool is_tab = c.value == '\t';
               quoted += is_tab ? "\t" : io::printable_at(text, at, c);
               if (at < caret) under += is_tab ? "\t" : std::string(std::max(io::columns_of(c.value), 0), ' ');

@@ -10,14 +10,15 @@ namespace phasetree::io {
 
 namespace {
 
-// Twice the area of a triangle, positive if it is counter-clockwise.
+// Twice the area of a triangle; positive if it is counter-clockwise.
 double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The corners on that plane of two axes on which the face is largest, counter-clockwise.
+// The corners, counter-clockwise, projected onto the coordinate plane in which the face is largest.
 std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
-    // Newell's normal: a sum over all sides, so a corner slightly off the plane, or three in a line, do no harm.
+    // Newell's normal is a sum over all sides, so it tolerates corners slightly off the plane and three corners in a
+    // line.
     glm::dvec3 normal(0);
     for (std::size_t i = 0; i < corners.size(); ++i)
         normal += glm::cross(glm::dvec3(corners[i]), glm::dvec3(corners[(i + 1) % corners.size()]));
@@ -32,22 +33,22 @@ std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
     return flat;
 }
 
-// Returns whether a polygon never turns right, and goes around once.
+// Whether a polygon never turns right, and goes around once.
 bool is_convex(const std::vector<glm::dvec2>& p) {
     const std::size_t n = p.size();
     int turns = 0;
     for (std::size_t i = 0; i < n; ++i) {
         if (area(p[i], p[(i + 1) % n], p[(i + 2) % n]) < 0) return false;
-        // A convex polygon changes once from sides that go up to sides that do not.
+        // A convex polygon changes exactly once from sides that go up to sides that do not.
         turns += (p[(i + 1) % n].y > p[i].y) && !(p[(i + 2) % n].y > p[(i + 1) % n].y) ? 1 : 0;
     }
     return turns <= 1;
 }
 
-// Ears are found after a few corners in most faces, but there are faces for which it takes about n³ comparisons for all
-// of n corners. After 16 n² comparisons any corner is cut off.
+// In most faces, an ear is found after testing a few corners. But some faces of n corners need about n³ comparisons in
+// total. After 16 n² comparisons, any corner is cut off.
 constexpr std::size_t comparisons_per_square = 16;
-// The first comparisons of a face, 16 for each corner, are not counted: ordinary faces need fewer.
+// The first comparisons of a face, 16 per corner, are free: ordinary faces need fewer.
 constexpr std::size_t free_comparisons = 16;
 
 class Ears {
@@ -68,12 +69,12 @@ class Ears {
         triangles.reserve(at_.size() - 2);
         std::uint32_t i = 0;
         for (std::uint32_t left = size(); left > 3; --left) {
-            // A face that crosses itself may have no ear; any corner is cut off then.
+            // A self-intersecting face may have no ear. Then any corner is cut off.
             for (std::uint32_t tried = 0; tried < left && comparisons_ < most && !is_ear(i); ++tried) i = next_[i];
             triangles.emplace_back(previous_[i], i, next_[i]);
             i = cut(i);
         }
-        // From the first corner of the face that is left.
+        // Start with the lowest remaining corner of the face.
         std::array<std::uint32_t, 3> last{i, next_[i], previous_[i]};
         std::ranges::sort(last);
         triangles.emplace_back(last[0], last[1], last[2]);
@@ -87,7 +88,7 @@ class Ears {
     std::uint32_t size() const { return static_cast<std::uint32_t>(at_.size()); }
 
     bool is_dent(std::uint32_t i) const { return !(area(at_[previous_[i]], at_[i], at_[next_[i]]) > 0); }
-    // Enters a corner among the dents, or takes it from them.
+    // Adds a corner to the dents or removes it from them, whichever applies.
     void note(std::uint32_t i) {
         const bool is_now = is_dent(i);
         if (is_now == (place_in_dents_[i] != none)) return;
@@ -105,7 +106,7 @@ class Ears {
         place_in_dents_[i] = none;
         dents_.pop_back();
     }
-    // Cuts off a corner, and returns the next one.
+    // Cuts off a corner. Returns the next one.
     std::uint32_t cut(std::uint32_t i) {
         if (place_in_dents_[i] != none) take_from_dents(i);
         next_[previous_[i]] = next_[i];
@@ -119,8 +120,8 @@ class Ears {
         ++comparisons_;
         if (place_in_dents_[i] != none) return false;
         const glm::dvec2 &a = at_[previous_[i]], &b = at_[i], &c = at_[next_[i]];
-        // Of the corners within the triangle, if there are some, one is a dent: that farthest from the side from a to
-        // c.
+        // If the triangle contains any corners, the one farthest from the side from a to c is a dent. So testing the
+        // dents is enough.
         for (const std::uint32_t other : dents_) {
             ++comparisons_;
             const glm::dvec2& p = at_[other];
@@ -131,9 +132,9 @@ class Ears {
     }
 
     std::vector<glm::dvec2> at_;
-    // Of the corners that are not cut off yet: their neighbours, and those at which the face does not bulge outwards.
+    // For the corners that are left: their neighbours, and the corners at which the face is not convex.
     std::vector<std::uint32_t> next_, previous_, dents_;
-    std::vector<std::uint32_t> place_in_dents_;  // of each corner, or none
+    std::vector<std::uint32_t> place_in_dents_;  // for each corner: its index in dents_, or none
     std::size_t comparisons_ = 0;
 };
 

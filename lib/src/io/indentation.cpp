@@ -11,8 +11,9 @@ namespace {
 
 struct Container {
     char closing;
-    std::size_t line_indent;  // of the line in which it was opened
-    // Of the first line that begins with one of its members, or with an item that is a string, an object or an array.
+    std::size_t line_indent;  // of the line on which it was opened
+    // The indentation of the first line that begins with one of its members, or with an item that is a string, an
+    // object or an array.
     std::optional<std::size_t> members_indent;
 };
 
@@ -42,13 +43,14 @@ class Reader {
     }
 
   private:
-    // Returns where the next token at or after `from` begins; sets begins_line_, and line_indent_ if it begins a line.
+    // Returns the start of the next token at or after `from`. Sets begins_line_, and line_indent_ if the token begins a
+    // line.
     std::size_t next(std::size_t from) {
         const std::size_t at = skip_blank(text_, from);
         const std::size_t line_end = text_.substr(from, at - from).find_last_of("\r\n");
         begins_line_ = from == 0 || line_end != std::string_view::npos;
         const std::size_t line = line_end == std::string_view::npos ? 0 : from + line_end + 1;
-        // Comments before the token are not indentation.
+        // Comments before the token do not count as indentation.
         if (begins_line_) line_indent_ = std::min(text_.find_first_not_of(" \t", line), at) - line;
         return at;
     }
@@ -58,7 +60,7 @@ class Reader {
         const bool is_root = open_.size() == 1;  // nothing can follow its bracket
         Container& in = open_.back();
         const char before = text_[last_];
-        if (before == ':') return;  // a value that stands below its key
+        if (before == ':') return;  // a value on the line below its key
         if (in.members_indent) {
             if (!is_root && line_indent_ < *in.members_indent && line_indent_ <= in.line_indent)
                 report_first(found_.missing, in.closing);
@@ -74,7 +76,7 @@ class Reader {
         if (!found && bracket != '\0') found = IndentationBreak{last_, bracket};
     }
 
-    // The last token is a comma. Returns the closing bracket right before it, or '\0' if another character is there.
+    // If the last token is a comma: the closing bracket immediately before it, or '\0' if there is another character.
     char bracket_before_last_comma() const {
         const std::size_t before = last_ > 0 ? text_.find_last_not_of(" \t\r\n", last_ - 1) : std::string_view::npos;
         const char c = before == std::string_view::npos ? '\0' : text_[before];
@@ -84,7 +86,7 @@ class Reader {
     std::string_view text_;
     std::vector<Container> open_;
     IndentationBreaks found_;
-    std::size_t last_ = 0;         // where the token before this one begins
+    std::size_t last_ = 0;         // the start of the token before this one
     std::size_t line_indent_ = 0;  // of the current line
     bool begins_line_ = false;
 };

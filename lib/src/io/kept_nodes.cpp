@@ -3,7 +3,7 @@
 namespace phasetree {
 
 void KeptNodes::start() {
-    // A reading that failed has taken some of the nodes, which are still good.
+    // A failed earlier read has taken some of the nodes, which are still valid.
     before_.merge(now_);
 }
 
@@ -17,8 +17,8 @@ std::optional<KeptNodes::Node> KeptNodes::take(const Source& source) {
         if (entry->second.state == source.state) {
             return before_.extract(entry).mapped().node;
         }
-        // The file has changed, and does not change back. Without this, saving a file again and again while something
-        // else of the scene is wrong would keep each of its versions.
+        // The file has changed, and its old version will not return. Without this, repeatedly saving a file while
+        // another part of the scene is wrong would keep every version.
         entry = before_.erase(entry);
     }
     return std::nullopt;

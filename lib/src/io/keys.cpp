@@ -58,13 +58,13 @@ Keys::Keys(const Document& document, Value value, std::string_view what) : list_
 }
 
 Keys::Place Keys::at(double now) const {
-    std::size_t low = 0, high = count();  // The place is from low on, and before high.
+    std::size_t low = 0, high = count();  // The position is in [low, high).
     while (high - low > 1) {
         const std::size_t middle = low + (high - low) / 2;
         (seconds(middle) <= now ? low : high) = middle;
     }
     if (now <= seconds(0) || low + 1 == count()) return {low, 0};
-    // Times may be so far apart that their difference is no number.
+    // Times may be so far apart that their difference overflows.
     const double share = (now / 2 - seconds(low) / 2) / (seconds(low + 1) / 2 - seconds(low) / 2);
     return {low, is_smooth_ ? share * share * (3 - 2 * share) : share};
 }

@@ -8,14 +8,14 @@
 
 namespace phasetree::io {
 
-/// Readers of the content of a file of each kind. Each throws SceneError, which tells the place in the file and quotes
-/// nothing of it (Reader::read_file in tree.cpp says why). What a file claims to hold is compared with its size before
-/// there is memory for it.
+/// Readers of file contents, one per format. Each throws SceneError, which gives the position in the file but quotes
+/// none of its contents (Reader::read_file in tree.cpp explains why). Sizes claimed by a file are compared with its
+/// actual size before memory is allocated.
 MeshFile read_obj(const std::filesystem::path&, std::string_view content, std::size_t most_triangles);
 MeshFile read_ply(const std::filesystem::path&, std::string_view content, std::size_t most_triangles);
 MeshFile read_stl(const std::filesystem::path&, std::string_view content);
 
-/// Drops values that some triangles have and others do not.
+/// Drops values that only some triangles have.
 template <class T>
 void drop_unless_complete(AtCorners<T>& values, const TriangleMesh& mesh) {
     if (values.triangles.size() != mesh.triangles.size()) values = {};

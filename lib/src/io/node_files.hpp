@@ -16,16 +16,16 @@
 
 namespace phasetree::io {
 
-/// Makes the nodes that take files. In one reading each file is read once, or each part of it that is wanted; and where
-/// the document keeps nodes (KeptNodes), the node that an earlier reading made of the same is taken instead.
+/// Creates the nodes that take files. Within one read of a scene, each file, or each requested part of it, is read
+/// once. If the document keeps nodes (KeptNodes), a node that an earlier read created from the same source is reused.
 class NodeFiles {
   public:
-    /// All three must outlive this. `budget` is what the nodes' preparation is paid from.
+    /// All arguments must outlive this object. `budget` pays for the preparation of the nodes.
     NodeFiles(const Document& document, const FileReaders& readers, const model::PreparationTogether& budget)
         : document_(document), readers_(readers), budget_(budget) {}
 
-    /// Makes a node, all of whose parameters but the file's content are set; `file` is the file's name in the document.
-    /// Throws SceneError at that name, and what making the node throws.
+    /// Creates a node whose parameters are all set except the file's content; `file` is the file's name in the
+    /// document. Throws SceneError at that name, and whatever creating the node throws.
     template <class Handle, MadeFromFile N>
     Handle made(N& node, Value file) {
         KeptNodes* const kept = document_.kept_nodes();
@@ -47,7 +47,7 @@ class NodeFiles {
     }
 
   private:
-    // Nothing where the node cannot be known again.
+    // Nothing if the node cannot be recognised later.
     template <class N>
     std::optional<KeptNodes::Source> source_of_node(N& node, Value file) const {
         const std::filesystem::path path = document_.file(file);
@@ -56,7 +56,7 @@ class NodeFiles {
             try {
                 if (readers_.label_files) files = readers_.label_files(path);
             } catch (const std::exception&) {
-                return std::nullopt;  // Whoever reads them says what is wrong.
+                return std::nullopt;  // the reader of the files will report the problem
             }
         }
         return source_of(node, path, files);
@@ -105,7 +105,7 @@ class NodeFiles {
     const Document& document_;
     const FileReaders& readers_;
     const model::PreparationTogether& budget_;
-    /// By the name in the document and the part that is wanted.
+    /// By the name in the document and the requested part.
     template <class Content>
     using Known = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
     std::tuple<Known<SirenNetwork>, Known<HeightGrid>, Known<TriangleMesh>, Known<VoxelGrid>, Known<LabelGrid>,

@@ -25,7 +25,7 @@ std::optional<NodePlace> NodePlaces::find(const void* node) const {
     const auto found = places_.find(node);
     if (found == places_.end()) return std::nullopt;
     const Place& place = found->second;
-    // An error knows how lines and columns are counted.
+    // SceneError computes lines and columns.
     const SceneError there = place.document.error(place.offset, "");
     return NodePlace{place.document.name(), place.offset, there.line(), there.column()};
 }

@@ -14,17 +14,17 @@
 
 namespace phasetree::io {
 
-/// The state of a regular file, by which a later one says whether it changed; nothing for what is no regular file, and
-/// for one that was saved within the last second.
+/// The state of a regular file, which changes when the file does. Nothing for a file that is not regular, or that was
+/// saved within the last second.
 std::optional<std::string> state_of(const std::filesystem::path& file);
 
-/// A node that takes a file: by convention that parameter is called `file`.
+/// A node that takes a file. By convention, that parameter is called `file`.
 template <class N>
 concept MadeFromFile = requires(N& node) {
     node.file.content;
 };
 
-/// Writes parameters one behind the other, so that equal texts stand for equal parameters.
+/// Serialises parameters, so that equal texts mean equal parameters.
 class ParameterBytes {
   public:
     template <class T>
@@ -60,8 +60,8 @@ class ParameterBytes {
     std::string text{};
 };
 
-/// What a node that takes a file is made from: its parameters, which are read, and the files that the file's name
-/// stands for, which need not be. Nothing where one of them has no state.
+/// What a node that takes a file is made from: its parameters, which must have been read, and the files that the file's
+/// name matches, which need not have been. Nothing if one of them has no state.
 template <MadeFromFile N>
 std::optional<KeptNodes::Source> source_of(N& node, const std::filesystem::path& file,
                                            std::span<const std::filesystem::path> files) {

@@ -17,7 +17,7 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-// A blank that separates nothing.
+// A blank that is not a separator.
 bool is_padding(char c, char separator) {
     return is_blank(c) && c != separator;
 }
@@ -28,7 +28,7 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-// What separates the names of a header: the first of these that stands outside quotes.
+// The separator of a header's names: the first of these that occurs outside quotes.
 char separator_of(std::string_view header) {
     for (const char separator : {',', ';', '\t'}) {
         bool is_quoted = false;
@@ -40,7 +40,7 @@ char separator_of(std::string_view header) {
     return ' ';
 }
 
-// Whether the first cell of a line looks like a name instead of a number.
+// Whether the first cell of a line looks like a name rather than a number.
 bool looks_like_name(std::string_view text) {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     const std::string word = lower_case({text.begin(), std::ranges::find_if_not(text, is_letter)});
@@ -69,7 +69,7 @@ bool NumberTable::is_row(std::string_view line) {
 
 bool NumberTable::is_header(std::string_view line) {
     if (header_ == Header::required) return true;
-    // Without quotes, lines of numbers cannot fail to split here.
+    // Lines of numbers have no quotes, so splitting them here cannot fail.
     split(separator_of(line));
     const auto is_column = [&](const Cell& cell) {
         return std::ranges::find(columns_, lower_case(cell.text), &Column::name) != columns_.end();
@@ -103,7 +103,7 @@ std::string NumberTable::required_names() const {
     return names;
 }
 
-// Reads the quoted cell that begins at `at`, and moves `at` to the separator behind it, or to the end of the line.
+// Reads the quoted cell that begins at `at`, and moves `at` to the separator after it, or to the end of the line.
 NumberTable::Cell NumberTable::quoted_cell(std::size_t& at, char separator) const {
     const std::size_t begin = at++;
     while (at < line_.size() && (line_[at] != '"' || line_.substr(at).starts_with("\"\"")))
@@ -153,11 +153,11 @@ void NumberTable::split_without_header() {
         at = skip_blanks(end);
         if (is_end(at)) break;
         const char separator = line_[at] == ',' || line_[at] == ';' ? line_[at] : ' ';
-        // "0,5 1,5" is no row of four numbers.
+        // "0,5 1,5" is not a row of four numbers.
         if (separator != first_separator.value_or(separator))
             throw error_at(end, "numbers must have a decimal point, and one separator must stand between all of them");
         first_separator = separator;
-        // Behind a comma there is a cell, even if it is empty.
+        // A comma is always followed by a cell, even if that is empty.
         if (separator != ' ') at = skip_blanks(at + 1);
     }
     row_end_ = at;
@@ -165,7 +165,7 @@ void NumberTable::split_without_header() {
 
 void NumberTable::check_row() const {
     if (!has_header()) {
-        // What comes first in the line is said first.
+        // Report the first problem in the line first.
         for (std::size_t i = 0; i < std::min(columns_.size(), cells_.size()); ++i) (void)number<double>(i);
         if (cells_.size() < columns_.size())
             throw error_at(row_end_, fmt::format("expected {} finite numbers", columns_.size()));

@@ -1,5 +1,4 @@
-// The lines of an OBJ file that say where its surface is, and what it is like at the corners of its faces: v, vt, vn,
-// f.
+// Reads the lines of an OBJ file that describe its surface and the values at the corners of its faces: v, vt, vn, f.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +18,8 @@ namespace phasetree::io {
 
 namespace {
 
-// The index that a corner of a face names: a number from 1, or one that counts back from the last before the face.
+// The index that a corner of a face refers to: a number from 1, or one that counts back from the last entry before the
+// face.
 std::optional<std::uint32_t> index_of(std::string_view word, std::size_t size, std::size_t before) {
     const auto number = number_of<std::int64_t>(word);
     const auto all = static_cast<std::int64_t>(size), back = static_cast<std::int64_t>(before);
@@ -27,13 +27,13 @@ std::optional<std::uint32_t> index_of(std::string_view word, std::size_t size, s
     return static_cast<std::uint32_t>(*number > 0 ? *number - 1 : back + *number);
 }
 
-// Whether a corner names what is not among so many.
+// Whether a corner refers to an entry beyond `size`.
 bool is_beyond(std::string_view word, std::size_t size) {
     const auto number = number_of<std::int64_t>(word);
     return number && *number > 0 && static_cast<std::uint64_t>(*number) > size;
 }
 
-// The parts of a corner "vertex/texture/normal", of which the last two may be empty or missing.
+// The parts of a corner "vertex/texture/normal"; the last two may be empty or missing.
 std::array<std::string_view, 3> parts_of(std::string_view corner) {
     std::array<std::string_view, 3> parts;
     for (std::string_view& part : parts) {
@@ -44,10 +44,10 @@ std::array<std::string_view, 3> parts_of(std::string_view corner) {
     return parts;
 }
 
-// Instead of the indices of normals, of a face that has none.
+// Replaces the index of a normal for faces without normals.
 constexpr std::uint32_t no_normal = 0xFFFFFFFF;
 
-// Instead of the colour of a vertex that has none: no file has this number.
+// Replaces the colour of a vertex without colour; no file can contain this number.
 const glm::vec3 no_color(std::numeric_limits<float>::quiet_NaN());
 
 class ObjReader {
@@ -95,7 +95,7 @@ class ObjReader {
         for (std::size_t i = 0; i < kinds.size(); ++i) before_[i] += kind == kinds[i] ? 1u : 0u;
     }
 
-    // Reads all vertices and their values, up to the end of the file, because a face names one that follows it.
+    // Reads all vertices and their values up to the end of the file, because a face refers to one that follows it.
     void read_ahead() {
         while (words_.next_line()) {
             place_.reached(words_.offset());
@@ -104,8 +104,8 @@ class ObjReader {
         is_ahead_ = true;
     }
 
-    // Programs write normals that are no numbers where faces have no area, and coordinates of one number. But so many
-    // words must be there, as a short line would cost more memory than it has bytes.
+    // Programs write normals that are not numbers for faces without area, and texture coordinates with a single number.
+    // But `least_words` words are required, because a shorter line would cost more memory than it has bytes.
     template <int count>
     glm::vec<count, float> numbers_or_zero(int least_words, std::string_view otherwise) {
         glm::vec<count, float> p;
@@ -125,7 +125,7 @@ class ObjReader {
             p[i] = *number;
         }
         absent_.add(file_.mesh, p);
-        // Behind the coordinates there may be a weight, or a colour.
+        // The coordinates may be followed by a weight or a colour.
         glm::vec3 color;
         for (int i = 0; i < 3; ++i) {
             const auto number = number_of<float>(words_.word());
@@ -136,7 +136,7 @@ class ObjReader {
         file_.colors.values.push_back(color);
     }
 
-    // Faces without normals get normals of length 0 if others have some. If none has any, there are none.
+    // If only some faces have normals, the others get normals of length 0. If none has, there are no normals.
     void fill_normals() {
         std::vector<glm::uvec3>& faces = file_.normals.triangles;
         if (faces.empty()) {
@@ -150,7 +150,7 @@ class ObjReader {
         std::ranges::replace_if(faces, has_none, glm::uvec3(zero));
     }
 
-    // There are colours only if all triangles have them. Other vertices may lack theirs.
+    // Colours are kept only if all triangles have them. Unused vertices may lack them.
     void fill_colors() {
         std::vector<glm::vec3>& colors = file_.colors.values;
         if (colors.empty()) return;
@@ -166,7 +166,7 @@ class ObjReader {
 
     enum class Corners { complete, too_few, named_later };
 
-    // Reads the corners of a face. Programs write faces of too few for a triangle, of loose edges.
+    // Reads the corners of a face. Programs write faces with too few corners for a triangle, for loose edges.
     Corners read_corners() {
         vertices_.clear(), textures_.clear(), normals_.clear(), places_.clear();
         for (std::string_view word; !(word = words_.word()).empty();) {
@@ -189,7 +189,7 @@ class ObjReader {
         return Corners::complete;
     }
 
-    // Returns false if the face names what may follow it in the file.
+    // Returns false if the face refers to an entry that may follow it in the file.
     bool add_face() {
         if (const Corners corners = read_corners(); corners != Corners::complete) return corners == Corners::too_few;
         const auto add = [](std::vector<glm::uvec3>& to, const glm::uvec3& corners,
@@ -218,9 +218,9 @@ class ObjReader {
     MeshFile file_;
     AbsentVertices absent_;
     FaceDivider divider_;
-    std::array<std::size_t, 3> before_{};  // how many lines of each kind precede this one
-    bool is_ahead_ = false;                // whether all of them have been read
-    // Of the corners of a face.
+    std::array<std::size_t, 3> before_{};  // the number of lines of each kind before this one
+    bool is_ahead_ = false;                // whether all lines have been read
+    // For the corners of a face:
     std::vector<std::uint32_t> vertices_, textures_, normals_;
     std::vector<glm::vec3> places_;
 };

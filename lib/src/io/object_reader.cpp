@@ -38,7 +38,7 @@ std::optional<Value> ObjectReader::value(std::string_view key) {
 
 Value ObjectReader::required_value(std::string_view key) {
     if (const auto found = value(key)) return *found;
-    // A misspelt key is why it is missing, more often than not.
+    // If a key is missing, the cause is usually a misspelt one.
     for (const Value member : object_) {
         if (!knows(member.key()) && closest(member.key(), {key})) {
             throw document_->error(member.key_offset(),
@@ -63,7 +63,7 @@ void ObjectReader::finish() const {
         if (knows(member.key())) continue;
         std::string message = fmt::format("unknown key {} in {}", quoted(member.key()), what_);
         const auto meant = closest(member.key(), known_);
-        // Nothing is near: say what there is, unless that is a long list.
+        // If no key is similar, list the valid ones, unless there are many.
         constexpr std::size_t max_listed = 12;
         if (!meant && !known_.empty() && known_.size() <= max_listed) {
             message += known_.size() == 1 ? "; it has only" : "; it may have";

@@ -1,7 +1,8 @@
-// nlohmann-json does the parsing; its SAX events become the flat array of DocumentData. The events carry no position,
-// but the parser reads its input byte by byte through an iterator that knows how far it came. An event follows its
-// token at once, so that position is the token's end (a number is read one byte too far, so its end is found by its
-// own grammar), and its begin is what follows the white space, comments, commas and colons behind the token before.
+// nlohmann-json parses the text; its SAX events become the flat array of DocumentData. Events carry no position, but
+// the parser reads its input byte by byte through an iterator that tracks the position. An event immediately follows
+// its token, so the position is the token's end. (A number is read one byte too far, so its end is determined by its
+// own grammar.) The token's start is what follows the white space, comments, commas and colons after the previous
+// token.
 
 #include "io/parse.hpp"
 
@@ -25,9 +26,9 @@ namespace phasetree::io {
 
 namespace {
 
-// The text as the parser gets it: each run of white space and comments is a single space. The parser could skip them
-// itself, but keeps all it has read since the last string or number for its own message, which nobody sees, at a cost
-// of a microsecond for each line end.
+// The text as seen by the parser: each run of white space and comments is a single space. The parser could skip them
+// itself. But it stores everything read since the last string or number for its own error message, which nobody sees,
+// at a cost of a microsecond per line end.
 class Source {
   public:
     explicit Source(std::string_view text) : text_(text) {}
@@ -38,7 +39,7 @@ class Source {
     char current() const {
         const char c = text_[at_];
         if (state_ != State::between || !may_be_blank(c)) return c;
-        // A slash that begins no complete comment becomes a byte that is wrong everywhere.
+        // A slash that does not begin a complete comment becomes a byte that is invalid everywhere.
         return skip_blank(text_, at_) > at_ ? ' ' : '\x01';
     }
 
@@ -69,7 +70,7 @@ class Source {
     State state_ = State::between;
 };
 
-// Reads a Source; the default one is the end.
+// Reads a Source. A default-constructed one is the end.
 class SourceIterator {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -100,7 +101,7 @@ class Builder {
 
     explicit Builder(DocumentData& data) : data_(data), source_(data.text) {}
 
-    // SceneError if the text is wrong.
+    // Throws SceneError if the text is invalid.
     void run() {
         const bool is_good = nlohmann::json::sax_parse(SourceIterator(source_), SourceIterator(), this);
         if (!is_good) throw diagnose(data_.name, data_.text, failure_);
@@ -108,7 +109,7 @@ class Builder {
         data_.root = append(pending_);
     }
 
-    // The events of nlohmann::json_sax. `false` stops the parser.
+    // The events of nlohmann::json_sax. Returning `false` stops the parser.
 
     bool null() { return word(Kind::null, {.number = 0}); }
     bool boolean(bool value) { return word(Kind::boolean, {.boolean = value}); }
@@ -239,7 +240,7 @@ class Builder {
 
     void check_keys(std::uint32_t first, std::uint32_t count) {
         const auto key = [&](std::uint32_t i) { return data_.key_of(data_.values[i]); };
-        // Of several repetitions the first in the text is told.
+        // Report the first duplicate in the text.
         std::uint32_t repeated = first + count;
         std::uint32_t original = 0;
         const auto compare = [&](std::uint32_t earlier, std::uint32_t later) {
@@ -290,9 +291,9 @@ class Builder {
 
     DocumentData& data_;
     Source source_;
-    std::vector<Entry> pending_;  // children of the arrays and objects that are open
+    std::vector<Entry> pending_;  // the children of open arrays and objects
     std::vector<Open> open_;
-    std::uint32_t key_ = DocumentData::no_key;  // of the value that comes next
+    std::uint32_t key_ = DocumentData::no_key;  // of the next value
     Failure failure_;
     support::ReadingPlace place_;
 };
@@ -305,7 +306,7 @@ void parse(DocumentData& data) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
         throw SceneError(data.name, "the file is UTF-16 text: save it as UTF-8");
     }
-    // The parser takes a zero byte for the end of the text.
+    // The parser treats a zero byte as the end of the text.
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
         throw SceneError(data.name, text, zero, "a zero byte: this is not UTF-8 text");
     }

@@ -4,7 +4,7 @@
 
 namespace phasetree::io {
 
-/// Parses data.text into the rest of data. SceneError if it is no JSON text as Document describes it.
+/// Parses data.text into the other members of data. Throws SceneError unless it is JSON text as described by Document.
 void parse(DocumentData& data);
 
 }  // namespace phasetree::io

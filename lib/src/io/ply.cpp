@@ -149,11 +149,11 @@ void Ply::add_property() {
 void Ply::check_claims() const {
     std::uint64_t left = rest_.size();
     for (const Element& e : elements_) {
-        std::uint64_t least = 0;  // the bytes of a row at least
+        std::uint64_t least = 0;  // minimum number of bytes per row
         for (const Property& p : e.properties)
             least += format_ == Format::words ? 2 : bytes_of(p.count.value_or(p.type));
         if (e.rows == 0) continue;
-        // The last word needs no blank behind it.
+        // The last word need not be followed by a blank.
         if (least == 0 || e.rows > (left + 1) / least)
             throw SceneError(path_.string(), "is shorter than its header says");
         left -= std::min(left, e.rows * least);

@@ -12,32 +12,33 @@
 
 namespace phasetree::io {
 
-/// A PLY file, of words or of numbers in either order of bytes: a header that says which elements there are, each with
-/// its properties, and their rows one after the other. Throws SceneError, as the readers in mesh_file.hpp do.
+/// A PLY file, in text or in binary of either byte order. Its header lists the elements and their properties; the rows
+/// of the elements follow in order. Throws SceneError, like the readers in mesh_file.hpp.
 class Ply {
   public:
     enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
     struct Property {
         std::string name;
         Type type;
-        std::optional<Type> count;  ///< of a list: the type of its length
+        std::optional<Type> count;  ///< for a list: the type of its length
     };
     struct Element {
         std::string name;
         std::uint64_t rows = 0;
         std::vector<Property> properties;
 
-        /// The number of a property; nothing if there is none of that name.
+        /// The index of a property; nothing if there is none with that name.
         std::optional<std::size_t> find(std::string_view property) const;
     };
-    /// What a row has of a property: one number, or those of a list. What is no number in the file is NaN.
+    /// The values of each property in a row: one number, or those of a list. Anything in the file that is not a number
+    /// becomes NaN.
     using Row = std::vector<std::vector<double>>;
 
     /// Reads the header, and checks that the file is long enough for what it claims.
     Ply(std::filesystem::path, std::string_view content);
 
     const std::vector<Element>& elements() const { return elements_; }
-    /// Calls f(row) for each row of the next element. Elements must be asked for in their order.
+    /// Calls f(row) for each row of the next element. Elements must be read in order.
     template <class F>
     void for_each_row(const Element& element, F&& f) {
         Row row(element.properties.size());
@@ -47,17 +48,19 @@ class Ply {
             if (!is_second_) place_.reached(offset());
         }
     }
-    /// A reader of the elements from here on, for those that are needed only after others. It reports no progress.
+    /// Another reader, which starts at the current element, for elements that are needed only after others. It reports
+    /// no progress.
     Ply second_reader() const {
         Ply second = *this;
         second.is_second_ = true;
         return second;
     }
-    /// To be called when all elements that are wanted have been asked for.
+    /// Call this when all required elements have been read.
     void finish() { place_.finished(content_.size()); }
-    /// The one number that the row which was read last has of a property; an error if it has a list, or no number.
+    /// The number that the most recently read row has for a property. It is an error if the property is a list, or not
+    /// a number.
     double number(const Element&, const Row&, std::size_t property) const;
-    /// An error at the row that was read last.
+    /// Throws an error at the most recently read row.
     [[noreturn]] void fail(const Element&, std::string_view what) const;
 
   private:
@@ -74,7 +77,7 @@ class Ply {
     std::filesystem::path path_;
     std::string_view content_;
     Words words_;
-    std::string_view rest_;  // the numbers that are not read yet
+    std::string_view rest_;  // the data not yet read
     Format format_{};
     std::vector<Element> elements_;
     std::uint64_t row_ = 0;

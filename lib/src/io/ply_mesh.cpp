@@ -1,4 +1,4 @@
-// The vertices and faces of a PLY file, and what it says of them.
+// Reads the vertices and faces of a PLY file, and their attributes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace phasetree::io {
 
 namespace {
 
-/// The numbers of some properties, such as x, y and z.
+/// The indices of some properties, such as x, y and z.
 template <std::size_t count>
 using Columns = std::array<std::size_t, count>;
 
-/// The first of several sets of properties of which an element has all.
+/// The first of several sets of properties that an element has completely.
 template <std::size_t count>
 std::optional<Columns<count>> find(const Ply::Element& element,
                                    std::initializer_list<std::array<std::string_view, count>> sets) {
@@ -37,7 +37,7 @@ std::optional<Columns<count>> find(const Ply::Element& element,
     return std::nullopt;
 }
 
-/// The largest number of a type of whole numbers; 1 of the others.
+/// The largest number of an integer type; 1 for other types.
 double largest_of(Ply::Type type) {
     constexpr std::array<double, 8> largest{127, 255, 32767, 65535, 2147483647, 4294967295, 1, 1};
     return largest[static_cast<std::size_t>(type)];
@@ -74,7 +74,7 @@ class PlyReader {
     }
 
   private:
-    // Triangles that precede the vertices, and a reader that stands before them.
+    // Triangles that precede the vertices, and a reader positioned before them.
     struct Later {
         Ply ply;
         const Ply::Element& element;
@@ -91,7 +91,7 @@ class PlyReader {
         return p;
     }
 
-    // A coordinate that is no number, or too large, is NaN.
+    // A coordinate that is not a number, or too large, becomes NaN.
     glm::vec3 place_or_none(const Ply::Element& element, const Ply::Row& row, const Columns<3>& columns) const {
         glm::vec3 p;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -103,7 +103,7 @@ class PlyReader {
         return p;
     }
 
-    // Programs write normals that are no numbers where faces have no area.
+    // Programs write normals that are not numbers for faces without area.
     static glm::vec3 normal_or_zero(const Ply::Row& row, const Columns<3>& columns) {
         glm::vec3 n(0);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -120,7 +120,7 @@ class PlyReader {
         return static_cast<float>(value);
     }
 
-    // Another list of the same name may lack what the first has, and then not all vertices would have it.
+    // A second list of the same name may lack what the first has, so that only some vertices would have it.
     void refuse_second(const Ply::Element& element) const {
         const auto is_same = [&](const Ply::Element& other) { return other.name == element.name; };
         if (std::ranges::count_if(ply_.elements(), is_same) > 1)
@@ -159,7 +159,7 @@ class PlyReader {
 
     void read_faces(Ply& ply, const Ply::Element& element, std::size_t list) {
         const auto texture = element.find("texcoord");
-        // Those of the faces' corners are finer than those of the vertices, which count if no face has a list.
+        // The values at face corners are more precise than those of the vertices, which are used if no face has a list.
         AtCorners<glm::vec2> of_vertices;
         if (texture) of_vertices = std::exchange(file_.texture, {});
         std::vector<glm::vec3> places;
@@ -189,7 +189,7 @@ class PlyReader {
             drop_unless_complete(file_.texture, file_.mesh);
     }
 
-    // Where the corners of a face are.
+    // The positions of a face's corners.
     void read_places(const Ply& ply, const Ply::Element& element, const std::vector<double>& corners,
                      std::vector<glm::vec3>& places) const {
         if (corners.size() > most_corners_of_face) ply.fail(element, "a face has more than a million corners");
@@ -207,9 +207,9 @@ class PlyReader {
         return static_cast<std::uint32_t>(index);
     }
 
-    // Each corner from the third on makes a triangle with the two before it, and every other triangle of a strip is
-    // turned over. A corner −1 begins the next strip. Programs repeat corners to go on elsewhere, and those triangles
-    // have no area.
+    // From the third corner on, each corner forms a triangle with the two before it, and every other triangle of a
+    // strip is flipped. A corner of −1 begins a new strip. Programs repeat corners to continue elsewhere; those
+    // triangles have no area.
     void read_strip(const Ply& ply, const Ply::Element& element, const std::vector<double>& corners) {
         glm::uvec3 last{};
         std::size_t count = 0;

@@ -15,7 +15,7 @@ double decimal(float v) {
     return std::strtod(fmt::format("{}", v).c_str(), nullptr);
 }
 
-// As people write numbers: 1e15 rather than fifteen zeros.
+// In a readable form: 1e15 rather than fifteen zeros.
 std::string number(double v) {
     std::string text = fmt::format("{}", v);
     if (const std::size_t plus = text.find("e+"); plus != std::string::npos) return text.erase(plus + 1, 1);

@@ -20,7 +20,7 @@ namespace {
 
 class OpenFile {
   public:
-    // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever otherwise.
+    // O_NONBLOCK: otherwise, opening a pipe without a writer would wait forever.
     explicit OpenFile(const char* path) : descriptor_(::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
     ~OpenFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
@@ -34,7 +34,7 @@ class OpenFile {
     int descriptor_;
 };
 
-// A file of a similar name beside the missing one.
+// A file in the same folder with a name similar to the missing one.
 std::optional<std::string> neighbour(const std::filesystem::path& missing) {
     constexpr std::size_t max_looked_at = 1000;
     const std::filesystem::path folder = missing.has_parent_path() ? missing.parent_path() : ".";
@@ -43,7 +43,7 @@ std::optional<std::string> neighbour(const std::filesystem::path& missing) {
         names.push_back(path.filename().string());
         return names.size() < max_looked_at;
     });
-    std::sort(names.begin(), names.end());  // the folder's order is arbitrary
+    std::sort(names.begin(), names.end());  // the order of a folder's entries is arbitrary
     const auto name = closest(missing.filename().string(), names);
     if (!name) return std::nullopt;
     return (missing.parent_path() / *name).string();
@@ -63,7 +63,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 
     const auto too_large = [&] { return SceneError(name, fmt::format("is larger than {} MiB", most_bytes >> 20)); };
 
-    // Asked before opening, too: to open a device can have effects of its own.
+    // Check before opening, too: opening a device can have side effects.
     struct stat status {};
     if (::stat(name.c_str(), &status) != 0) throw fail(errno);
     const auto check = [&] {
@@ -76,7 +76,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
     if (file.descriptor() < 0 || ::fstat(file.descriptor(), &status) != 0) throw fail(errno);
     check();
 
-    // The size is a hint: a file may grow meanwhile, and those of /proc say 0.
+    // The size is a hint: the file may grow meanwhile, and files in /proc have size 0.
     std::string content;
     std::size_t length = 0;
     content.resize(static_cast<std::size_t>(status.st_size) + 1);

@@ -7,8 +7,8 @@
 
 namespace phasetree::io {
 
-/// The content of a regular file of at most this many bytes. SceneError for everything else; never waits for a pipe or
-/// a device.
+/// The content of a regular file of at most this many bytes. Throws SceneError for anything else; never waits for a
+/// pipe or a device.
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes = Document::max_bytes);
 
 }  // namespace phasetree::io

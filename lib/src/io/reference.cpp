@@ -21,7 +21,8 @@ Json list_of(Json items) {
     return {{"type", "array"}, {"minItems", 1}, {"items", std::move(items)}};
 }
 
-// Of a node's parameter: how its values are described, and how this one is written. One overload a type.
+// The description of a node's parameter: the type of its values, and how the current value is written. There is one
+// overload per type.
 struct NodeParameter {
     ValueType type;
     std::string written;
@@ -48,7 +49,7 @@ NodeParameter described(PhaseSet, const Parameter&) {
     const Json phase{{"type", "string"}};
     return {{"phase or list of phases", Json{{"anyOf", {phase, list_of(phase)}}}.dump()}, "all"};
 }
-// A number by itself may stand for a list of one.
+// A single number may be given instead of a list of one.
 template <class T>
 NodeParameter described(const std::vector<T>&, const Parameter& p) {
     const ValueType item = described(T{}, p).type;
@@ -82,7 +83,7 @@ std::vector<KindPage> pages_of_nodes(TypeList<Ns...>) {
     return {page_of_node<Ns>()...};
 }
 
-// What goes in brackets behind a description.
+// The text in brackets after a description.
 std::string limits_of(const ParameterPage& p) {
     if (!p.optional) return p.limits;
     return fmt::format("{}{}default {}", p.limits, p.limits.empty() ? "" : "; ", p.default_value);
@@ -90,7 +91,7 @@ std::string limits_of(const ParameterPage& p) {
 
 Json property_of(const ParameterPage& p) {
     Json property = Json::parse(p.schema);
-    if (property.contains("$ref")) property = {{"allOf", {property}}};  // draft 7 ignores what stands beside $ref
+    if (property.contains("$ref")) property = {{"allOf", {property}}};  // draft 7 ignores everything next to $ref
     property["description"] = p.unit.empty() ? p.description : fmt::format("{} [{}]", p.description, p.unit);
     if (p.optional && Json::accept(p.default_value)) property["default"] = Json::parse(p.default_value);
     return property;
@@ -105,7 +106,7 @@ Json object_of(const KindPage& page) {
     return {{"type", "object"}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
 }
 
-// A node of one of some kinds, or the name of a shape.
+// A node of one of several kinds, or the name of a shape.
 template <class... Ns>
 Json node_of(TypeList<Ns...> nodes) {
     return {{"anyOf",

@@ -38,9 +38,9 @@ SirenNetwork network_of(const Document& document) {
     return network;
 }
 
-// Which file is read a scene says, which may be a stranger's, and who reads the error may not be who may read the
-// file. So an error tells the place in it, and quotes nothing of it: `what` stands for what is wrong there. That a
-// file is missing, too large and the like is told as it is.
+// Replaces the message of an error by its position in the file and `what`, and quotes none of the file's contents. The
+// scene determines which file is read. It may come from a stranger, and whoever reads the error may not have permission
+// to read the file. Errors such as a missing or too large file are passed on unchanged.
 template <class F>
 auto unquoted(const std::filesystem::path& path, std::string_view what, F&& read) {
     try {

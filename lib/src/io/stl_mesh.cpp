@@ -30,7 +30,7 @@ bool begins_with_solid(std::string_view content) {
     return is_word(first.substr(0, 5), "solid");
 }
 
-// Whether the first kilobyte behind the head has a character that text has not.
+// Whether the first kilobyte after the header contains a character that does not occur in text.
 bool has_control_characters(std::string_view content) {
     const auto is_control = [](unsigned char c) { return c < ' ' && (c < '\t' || c > '\r'); };
     return content.size() > head_bytes && std::ranges::any_of(content.substr(head_bytes, 1024), is_control);
@@ -48,9 +48,9 @@ std::uint32_t claimed_triangles(std::string_view content) {
     return count;
 }
 
-// A binary file is at least as long as its number of triangles says. Programs write headers that begin with "solid",
-// and bytes after the triangles. No text is taken for one: four of its characters, read as a number, say more than a
-// hundred million triangles. Texts have no smaller control characters.
+// A binary file is at least as long as implied by its number of triangles. Programs write headers that begin with
+// "solid", and bytes after the triangles. Text is never mistaken for a binary file: four of its characters, read as a
+// number, give more than a hundred million triangles, because text contains no smaller control characters.
 bool is_binary(std::string_view content) {
     if (content.size() < head_bytes) return false;
     const std::uint64_t count = claimed_triangles(content);
@@ -83,7 +83,7 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view con
     return mesh;
 }
 
-/// Reads text STL files. Words may be on any lines, in either case.
+/// Reads text STL files. Words may be split across lines in any way, in either case.
 class TextReader {
   public:
     TextReader(const std::filesystem::path& path, std::string_view content) : path_(path), words_(content) {}
@@ -109,8 +109,8 @@ class TextReader {
         throw SceneError(path_.string(), fmt::format("{} (line {})", what, line));
     }
 
-    // Passes over the name behind "solid" or "endsolid": what is left of the line, of which any words may be a name.
-    // But if a whole facet begins in it, as in files without ends of lines, the name ends before that.
+    // Skips the name after "solid" or "endsolid". The name is the rest of the line, and may contain any words. But if a
+    // whole facet begins on the line, as in files without line ends, the name ends before the facet.
     void pass_name() {
         Words ahead = words_;
         for (std::string_view word; !(word = ahead.word()).empty();) {
@@ -151,7 +151,7 @@ class TextReader {
     support::ReadingPlace place_;
     TriangleMesh mesh_;
     glm::vec3 corners_[3];
-    std::size_t count_ = 0;  // of corners so far
+    std::size_t count_ = 0;  // number of corners so far
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view content) {
     TriangleMesh mesh;
     const bool is_text = begins_with_solid(content);
     if (is_text) mesh = TextReader(path, content).read();
-    // A binary file may begin with "solid", and end too early.
+    // A binary file may begin with "solid", and may be truncated.
     if (!is_text || (mesh.triangles.empty() && has_control_characters(content)))
         throw SceneError(path.string(),
                          "is no STL file: it is neither as long as its number of triangles says nor a text "

@@ -13,7 +13,7 @@ std::size_t offset_in_string(std::string_view text, std::size_t string, std::siz
             unsigned code = 0;
             const std::string_view digits = text.substr(at + 2, 4);
             std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
-            // A pair of surrogates is four bytes: two for each.
+            // A surrogate pair takes four bytes: two for each surrogate.
             meant += code < 0x80 ? 1 : code < 0x800 || (code >= 0xd800 && code < 0xe000) ? 2 : 3;
             at += 6;
         } else {

@@ -1,6 +1,6 @@
-// Did-you-mean: the candidate at the smallest edit distance, where an edit inserts, deletes or replaces a character or
-// swaps two neighbours (Damerau, "A technique for computer detection and correction of spelling errors", CACM 7(3),
-// 1964; computed by the recurrence of Wagner and Fischer, JACM 21(1), 1974, with one more term for the swap).
+// Did-you-mean: finds the candidate with the smallest edit distance. An edit inserts, deletes or replaces a character,
+// or swaps two neighbours (Damerau, "A technique for computer detection and correction of spelling errors", CACM 7(3),
+// 1964). It is computed by the recurrence of Wagner and Fischer, JACM 21(1), 1974, with one more term for the swap.
 
 #include "phasetree/io/suggest.hpp"
 
@@ -12,9 +12,9 @@ namespace phasetree {
 
 namespace {
 
-constexpr std::size_t longest_word = 64;  // nobody misspells longer ones by a letter or two
+constexpr std::size_t longest_word = 64;  // longer words are not misspelt by just a letter or two
 
-// Code points, with ASCII letters in lower case; nothing for a word that is too long to be compared.
+// Code points, with ASCII letters in lower case; nothing for a word that is too long to compare.
 std::optional<std::u32string> folded(std::string_view word) {
     std::u32string out;
     for (std::size_t at = 0; at < word.size();) {
@@ -27,7 +27,8 @@ std::optional<std::u32string> folded(std::string_view word) {
 }
 
 std::size_t edit_distance(std::u32string_view a, std::u32string_view b) {
-    // Rows i−2, i−1 and i of the table; row[j] is the distance of the first i characters of a to the first j of b.
+    // Rows i−2, i−1 and i of the table; row[j] is the distance between the first i characters of a and the first j of
+    // b.
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -55,7 +56,7 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
     for (const std::string_view candidate : candidates) {
         const auto meant = folded(candidate);
         if (!meant || meant->empty()) continue;
-        // One edit for every three letters begun, and at least one letter must be right.
+        // Allow one edit per three letters or part thereof; at least one letter must match.
         const auto [shorter, longer] = std::minmax({misspelt->size(), meant->size()});
         const std::size_t allowed = std::min((longer + 2) / 3, longer - 1);
         if (longer - shorter > allowed) continue;

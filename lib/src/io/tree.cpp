@@ -66,7 +66,7 @@ class Reader {
         return (this->*make_node)(member);
     }
 
-    // Reads the shapes that the tree did not use, so that a mistake in them is found too.
+    // Reads the shapes that the tree did not use, so that mistakes in them are found, too.
     void read_unused() {
         if (!shapes_) return;
         for (const Value shape : *shapes_) {
@@ -80,8 +80,8 @@ class Reader {
     }
 
   private:
-    // Counts the nesting, of nodes and of nodes and names, through named shapes too, so that no file can exhaust the
-    // stack.
+    // Counts the nesting of nodes, and of nodes and names, including through named shapes, so that no file can exhaust
+    // the stack.
     struct Level {
         Level(const Reader& reader, std::size_t& count, std::size_t most, Value value) : count_(count) {
             if (count_ == most)
@@ -132,7 +132,7 @@ class Reader {
                                                       kind_name<Other>, kind_name<Handle>));
     }
 
-    // Whether a shape is a plain field, told from its node's name; a warp is what its child is.
+    // Whether a shape is a plain field, judging by its node's name. A warp is of the same kind as its child.
     bool is_field(Value shape) const {
         for (std::size_t steps = 0; steps < 2 * max_tree_depth; ++steps) {
             if (shape.is_string()) {
@@ -144,13 +144,13 @@ class Reader {
             if (!shape.is_object() || shape.size() != 1) return true;
             const std::string_view name = shape[0].key();
             const bool may_be_field = has_node<FieldNodes>(name), may_be_object = has_node<PhasedNodes>(name);
-            // Here, and not as a field where an object is needed.
+            // Report the unknown node here, rather than as a field where an object is needed.
             if (!may_be_field && !may_be_object) throw unknown_node(shape[0], names_of(FieldNodes(), PhasedNodes()));
             if (!may_be_object) return true;
             if (!may_be_field) return false;
             const std::optional<Value> child = shape[0].find("of");
             if (!child) return true;
-            // Of a list, such as that of levels of detail, all are of one kind.
+            // The items of a list, such as that of levels of detail, are all of one kind.
             shape = child->is_array() && child->size() > 0 ? (*child)[0] : *child;
         }
         return true;
@@ -176,7 +176,7 @@ class Reader {
         }
     }
 
-    // Makes the node of its parameters, and of its file if it has one.
+    // Creates the node from its parameters, and from its file if it has one.
     template <class Handle, class N>
     Handle made_of(N& node, Value member) {
         if constexpr (io::MadeFromFile<N>) {
@@ -188,7 +188,8 @@ class Reader {
     template <class N>
     void read_parameters(N& node, Value member) {
         ObjectReader reader(document_, member, fmt::format("\"{}\"", N::info.name));
-        // Name every key first: a misspelt one is then found before "is missing" is said of what it was meant for.
+        // Register every key first, so that a misspelt key is reported before the one that it was meant to be is
+        // reported missing.
         for_each_parameter(node, [&](auto&, const Parameter& p) { reader.allow({p.name}); });
         reader.finish();
         for_each_parameter(node, [&](auto& target, const Parameter& p) {
@@ -197,7 +198,7 @@ class Reader {
         });
     }
 
-    // The text of a node whose one required parameter is a text; whether it is such a node.
+    // Reads the text of a node whose only required parameter is a text. Returns whether it is such a node.
     template <class N>
     bool read_text(N& node, Value text) {
         std::size_t required = 0;
@@ -273,7 +274,7 @@ class Reader {
         }
     }
 
-    // In a set the vacuum may be; the nodes that have no use for it refuse it themselves.
+    // A set may contain the vacuum; nodes that cannot use it reject it themselves.
     Phase phase_or_vacuum(Value value, const std::string& what) const {
         return value.is_string() && value.string() == names_.names[0] ? vacuum : phase(value, what);
     }
@@ -324,7 +325,7 @@ class Reader {
     NodePlaces* places_;
     std::map<std::string, Field, std::less<>> fields_;
     std::map<std::string, Phased, std::less<>> objects_;
-    std::vector<std::string> open_;  // shapes being read, to find cycles
+    std::vector<std::string> open_;  // shapes being read, for detecting cycles
     std::size_t levels_ = 0, nodes_ = 0;
 };
 

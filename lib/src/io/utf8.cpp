@@ -24,8 +24,8 @@ bool is_in(char32_t c, auto blocks) {
     return false;
 }
 
-// Separators and marks without a picture of their own, C1 controls, and the marks that reorder a line (bidirectional
-// overrides could make an error message read as something else).
+// Separators and marks without a visible glyph, C1 controls, and the marks that reorder a line (bidirectional overrides
+// could make an error message read as something else).
 constexpr std::array hidden = {Block{0x80, 0x9F},     Block{0xAD, 0xAD},     Block{0x61C, 0x61C},
                                Block{0x180E, 0x180E}, Block{0x200B, 0x200F}, Block{0x2028, 0x202E},
                                Block{0x2060, 0x206F}, Block{0xFEFF, 0xFEFF}, Block{0xFFF9, 0xFFFB}};
@@ -47,7 +47,7 @@ CodePoint decode(std::string_view text, std::size_t at) {
 
     std::size_t bytes = 0;
     char32_t value = 0;
-    unsigned char low = 0x80, high = 0xBF;  // of the second byte
+    unsigned char low = 0x80, high = 0xBF;  // for the second byte
     if (lead >= 0xC2 && lead <= 0xDF) {
         bytes = 2;
         value = lead & 0x1Fu;
@@ -89,7 +89,7 @@ std::string printable_at(std::string_view text, std::size_t at, const CodePoint&
 std::string printable(std::string_view text, std::size_t max_code_points) {
     std::string out;
     std::size_t count = 0;
-    std::size_t cut = 0;  // where the ellipsis goes, should the text turn out too long
+    std::size_t cut = 0;  // where to put the ellipsis if the text turns out too long
     for (std::size_t at = 0; at < text.size(); ++count) {
         if (count + 1 == max_code_points) cut = out.size();
         if (count == max_code_points) {

@@ -11,13 +11,13 @@
 
 namespace phasetree::io {
 
-/// The words of a text, separated by blanks, one line after the other. Lines end with a line feed, a carriage return,
-/// or both. A byte order mark before the text is passed over.
+/// Splits a text into lines, and lines into words separated by blanks. Lines end with a line feed, a carriage return,
+/// or both. A byte order mark at the beginning is skipped.
 class Words {
   public:
     enum class Rules {
         plain,
-        obj  ///< a backslash at the end of a line continues it in the next one, # begins a comment
+        obj  ///< a backslash at the end of a line continues it on the next one; # begins a comment
     };
 
     explicit Words(std::string_view text, Rules rules = Rules::plain)
@@ -47,27 +47,28 @@ class Words {
             if (!found.empty() || !goes_on_ || !next_line()) return found;
         }
     }
-    /// The next word of this line or of one of those that follow; empty at the end of the text.
+    /// The next word on this or a later line; empty at the end of the text.
     std::string_view word_of_any_line() {
         for (;;) {
             if (const std::string_view found = word(); !found.empty()) return found;
             if (!next_line()) return {};
         }
     }
-    /// Passes over what is left of the line.
+    /// Skips the rest of the line.
     void pass_line() {
         line_ = {};
         goes_on_ = false;
     }
-    /// Of the line, from 1.
+    /// The line number, from 1.
     std::size_t number() const { return number_; }
-    /// Where in the text the line after this one begins, or the text's end.
+    /// The offset of the next line in the text, or the text's end.
     std::size_t offset() const { return std::min(at_, text_.size()); }
 
   private:
     static constexpr std::string_view blanks = " \t\r\v\f", byte_order_mark = "\xef\xbb\xbf";
 
-    // Where the next such character is, or the text's end. It is kept, so that a text without any is searched once.
+    // The position of the next such character, or the text's end. It is cached, so that a text without any is searched
+    // only once.
     std::size_t find(char c, std::size_t& kept) const {
         if (kept == unknown || kept < at_) kept = std::min(text_.find(c, at_), text_.size());
         return kept;
@@ -84,11 +85,11 @@ class Words {
     std::string_view text_, line_;
     Rules rules_;
     std::size_t at_ = 0, number_ = 0;
-    std::size_t feed_ = unknown, return_ = unknown;  // the next line feed and carriage return
+    std::size_t feed_ = unknown, return_ = unknown;  // the next line feed and the next carriage return
     bool goes_on_ = false;
 };
 
-/// A whole word as a number; nothing if it is none, or one that is not finite.
+/// A whole word as a number; nothing unless it is a finite number.
 template <class Number>
 std::optional<Number> number_of(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
@@ -96,7 +97,7 @@ std::optional<Number> number_of(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size()) return std::nullopt;
     if constexpr (std::is_same_v<Number, float>)
-        // What is too small for a float is a double all the same, and then 0; what is too large is not finite.
+        // A number too small for a float is still a double, and becomes 0; one that is too large is not finite.
         if (error == std::errc::result_out_of_range)
             if (const auto wider = number_of<double>(word))
                 return std::abs(*wider) < 1 ? std::optional<Number>(static_cast<Number>(*wider)) : std::nullopt;
@@ -106,7 +107,7 @@ std::optional<Number> number_of(std::string_view word) {
     return value;
 }
 
-/// As number_of, but NaN for what programs write instead of a number that is none or too large: nan, -inf, 1e999,
+/// Like number_of, but returns NaN for what programs write if a number is undefined or too large: nan, -inf, 1e999,
 /// -1.#IND.
 template <class Number>
 std::optional<Number> number_or_nan(std::string_view word) {

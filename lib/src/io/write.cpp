@@ -18,7 +18,7 @@ std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
-// The shortest text that reads as the same float. "-0" would be read as a whole number, which has no negative zero.
+// The shortest text that reads as the same float. "-0" would be read as an integer, which has no negative zero.
 std::string as_text(float v) {
     return v == 0 && std::signbit(v) ? "-0.0" : fmt::format("{}", v);
 }
@@ -36,7 +36,7 @@ class Writer {
   public:
     explicit Writer(const SceneTree& tree) : tree_(tree) { count(tree.object); }
 
-    // material(i) is that of phase i.
+    // material(i) returns the material of phase i.
     template <class Material>
     std::string document(Material&& material) {
         const std::string object = node(tree_.object);
@@ -61,7 +61,7 @@ class Writer {
                    handle.node()->node);
     }
 
-    // A node, or the name of the shape that it has become.
+    // A node, or the name of the shape by which it was replaced.
     template <class Handle>
     std::string node(const Handle& handle) {
         if (const auto found = names_.find(handle.node()); found != names_.end()) return in_quotes(found->second);

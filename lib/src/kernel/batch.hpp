@@ -1,5 +1,5 @@
-// The number type of a kernel: eight floats in as many SIMD registers as the instruction set needs. All of it is in a
-// namespace of the instruction set, so that the linker cannot mix two of them.
+// The number type of a kernel: eight floats, in as many SIMD registers as the instruction set needs. Everything is in a
+// namespace named after the instruction set, so that the linker cannot mix two of them.
 #pragma once
 
 #include <hwy/highway.h>
@@ -104,8 +104,8 @@ HWY_INLINE BatchMask less(const Batch& a, const Batch& b) {
 HWY_INLINE Batch select(const BatchMask& m, const Batch& yes, const Batch& no) {
     return each([&](std::size_t i) { return hn::IfThenElse(m.m[i], yes.v[i], no.v[i]); });
 }
-// As in number.hpp these are a comparison and a choice. The instructions of x86 do exactly that; those of others may
-// not for equal or unordered operands.
+// As in number.hpp, these are a comparison followed by a selection. The x86 instructions do exactly that; other
+// instruction sets may differ for equal or unordered operands.
 HWY_INLINE Batch min(const Batch& a, const Batch& b) {
 #if HWY_ARCH_X86
     return each([&](std::size_t i) { return hn::Min(a.v[i], b.v[i]); });
@@ -139,7 +139,7 @@ HWY_INLINE Batch lookup(const float* table, const Batch& index) {
     });
 }
 
-/// Each lane has a search and an equation of its own, so they are evaluated one by one.
+/// Evaluates lane by lane, because each lane has its own search and its own equation.
 template <class Search, class Equation, class Otherwise>
 HWY_INLINE Batch found_equation(const Vec3<Batch>& p, const Search& search, const Equation& equation,
                                 const Otherwise&) {
@@ -167,7 +167,7 @@ HWY_INLINE Batch gathered_equation(const Vec3<Batch>& p, const Search& search, c
     return equation(numbers, p);
 }
 
-/// The numbers of the lanes, 0 … 7.
+/// The lane numbers 0 … 7.
 HWY_INLINE Batch lanes() {
     alignas(Batch) static constexpr float numbers[batch_size] = {0, 1, 2, 3, 4, 5, 6, 7};
     return load(numbers);
@@ -211,8 +211,8 @@ HWY_INLINE std::uint32_t bits(const BatchMask& m) {
     return all;
 }
 
-/// Numbers in nearly equal ratios: lane i has the float whose bits are those of a plus i times `step`, because the bits
-/// of a float are nearly its logarithm.
+/// Numbers in nearly equal ratios. The bits of a float are nearly its logarithm, so lane i gets the float whose bits
+/// are those of a plus i times `step`.
 HWY_INLINE Batch geometric(const Batch& lane, std::uint32_t a, std::uint32_t step) {
     const hn::RebindToSigned<Tag> whole;
     return each([&](std::size_t i) {

@@ -13,7 +13,8 @@ namespace phasetree::kernel {
 inline constexpr std::size_t most_certificate_steps = 32;
 
 /// An instruction that is ready to run. Slots count batches among the registers; a point takes three. The offsets of
-/// the constants are kept apart (Routine::data), so that routines which differ only in constants share their steps.
+/// the constants are stored separately (Routine::data), so that routines that differ only in constants can share their
+/// steps.
 struct Step {
     std::uint32_t op;  ///< an Op
     std::uint32_t to;  ///< the slot of the result
@@ -23,7 +24,7 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
-/// Where a component is after the steps have run: it is sign (1 or −1) times the slot's value.
+/// Where to find a component after the steps have run: it is the slot's value times `sign`, which is 1 or −1.
 struct OutputSlot {
     std::uint32_t slot;
     float phase;
@@ -32,24 +33,25 @@ struct OutputSlot {
     bool operator==(const OutputSlot&) const = default;
 };
 
-/// A step of a certificate, in postfix order, that a field keeps its sign between samples: see sign_certificate.inl. A
+/// A step of a certificate that a field keeps its sign between samples, in postfix order: see sign_certificate.inl. A
 /// leaf is the field
 ///     g = factor · (the slot's value − threshold),
-/// which is 1-Lipschitz. Numbers of 16 bits are the upper halves of floats.
+/// which is 1-Lipschitz. 16-bit numbers are the upper halves of floats.
 struct PackedCertificateStep {
     enum Kind : std::uint32_t { leaf, both, either, either_one_way };
 
     float threshold;
     std::uint32_t slot : 30, kind : 2;
     std::uint16_t factor;
-    std::uint16_t up, down;  ///< bounds of the second derivatives of g and of −g; infinite if unknown
+    std::uint16_t up, down;  ///< upper bounds of the second derivatives of g and of −g; infinite if unknown
     std::uint16_t unused = 0;
 
     bool operator==(const PackedCertificateStep&) const = default;
 };
 
-/// What a kernel runs. It has plain pointers, because kernels are compiled for several instruction sets and must not
-/// share inline functions of the standard library with other code, which may run on machines without these sets.
+/// What a kernel runs. All members are plain pointers and numbers. Kernels are compiled for several instruction sets,
+/// so they must not share inline functions of the standard library with code that may run on machines without those
+/// sets.
 struct Routine {
     const Step* steps;
     const std::uint32_t* data;  ///< for each step, the index of its first constant
@@ -57,22 +59,24 @@ struct Routine {
     std::size_t count;  ///< of steps
     const OutputSlot* outputs;
     std::size_t output_count;
-    /// Which lower bound s of the distance to a change of label is used where each component has a value of its own:
-    /// minus the component of the label (true), or the smallest of the others (false), which is no smaller.
+    /// Which lower bound s of the distance to a change of label is used where each component has its own value. If
+    /// true, s is minus the component of the label; if false, the smallest of the other components, which is at least
+    /// as large.
     bool is_by_own = false;
-    /// Whether the first component alone tells where rays may be: there are two phases, or no ray is in any of the
-    /// other phases, because these are opaque.
+    /// Whether the first component alone determines where rays may be. This is so if there are two phases, or if all
+    /// phases other than the first are opaque, so that no ray is in them.
     bool is_by_first = false;
-    /// The first `leading` steps compute the first component, which is enough for a ray that is in its phase; 0 if
-    /// there is no such number.
+    /// The first `leading` steps compute the first component, which is all that a ray in its phase needs; 0 if no such
+    /// number exists.
     std::size_t leading = 0;
-    /// A certificate that the first component stays negative, for where its curvature is not known; null if there is
+    /// A certificate that the first component stays negative, used where its curvature is unknown; null if there is
     /// none.
     const PackedCertificateStep* certificate = nullptr;
     std::size_t certificate_steps = 0;
 };
 
-/// A routine that needs no more slots than this runs in registers of the kernel's own; others must bring theirs.
+/// A routine that needs at most this many slots runs in the kernel's own registers; for any other, the caller provides
+/// them.
 inline constexpr std::uint32_t few_slots = 48;
 
 /// A ray's visit to a cell, or to a whole object.
@@ -81,18 +85,18 @@ struct Visit {
     const LinearBound* bound;  ///< of the field in the box
     const Routine* routine;
     const TracedRay* ray;
-    float* registers;  ///< the routine's slots; null if they are at most few_slots
-    /// The bounds of Curvature: in the phase of the first output, and in the others.
+    float* registers;  ///< the routine's slots; null if few_slots are enough
+    /// The bounds of Curvature: first for a ray in the phase of the first output, then for one in any other phase.
     float curvature[2];
     float t_min, t_max;
     float resolution;
-    float carried;  ///< the phase that the ray is in; negative: the label at its start
+    float carried;  ///< the ray's phase; if negative, use the label at its start
     float rise;     ///< LeavingHint::rise, in [−1, 1], or no_leaving_hint
-    /// Where an unfinished search goes on: a point in the ray's phase, as a distance from where the search began; else
-    /// 0.
+    /// Where an unfinished search resumes: a point in the ray's phase, as a distance from where the search began;
+    /// otherwise 0.
     float t_begin = 0;
 
-    /// A value of `rise`, which no LeavingHint has.
+    /// The value of `rise` if there is no LeavingHint.
     static constexpr float no_leaving_hint = -2;
 };
 
@@ -103,29 +107,28 @@ struct RayCrossing {
     float t_in, t_out;                ///< distances from that point
     float from, to;                   ///< phases
     std::uint32_t batches, phantoms;  ///< see TraceCounters
-    /// The search was left unfinished: there is no change up to t_in, which is in the phase `from`. See
-    /// trace/creep.hpp.
+    /// The search is unfinished: there is no change before t_in, which is in the phase `from`. See trace/creep.hpp.
     bool is_unfinished;
-    float length;  ///< of the piece of the ray that is searched
+    float length;  ///< of the segment that is searched
 };
 
-/// The number of doubles of a neuron in network_layer(), and the index of the first of those that are error bounds.
+/// The number of doubles per neuron in network_layer(), and the index of the first of those that are error bounds.
 inline constexpr std::size_t network_lanes = 24, absolute_lane = 20;
 
-/// The functions that are compiled once for each instruction set. Arrays of points have batch_size floats for each
+/// The functions that are compiled once for each instruction set. Arrays of points have batch_size floats per
 /// coordinate. Registers are the slots of a routine, batch_size floats each; slots 0 … 2 hold the point.
 struct Kernel {
-    /// All outputs of a routine, one batch after another.
+    /// Computes all outputs of a routine, one batch after another.
     void (*evaluate)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* out);
-    /// The labels and interface distances.
+    /// Computes labels and lower bounds of the distance to an interface.
     void (*sample)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* label,
                    float* distance);
-    /// The same at the points origin + t·direction of a ray.
+    /// Does the same at the points origin + t·direction of a ray.
     void (*sample_ray)(const Routine&, const float* origin, const float* direction, const float* t, float* registers,
                        float* label, float* distance);
-    /// Whether the label changes where the ray is in the box, and where it first does: see visit.inl.
+    /// Whether the label changes along the part of the ray within the box, and where it does so first: see visit.inl.
     bool (*visit)(const Visit&, RayCrossing&);
-    /// A linear layer of a network whose neurons have several numbers each: see network_layer.inl.
+    /// Computes a linear layer of a network with several numbers per neuron: see network_layer.inl.
     void (*network_layer)(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                           const double* in, double* out);
 };

@@ -1,6 +1,5 @@
 // The interpreter of routines. This file is compiled once for each instruction set, with that set's compiler flags (see
-// lib/CMakeLists.txt).
-// The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
+// lib/CMakeLists.txt). The including file names the kernel: #define PHASETREE_KERNEL kernel_avx2
 #define HWY_COMPILE_ONLY_STATIC
 #include <cstring>
 #include <type_traits>
@@ -21,8 +20,8 @@ HWY_INLINE float* at(float* registers, std::uint32_t slot) {
     return registers + std::size_t{slot} * batch_size;
 }
 
-// An instruction's constants as the struct that they are. They are read in place, because a copy would be written and
-// read again before its numbers can be used; therefore the file is compiled without strict aliasing.
+// Views an instruction's constants as their struct, in place. A copy would have to be written and read back before its
+// numbers could be used. This file is therefore compiled without strict aliasing.
 template <class Struct>
 HWY_INLINE const Struct& constants_of(const float* constants) {
     static_assert(std::is_trivially_copyable_v<Struct> && alignof(Struct) <= alignof(float));
@@ -34,7 +33,7 @@ HWY_INLINE Vec3<Batch> load_point(float* registers, std::uint32_t slot) {
     return {load(p), load(p + batch_size), load(p + 2 * batch_size)};
 }
 
-// The steps of a routine do one of the following, each with its own constants. First the operations on numbers:
+// Each step of a routine does one of the following, with its own constants. First, operations on numbers:
 template <Op op>
 struct Simple {
     HWY_INLINE static void run(const Step& s, const float* constants, float* registers) {
@@ -114,8 +113,8 @@ struct Placed {
     }
 };
 
-// Runs a step and then those behind it up to the end. Each step ends with a jump to the next one (threaded code), so
-// that there is no loop, and the processor learns which step follows which.
+// Runs a step and then all following steps. Each step ends with a jump to the next one (threaded code). So there is no
+// loop, and the processor's branch predictor learns which step follows which.
 using Handler = void (*)(const Step*, const std::uint32_t* data, const float* constants, float* registers,
                          const Step* end);
 HWY_INLINE Handler handler(std::uint32_t op);
@@ -144,11 +143,12 @@ HWY_INLINE Handler handler(std::uint32_t op) {
     return Table<std::make_index_sequence<simple>, Primitives, DataPrimitives, PointMaps>::handlers[op];
 }
 
-// Runs the first `count` steps of a routine, for the point that is in slots 0 … 2.
+// Runs the first `count` steps of a routine for the point in slots 0 … 2.
 HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers) {
     const Step* first = routine.steps;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || HWY_IS_ASAN || HWY_IS_TSAN  // GCC's, Clang's
-    // With a sanitizer calls are not turned into jumps, and the stack would overflow, so steps are run one at a time.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || HWY_IS_ASAN || HWY_IS_TSAN  // GCC, Clang
+    // With a sanitizer, the compiler does not turn tail calls into jumps, and the stack would overflow. So run one step
+    // at a time.
     for (std::size_t i = 0; i < count; ++i)
         handler(first[i].op)(first + i, routine.data + i, routine.constants, registers, first + i + 1);
 #else
@@ -156,25 +156,27 @@ HWY_INLINE void run(const Routine& routine, std::size_t count, float* registers)
 #endif
 }
 
-// Puts the points of a batch into slots 0 … 2.
+// Stores the points of a batch in slots 0 … 2.
 HWY_INLINE void set_points(const Batch& x, const Batch& y, const Batch& z, float* registers) {
     store(x, registers);
     store(y, registers + batch_size);
     store(z, registers + 2 * batch_size);
 }
 
-// What a batch of samples tells. In the kernel s(p) is a lower bound of the distance to a change of label: the second
-// smallest component; or minus the smallest, which is no larger (Routine::is_by_own); or, where the first component
-// alone was evaluated, its absolute value.
+// What a batch of samples says about each point. The kernel's s(p), a lower bound of the distance to a change of label,
+// is one of these:
+//  - the second smallest component;
+//  - minus the smallest component, which is no larger (Routine::is_by_own);
+//  - the absolute value of the first component, if that alone was evaluated.
 struct Classified {
     Batch label;     // the phase of the smallest component
     Batch distance;  // s(p)
 };
 
-// The label of a sample of which only the first component was evaluated, and is positive.
+// The label of a sample if only the first component was evaluated, and it is positive.
 constexpr float another_phase = -2;
 
-// Whether there are two components and one is the other one's negative.
+// Whether there are two components, and each is the negative of the other.
 HWY_INLINE bool is_shared(const Routine& routine) {
     return routine.output_count == 2 && routine.outputs[0].slot == routine.outputs[1].slot;
 }
@@ -184,13 +186,13 @@ HWY_INLINE Batch component(const Routine& routine, std::size_t i, float* registe
     return load(at(registers, routine.outputs[i].slot)) * routine.outputs[i].sign;
 }
 
-// Label and distance by the first component alone.
+// Label and distance from the first component alone.
 HWY_INLINE Classified classify_first(const Routine& routine, float* registers) {
     const Batch first = component(routine, 0, registers), zero(0.f);
     return {select(less(first, zero), Batch(routine.outputs[0].phase), Batch(another_phase)), max(first, -first)};
 }
 
-// Label and distance by all components. For `is_by_own` see Routine.
+// Label and distance from all components. For `is_by_own`, see Routine.
 HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* registers) {
     Batch lowest = component(routine, 0, registers);
     if (is_shared(routine)) {
@@ -210,12 +212,12 @@ HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* re
     return {phase, is_by_own ? -lowest : second};
 }
 
-// Puts the points o + t·d of a ray into slots 0 … 2.
+// Stores the points o + t·d of a ray in slots 0 … 2.
 HWY_INLINE void set_points_along(const float* o, const float* d, const Batch& t, float* registers) {
     set_points(Batch(o[0]) + t * d[0], Batch(o[1]) + t * d[1], Batch(o[2]) + t * d[2], registers);
 }
 
-// The functions of a Kernel follow; see kernel.hpp.
+// The functions of Kernel; see kernel.hpp.
 
 void evaluate(const Routine& routine, const float* x, const float* y, const float* z, float* registers, float* out) {
     set_points(load(x), load(y), load(z), registers);

@@ -6,12 +6,12 @@
 
 namespace phasetree::kernel {
 
-/// A linear function that a cell's field f differs little from. Where two phases meet, f is negative in one and
-/// positive in the other. Where more phases meet, f is the value of the first component, whose sign may be negated, and
-/// the bound is used only for rays in the phase of that component.
+/// A linear approximation of a cell's field f, with error bounds. Where two phases meet, f is negative in one and
+/// positive in the other. Where more phases meet, f is the value of the first component, possibly negated, and the
+/// bound is used only for rays in the phase of that component.
 ///     |f(p) − (normal·p + offset)| ≤ slack     for all p in the cell
 ///     |∂f/∂d − normal·d| ≤ spread              for all directions d of unit length
-/// The bounds include rounding errors. If the slack is infinite nothing is known but that f is 1-Lipschitz.
+/// The bounds include rounding errors. If the slack is infinite, f is only known to be 1-Lipschitz.
 struct LinearBound {
     glm::vec3 normal{0};
     float offset = 0;
@@ -20,15 +20,14 @@ struct LinearBound {
 };
 
 /// An upper bound of d²s/dt² along any straight line of unit speed in a cell, where s is the kernel's lower bound of
-/// the distance to a change of label. Where the slope jumps upward there is no such bound. If a cell has more than one
-/// component there are two choices of s: see Routine::is_by_own.
+/// the distance to a change of label. No such bound exists where the slope jumps upwards. A cell with more than one
+/// component can use either of two definitions of s: see Routine::is_by_own.
 struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
-    /// The bound of the s that a ray in the phase of the first output has, and of the s that one in another phase has.
-    /// Each holds in the whole cell, on both sides of the interface. For a ray in the first phase s is minus the first
-    /// component if more than two phases meet. If no ray is in the other phases, because they are opaque, s is the
-    /// first component there.
+    /// The bounds of s for a ray in the phase of the first output, and for one in another phase. Each holds in the
+    /// whole cell, on both sides of the interface. For a ray in the first phase, s is minus the first component if more
+    /// than two phases meet. If all other phases are opaque, so that no ray is in them, s is the first component there.
     std::array<float, 2> bound{unknown, unknown};
     bool is_by_own = false;    ///< Routine::is_by_own in the other phases
     bool is_by_first = false;  ///< whether the first component gives s in all phases

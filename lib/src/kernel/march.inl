@@ -1,17 +1,19 @@
-// Multiphase sphere tracing with a batch of points *along the one ray*. Included by kernel.inl.
+// Multiphase sphere tracing with a batch of points *along a single ray*. Included by kernel.inl.
 //
-// We hold a sample `here` that is certainly in the ray's phase, and a stack of frames of eight samples ahead of it:
-// each frame lies within a gap of the one below it. Two neighbouring samples in the ray's phase whose radii together
-// cover the gap between them prove it free of interfaces; that is one comparison for a whole frame. The first gap in
-// doubt is sampled again, at eight points inside it: evenly spaced; or, where the label differs at its end, gathered
-// around the position where the distances predict the interface; or, where the ray starts on an interface, spaced
-// geometrically from there (sample_positions.inl). A gap no longer than the resolution is the crossing if the labels at
-// its ends differ; else it is passed.
+// The search holds a sample `here`, which is certainly in the ray's phase, and a stack of frames of eight samples ahead
+// of it. Each frame lies within a gap of the frame below it. Two neighbouring samples in the ray's phase prove the gap
+// between them free of interfaces if their radii together cover it; one comparison tests a whole frame. The first gap
+// in doubt is sampled again, at eight points inside it (sample_positions.inl):
+//  - evenly spaced; or
+//  - if the label differs at its end, gathered around the position where the distances predict the interface; or
+//  - if the ray starts on an interface, spaced geometrically from there.
+// A gap no longer than the resolution is the crossing if the labels at its ends differ; otherwise it is passed.
 //
-// A hit is a change of label, never a small distance: phantom zeros, where components vanish without a change, cost
-// samples but are never hits.
+// A hit is a change of label, never merely a small distance. Phantom zeros, where components vanish without a change of
+// label, cost samples but never cause hits.
 //
-// The class is defined here; its search along the gaps is in search.inl, and what is a crossing in decide.inl.
+// This file defines the class. Its search along the gaps is in search.inl; decide.inl decides what counts as a
+// crossing.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -25,7 +27,7 @@ class March {
           is_first_enough_(routine.leading > 0 && routine.outputs[0].phase == ray.carried),
           is_by_own_(is_first_enough_ || routine.is_by_own) {}  // both take the distance from the phase's own component
 
-    // Searches for the first crossing and counts what that costs; returns whether there is one.
+    // Searches for the first crossing and counts the work. Returns whether there is one.
     bool search(RayCrossing& crossing) {
         const bool hit = find(crossing);
         crossing.length = ray_.length;
@@ -36,13 +38,14 @@ class March {
 
   private:
     static constexpr float no_label = -1;
-    // The search pauses after so many batches: most rays that take this many creep along an interface (trace/creep.hpp).
+    // The search pauses after this many batches: most rays that need more creep along an interface (trace/creep.hpp).
     static constexpr std::uint32_t most_batches = 256;
-    // The number of frames on the stack. Each is within a gap of the one below, at most a fifth as long or so.
+    // The number of frames on the stack. Each lies within a gap of the frame below, which is at most about a fifth of
+    // that frame's length.
     static constexpr int deepest = 24;
 
-    // Samples the ray. If the first component is enough, it alone is evaluated, and labels are the ray's phase or
-    // another_phase; `is_whole` asks for all components.
+    // Samples the ray. If the first component is enough, only that is evaluated, and each label is either the ray's
+    // phase or another_phase. `is_whole` requests all components.
     HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
         const bool by_first = is_first_enough_ && !is_whole && routine_.leading < routine_.count;
         ++batches_;
@@ -52,8 +55,8 @@ class March {
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
-    // Samples a frame behind the sample `before` and finds its gaps in doubt. Returns false, and leaves the frame as it
-    // is, if no sample lies strictly between `before` and `end`, because there is no float between them.
+    // Samples a frame after the sample `before`, and finds its gaps in doubt. Returns false, leaving the frame
+    // unchanged, if no sample lies strictly between `before` and `end`, because no float does.
     bool fill(Frame& f, const Batch& t, const Sample& before, float end, bool is_whole = false) {
         const Classified c = sample(t, is_whole);
         if (!(bits(less(Batch(before.t), t)) & bits(less(t, Batch(end))))) return false;
@@ -63,8 +66,8 @@ class March {
         find_doubt(f, t, c, before);
         return true;
     }
-    // Finds the gaps of a frame that are in doubt. The tests are in the order of their cost: radii that cover the gap,
-    // the curvature of the distance (as is_free_by_curvature(), for all gaps at once), and the sign certificate.
+    // Finds the gaps of a frame that are in doubt. The tests run in order of cost: radii that cover the gap, the
+    // curvature of the distance (as in is_free_by_curvature(), for all gaps at once), and the sign certificate.
     HWY_INLINE void find_doubt(Frame& f, const Batch& t, const Classified& c, const Sample& before) const {
         f.before = {before.t, before.distance, phase_};
         f.next = 0;
@@ -72,7 +75,7 @@ class March {
         const std::uint32_t differs = (other | (other << 1)) & all_lanes;  // at one of the gap's ends
         f.doubt = differs;
         f.phantom = 0;
-        if (ray_.is_monotone) return;  // the label does not change between two samples where it is equal
+        if (ray_.is_monotone) return;  // equal labels at both ends mean that the label does not change between them
         const Batch gap = t - shifted(t, before.t), covered = c.distance + shifted(c.distance, before.distance);
         std::uint32_t open = bits(less(covered, gap * ray_.slope));
         const std::uint32_t is_long = bits(less(Batch(ray_.resolution), gap));
@@ -102,9 +105,9 @@ class March {
     bool is_crossing(const Sample& next, RayCrossing&);
     bool is_entered_late(RayCrossing&);
 
-    // Whether the distances at a gap's ends prove it free by how much s curves. Between the ends s is above its chord
-    // less a parabola, which stays above zero if √a + √b ≥ gap·√(curvature/2); squared twice, that is a + b + 2√(ab) ≥
-    // gap²·curvature/2.
+    // Whether the distances at a gap's ends and the curvature bound prove the gap free. Between the ends, s lies above
+    // its chord minus a parabola. That stays above zero if √a + √b ≥ gap·√(curvature/2); squared twice, a + b + 2√(ab)
+    // ≥ gap²·curvature/2.
     bool is_free_by_curvature(float distance_here, float distance_next, float gap) const {
         if (!is_curvature_known_) return false;
         const float a = larger(distance_here - rounding_error(), 0.f),
@@ -112,16 +115,19 @@ class March {
         const float missing = gap * gap * half_curvature_ - a - b;
         return missing <= 0 || 4 * a * b >= missing * missing;
     }
-    // Whether the distances at a gap's ends, between which the label changes, tell to within a resolution where it
-    // does; if so, reports that. Let g be s at `here` and −s at `next`, a and b the distances, h the gap, and g″
-    // between −2k′ and 2k. Then
+    // Whether the distances at the ends of a gap across which the label changes locate the change to within a
+    // resolution. If so, reports it.
+    //
+    // Let g be s at `here` and −s at `next`, a and b the distances, h the gap, and −2k′ ≤ g″ ≤ 2k. Then
     //     a − (a + b)t/h − k t(h − t) ≤ g(t) ≤ a − (a + b)t/h + k′t(h − t).
-    // The left side is convex, so it is above its tangent at the chord's zero r; the right side is concave, so it is
-    // below its tangent there. So the label is that of `here` up to r − e, where e is k r(h − r), the left side's
-    // distance below the chord, over its tangent's slope (a + b)/h + k(h − 2r). From r + e′ on it is another one: that
-    // of `next`, if no third component vanishes on the way there. In the code r is `to_root`, h is `gap`, k and k′ are
-    // `k` and `other`, and e and e′, with the rounding error, must be at most `half_bracket`; r(h − r) is `bend`, and
-    // h(h − 2r) is `turn`. `next` is a lane of the last batch of samples.
+    // The left side is convex, so it lies above its tangent at the chord's zero r; the right side is concave, so it
+    // lies below its tangent there. So the label is that of `here` up to r − e. Here e is k r(h − r), the distance of
+    // the left side below the chord, divided by the slope of its tangent, (a + b)/h + k(h − 2r). From r + e′ on, the
+    // label is another one: that of `next`, unless a third component vanishes on the way there.
+    //
+    // In the code, r is `to_root`, h is `gap`, k and k′ are `k` and `other`, r(h − r) is `bend`, and h(h − 2r) is
+    // `turn`. Both e and e′, including the rounding error, must be at most `half_bracket`. `next` is a lane of the last
+    // batch of samples.
     bool is_located(const Sample& next, int lane, RayCrossing& c) const {
         if (!can_locate_ || next.label == another_phase) return false;
         const auto value = [&](const OutputSlot& o) {
@@ -143,14 +149,14 @@ class March {
         return report(c, larger(here_.t + to_root - half_bracket, here_.t),
                       smaller(here_.t + to_root + half_bracket, next.t), next.label);
     }
-    // Leaves the search unfinished. It may go on from the last sample that is certainly in the ray's phase.
+    // Leaves the search unfinished. It can resume from the last sample that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {
         c.is_unfinished = true;
         c.t_in = certain_.t;
         c.from = phase_;
         return false;
     }
-    // Distances below this, a sixteenth of the resolution, are taken for rounding errors.
+    // Distances below this, a sixteenth of the resolution, are treated as rounding errors.
     float rounding_error() const { return ray_.resolution * (1.f / 16); }
 
     bool report(RayCrossing& c, float t_in, float t_out, float to) const {
@@ -160,7 +166,7 @@ class March {
         c.to = to;
         return true;
     }
-    // A sample proves that the label does not change between before(p) and past(p).
+    // A sample proves that the label is constant between before(p) and past(p).
     float past(const Sample& p) const { return p.t + larger(p.distance, 0.f) / ray_.slope; }
     float before(const Sample& p) const { return p.t - larger(p.distance, 0.f) / ray_.slope; }
     void pass(const Sample& p) {
@@ -171,19 +177,20 @@ class March {
     const Routine& routine_;
     const RaySegment& ray_;
     float* registers_;
-    bool is_first_enough_;  // the first component alone tells where the ray leaves its phase
+    bool is_first_enough_;  // the first component alone determines where the ray leaves its phase
     bool is_by_own_;        // as Routine::is_by_own
     std::uint32_t batches_ = 0, phantoms_ = 0;
     float phase_ = 0;
     float half_curvature_ = 0;        // half the curvature bound of the distance in the ray's phase
-    float other_half_curvature_ = 0;  // half that in the other phase, if can_locate_
+    float other_half_curvature_ = 0;  // the same in the other phase, if can_locate_
     bool is_curvature_known_ = false;
-    bool can_locate_ = false;       // one value tells where the label changes, and its curvature is known on both sides
+    bool can_locate_ = false;       // one value determines where the label changes, and its curvature is known on both
+                                    // sides
     bool has_certificate_ = false;  // where the curvature is unknown, a sign certificate may prove gaps free
     Sample here_{};                 // the ray is in its phase up to here
-    Sample certain_{};              // the last sample whose own label is the ray's phase; mostly the same as here_
-    Sample other_{};                // the first sample behind certain_ that has the label which was met last
-    float left_at_ = 0;             // the first sample behind certain_ that has any other label
+    Sample certain_{};              // the last sample whose own label is the ray's phase; usually equal to here_
+    Sample other_{};                // the first sample after certain_ with the most recent other label
+    float left_at_ = 0;             // the first sample after certain_ with any other label
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A linear layer of a neural network whose neurons have several numbers each: a Taylor polynomial and its error bounds
+// A linear layer of a neural network with several numbers per neuron: a Taylor polynomial and its error bounds
 // (bounding/network_in_box.hpp). Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
@@ -8,11 +8,11 @@ using Doubles = hn::CappedTag<double, 8>;
 constexpr std::size_t double_lanes = hn::MaxLanes(Doubles());
 constexpr std::size_t neuron_registers = network_lanes / double_lanes;
 
-// Computes `count` outputs at a time, because a single sum would wait for each of its additions.
+// Computes `count` outputs at a time: each addition of a single sum would have to wait for the previous one.
 template <std::size_t count>
 HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::size_t inputs, const double* in,
                                  double* out) {
-    constexpr std::size_t mixed = absolute_lane / double_lanes;  // the register in which |W| begins
+    constexpr std::size_t mixed = absolute_lane / double_lanes;  // the register in which the lanes that use |W| begin
     const Doubles tag;
     const auto is_plain = hn::FirstN(tag, absolute_lane % double_lanes), is_value = hn::FirstN(tag, 1);
     hn::Vec<Doubles> sum[count][neuron_registers];
@@ -36,9 +36,9 @@ HWY_INLINE void outputs_of_layer(const float* weights, const float* bias, std::s
             hn::Store(sum[o][k], tag, out + o * network_lanes + k * double_lanes);
 }
 
-// out = W·in + bias, with `network_lanes` doubles for each neuron. The bias is added to the first of them; those from
-// `absolute_lane` on are error bounds, which are summed with |W| instead of W. Sums run over the inputs in their
-// order, which is the same for every instruction set.
+// out = W·in + bias, with `network_lanes` doubles per neuron. The bias is added to the first of them. Those from
+// `absolute_lane` on are error bounds, which are summed with |W| instead of W. The order of summation follows the
+// inputs, and is the same for every instruction set.
 HWY_FLATTEN void network_layer(const float* weights, const float* bias, std::size_t inputs, std::size_t outputs,
                                const double* in, double* out) {
     constexpr std::size_t together = neuron_registers > 6   ? 1

@@ -4,7 +4,7 @@ namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
 // Finds the first crossing; returns whether there is one. If the ray's phase is nowhere near the start, the crossing is
-// there and has no length.
+// at the start and has zero length.
 bool March::find(RayCrossing& result) {
     Frame frames[deepest];
     if (!start(frames[0])) return false;
@@ -20,8 +20,8 @@ bool March::find(RayCrossing& result) {
     return search_gaps(frames, depth, is_aligned, result);
 }
 
-// Samples the whole segment, and sets `here` to its start and what is known of the ray's phase. Returns whether a gap
-// is in doubt.
+// Samples the whole segment. Sets `here` to its start, and determines the ray's phase. Returns whether any gap is in
+// doubt.
 HWY_INLINE bool March::start(Frame& f) {
     for (;;) {
         const bool is_bound_known = ray_.curvature[routine_.outputs[0].phase == ray_.carried ? 0 : 1] < 1e30f;
@@ -35,7 +35,7 @@ HWY_INLINE bool March::start(Frame& f) {
         here_ = f.sample(0);
         phase_ = ray_.carried >= 0 ? ray_.carried : here_.label;
         if (is_first_enough_ && here_.label != phase_) {
-            is_first_enough_ = false;  // the start is in another phase, and it must be known in which
+            is_first_enough_ = false;  // the start is in another phase; all components are needed to find out which
             continue;
         }
         half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 0 : 1];
@@ -53,8 +53,8 @@ HWY_INLINE bool March::start(Frame& f) {
     }
 }
 
-// Rounding may have put the start just across the interface that the ray was found on. Looks for the ray's phase in the
-// next four resolutions, and moves `here` to where it begins; returns whether it is there.
+// Rounding may have moved the start slightly across the interface on which the ray was found. Looks for the ray's phase
+// in the next four resolutions, and moves `here` to where it begins. Returns whether it was found.
 HWY_INLINE bool March::find_phase_ahead() {
     const Batch t = Batch(ray_.t_begin) + (lanes() + 1.f) * (ray_.resolution * (4.f / batch_size));
     const Classified c = sample(t);
@@ -77,9 +77,9 @@ HWY_INLINE void March::pass_gaps(Frame& f, int lane) {
     f.next = lane;
 }
 
-// The usual case of search_gaps(), without all that it has to ask: the label changes at the end of the first gap in
-// doubt, and again within that gap, until the gap is short enough. Returns whether a crossing was found; else
-// search_gaps() goes on.
+// A fast path for the usual case of search_gaps(): the label changes at the end of the first gap in doubt, and again
+// within that gap, until the gap is short enough. Returns whether a crossing was found; if not, search_gaps()
+// continues.
 HWY_INLINE bool March::narrow(Frame* frames, int& depth, bool& is_aligned, RayCrossing& result) {
     while (is_aligned && depth < deepest) {
         Frame& f = frames[depth - 1];
@@ -103,8 +103,8 @@ HWY_INLINE bool March::narrow(Frame* frames, int& depth, bool& is_aligned, RayCr
     return false;
 }
 
-// Goes from gap to gap: passes those that are free or no longer than the resolution, samples others again, until there
-// is a crossing or the segment ends. Returns whether there is a crossing.
+// Goes from gap to gap: passes those that are free or no longer than the resolution, and samples the others again,
+// until it finds a crossing or the segment ends. Returns whether there is a crossing.
 HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, RayCrossing& result) {
     const float length = ray_.length, resolution = ray_.resolution;
     for (;;) {
@@ -140,8 +140,8 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
                                          is_free_by_curvature(here_.distance, next.distance, gap));
         const bool is_resolved = is_covered || gap <= resolution || (same && high - low <= resolution);
         if (!is_resolved) {
-            // If all frames are in use, the search starts again with this gap in the first frame, and the samples ahead
-            // of the gap are given up. The search cannot pass a gap that is in doubt.
+            // If all frames are in use, restart the search with this gap in the first frame, and discard the samples
+            // ahead of the gap. The search cannot skip a gap that is in doubt.
             const int deeper = depth < deepest ? depth : 0;
             const Batch t = positions_in_gap(f, is_aligned ? f.next : -1, next);
             if (fill(frames[deeper], t, here_, next.t, !same)) {
@@ -164,25 +164,25 @@ HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, Ra
     }
 }
 
-// Where to sample in the gap from `here` to `next`, at whose end the label is another one. `lane` is as in
-// positions_in_gap().
+// Where to sample in the gap from `here` to `next` if the label changes at its end. `lane` is as in positions_in_gap().
 HWY_INLINE Batch March::positions_around_root(const Frame& f, int lane, const Sample& next) const {
     const bool has_before = lane >= 1, has_after = lane >= 0 && lane + 1 < static_cast<int>(batch_size);
     const Sample before = has_before ? f.sample(lane - 2) : here_, after = has_after ? f.sample(lane + 1) : next;
     const float root = predicted_root(here_, next, before, after);
-    // A certificate proves only gaps between two samples of a frame. So with one the first sample is at `here`, and gap
-    // 0, about which it says nothing, is empty.
+    // A certificate only proves gaps between two samples of a frame. So if there is one, the first sample is at `here`:
+    // gap 0, about which the certificate says nothing, is then empty.
     return gather_around(smaller(larger(root, here_.t), next.t), here_.t, next.t, 0.49f * ray_.resolution,
                          has_certificate_);
 }
 
-// Where to sample in the gap from `here` to `next`. If `here` is the sample before `next` in a frame, `lane` is the
-// lane of `next`; else it is −1.
+// Where to sample in the gap from `here` to `next`. `lane` is the lane of `next` if `here` is the sample before it in a
+// frame, otherwise −1.
 Batch March::positions_in_gap(const Frame& f, int lane, const Sample& next) const {
     if (next.label != phase_) return positions_around_root(f, lane, next);
     const float gap = next.t - here_.t;
     if (const float slope = (next.distance - here_.distance) / gap; slope > 0.02f) {
-        // The ray leaves an interface that it started on, at a low angle: one frame passes many of the gaps ahead.
+        // The ray leaves an interface on which it started, at a grazing angle. A single frame passes many of the gaps
+        // ahead.
         return spaced_growing(here_.t, ray_.length, larger(here_.distance, 0.25f * ray_.resolution),
                               smaller(slope, 1.f));
     }

@@ -1,28 +1,29 @@
-// Certificates that a field keeps its sign between neighbouring samples along a ray. They are for fields whose own
-// curvature is not known, and use the fields of which it is the minimum or maximum. Included by kernel.inl.
+// Certificates that a field keeps its sign between neighbouring samples along a ray. They are for fields of unknown
+// curvature, and use the fields of which such a field is the minimum or maximum. Included by kernel.inl.
 //
-// A minimum is positive where both operands are. A maximum is positive between two samples if one of its operands is
+// A minimum is positive where both operands are. A maximum is positive between two samples if either operand is
 // positive all the way between them. So a certificate is a tree of "both" and "either" over leaves, stored in postfix
-// order and evaluated on a stack of masks with a bit for each gap. A routine's certificate is of minus its first
+// order and evaluated on a stack of masks with one bit per gap. A routine's certificate describes minus its first
 // component: if it holds, that component is negative, and the ray stays in the first output's phase.
 //
-// With the leaves negated, and "both" and "either" exchanged, it certifies the opposite sign. That is valid where a
-// step is positive exactly where its operands say so. Some fields are positive where either operand is, and may be so
-// elsewhere, too (either_one_way, as where Op::corner is compared with a positive number). Then two negative operands
-// prove nothing, so in a negated certificate this step never holds.
+// With the leaves negated, and "both" and "either" exchanged, the tree certifies the opposite sign. This is valid if a
+// step is positive exactly where its operands imply it. Some fields are positive where either operand is, but possibly
+// elsewhere, too (either_one_way; for example, Op::corner compared with a positive number). Two negative operands then
+// prove nothing, so this step never holds in a negated certificate.
 //
-// A leaf g, 1-Lipschitz, is known at the samples. It is positive in a gap of length h between a and b
+// A leaf g is 1-Lipschitz and known at the samples. Consider a gap of length h between the values a and b. The leaf is
+// positive in it
 //  * if g″ ≤ K and √a + √b ≥ h √(K/2): see March::is_free_by_curvature;
-//  * or if g″ ≥ −κ. Then g + κt²/2 is convex, so outside of two samples it lies above the line through them. Within the
-//    gap, therefore, g lies above a line that falls from a, with the slope of the gap before, and above one that rises
-//    to b, with the slope of the gap behind; each slope is made steeper by κ/2 times the length of both gaps together.
-//    Two lines that fall by p and rise by q leave no place for a zero if a/p + b/q ≥ h. Where nothing is known p and q
-//    are 1, which is the test whether balls cover the gap.
+//  * or if g″ ≥ −κ and the following test holds. g + κt²/2 is convex, so outside of two samples it lies above the line
+//    through them. Within the gap, therefore, g lies above a line that falls from a with the slope of the previous gap,
+//    and above one that rises to b with the slope of the next gap. Each slope is made steeper by κ/2 times the length
+//    of both gaps together. Two lines that fall by p and rise by q leave no room for a zero if a/p + b/q ≥ h. Where
+//    nothing is known, p and q are 1, which is the test whether balls cover the gap.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
 
-// The float of which these are the upper 16 bits.
+// The float with these upper 16 bits.
 HWY_INLINE float float_of_upper_bits(std::uint16_t upper) {
     const std::uint32_t bits = std::uint32_t{upper} << 16;
     float x;
@@ -30,10 +31,10 @@ HWY_INLINE float float_of_upper_bits(std::uint16_t upper) {
     return x;
 }
 
-// The gaps between samples: lane i has the one that ends at sample i.
+// The gaps between samples; lane i holds the gap that ends at sample i.
 struct Gaps {
     Batch length, inverse;       // the length and 1/length
-    Batch with_last, with_next;  // its length plus that of the gap before it, or behind it
+    Batch with_last, with_next;  // its length plus that of the previous, or the next, gap
     float rounding_error;        // the error of a field's value
 };
 
@@ -42,8 +43,8 @@ HWY_INLINE Gaps gaps_between(const Batch& t, float rounding_error) {
     return {length, Batch(1.f) / length, length + shifted(length, 0), length + shifted_back(length, 0), rounding_error};
 }
 
-// Bit i says whether the leaf, or minus the leaf if `is_negated`, is proven to be positive in the gap that ends at
-// lane i. It is never set for the first lane, where a is 0.
+// Bit i is set if the leaf, or minus the leaf if `is_negated`, is proven positive in the gap that ends at lane i. It is
+// never set for the first lane, where a is 0.
 HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool is_negated, const float* registers,
                                            const Gaps& gaps) {
     const float factor = float_of_upper_bits(s.factor);
@@ -71,8 +72,8 @@ HWY_INLINE std::uint32_t certified_by_leaf(const PackedCertificateStep& s, bool 
     return free & bits(less(zero, min(a, b)));
 }
 
-// Bit i says whether the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as
-// in the phase of the first output, or, if `is_negated`, to be positive, as in the other phases.
+// Bit i is set if the first component is proven to keep its sign in the gap that ends at lane i: to be negative, as in
+// the phase of the first output, or, if `is_negated`, positive, as in the other phases.
 std::uint32_t certified_gaps(const Routine& routine, bool is_negated, const float* registers, const Batch& t,
                              float rounding_error) {
     const Gaps gaps = gaps_between(t, rounding_error);

@@ -1,6 +1,6 @@
-// A ray's visit to a cell: where the ray is inside the cell's box, what the field's linear bound leaves of that, and
-// the search there. It is part of the kernel, because what comes before a search takes as long as the search. Included
-// by kernel.inl.
+// A ray's visit to a cell: clips the ray to the cell's box, then to the part where the linear bound allows a zero, and
+// searches the rest. All of it belongs to the kernel, because the steps before a search take as long as the search.
+// Included by kernel.inl.
 
 namespace phasetree::kernel::HWY_NAMESPACE {
 namespace {
@@ -11,7 +11,7 @@ struct Interval {
     double low, high;
 };
 
-// As the functions of the same names in sample_positions.inl, in double.
+// Like the functions of the same names in sample_positions.inl, but for double.
 HWY_INLINE double larger(double x, double y) {
     return x > y ? x : y;
 }
@@ -22,7 +22,7 @@ HWY_INLINE float magnitude(float x) {
     return x < 0 ? -x : x;
 }
 
-// Cuts a span of a ray to what lies between two planes across an axis; the span becomes empty if nothing does. It is
+// Clips a span of a ray to the slab between two planes across an axis; the span becomes empty if nothing is left. It is
 // computed in double, so that an origin far from the object costs no accuracy.
 HWY_INLINE void clip(Interval& span, float low, float high, float origin, float direction, double inverse) {
     const double to_low = static_cast<double>(low) - static_cast<double>(origin);
@@ -36,11 +36,11 @@ HWY_INLINE void clip(Interval& span, float low, float high, float origin, float 
     span.high = smaller(larger(a, b), span.high);
 }
 
-// A LeavingHint whose rise is smaller is not used: its rounding error would be too large a part of it.
+// A LeavingHint with a smaller rise is ignored: its relative rounding error would be too large.
 constexpr float least_rise = 0.02f;
 
-// The part of a ray that has to be searched in a cell, made smaller step by step. Each step returns whether anything is
-// left to search.
+// The part of a ray that must be searched in a cell, reduced step by step. Each step returns whether anything is left
+// to search.
 class Approach {
   public:
     explicit Approach(const Visit& visit)
@@ -52,7 +52,7 @@ class Approach {
           is_leaving_(visit.rise != Visit::no_leaving_hint),
           is_in_first_(visit.routine->outputs[0].phase == visit.carried) {}
 
-    // Cuts the ray to the cell's box.
+    // Clips the ray to the cell's box.
     HWY_INLINE bool enter_box() {
         const auto &origin = ray_.origin, &direction = ray_.direction;
         const Bounds& box = *visit_.box;
@@ -61,17 +61,17 @@ class Approach {
         clip(span_, box.low.z, box.high.z, origin.z, direction.z, ray_.inverse.z);
         if (!(span_.low <= span_.high) || !(span_.high < endless)) return false;
         start_at(span_.low);
-        // A ray that starts here and carries a phase has mostly just crossed or left an interface.
+        // A ray that starts here and carries a phase has usually just crossed or left an interface.
         on_interface_ = carried_ >= 0 && span_.low == static_cast<double>(visit_.t_min);
         return true;
     }
 
-    // Moves the start of a ray that leaves an interface to where the ray may come back to it.
+    // Moves the start of a ray that leaves an interface to the earliest point where the ray can return to it.
     HWY_INLINE bool leave_interface() {
         if (!(is_leaving_ && on_interface_ && visit_.rise > least_rise && routine_.is_by_first)) return true;
-        // From an interface on s ≥ rise·t − K/2·t², where K bounds how much s curves downward, which is as much as it
-        // curves upward in the other phase. That is positive up to 2·rise/K, of which a tenth is left for the error of
-        // the rise.
+        // From an interface on, s ≥ rise·t − K/2·t². K bounds how much s curves downwards, which is as much as it
+        // curves upwards in the other phase. The right side is positive up to 2·rise/K; a tenth of that is reserved for
+        // the error of the rise.
         const double safe = 1.8 * static_cast<double>(visit_.rise) /
                             larger(static_cast<double>(visit_.curvature[is_in_first_ ? 1 : 0]), 1e-30);
         if (safe >= span_.high - span_.low) return false;
@@ -83,12 +83,12 @@ class Approach {
         return true;
     }
 
-    // Cuts the ray to the slab outside of which the field cannot vanish, by its linear bound.
+    // Clips the ray to the slab outside of which the linear bound rules out a zero of the field.
     HWY_INLINE bool enter_slab() {
         const LinearBound& bound = *visit_.bound;
         if (!(bound.slack < 3.402823466e38f && (routine_.output_count == 2 || is_in_first_))) return true;
-        // At a distance t from the start the field is within the slack of value + slope_of_plane·t. Where that excludes
-        // zero there is no interface.
+        // At a distance t from the start, the field differs from value + slope_of_plane·t by at most the slack. Where
+        // that excludes zero, there is no interface.
         const auto& direction = ray_.direction;
         const float value = bound.normal.x * x_ + bound.normal.y * y_ + bound.normal.z * z_ + bound.offset;
         const float slope_of_plane =
@@ -96,19 +96,19 @@ class Approach {
         const float steep = magnitude(slope_of_plane), length = static_cast<float>(span_.high - span_.low);
         slope_ = smaller(1.f, steep + bound.spread);
         is_monotone_ = steep > bound.spread;
-        // A ray that starts on the interface, and along which the component of its phase only falls, goes deeper into
-        // that phase and stays there.
+        // A ray that starts on the interface, and along which the component of its phase only decreases, goes deeper
+        // into that phase and stays there.
         if (is_leaving_ && on_interface_ && is_monotone_ &&
             routine_.outputs[is_in_first_ ? 0 : 1].sign * slope_of_plane < 0)
             return false;
-        // The ray enters the slab at the distance `enter` from the start, and leaves it at `leave`. Negative distances
-        // lie behind the start. The linear function vanishes midway: it has `towards_zero` to change until then.
+        // The ray enters the slab at the distance `enter` from the start, and leaves it at `leave`; negative distances
+        // lie before the start. The linear function vanishes midway, after a change of `towards_zero`.
         const float inverse_steepness = 1 / larger(steep, 1e-20f), towards_zero = slope_of_plane < 0 ? value : -value;
         const float enter = (towards_zero - bound.slack) * inverse_steepness;
         const float leave = (towards_zero + bound.slack) * inverse_steepness;
         if (enter > 0 || leave < 0) {
-            // The ray starts outside of the slab, where the label is known. If that is not the carried phase, nothing
-            // is cut off, because the search must look for the carried phase about the start.
+            // The ray starts outside the slab, where the label is known. If that is not the carried phase, nothing is
+            // clipped, because the search must look for the carried phase near the start.
             const bool is_below = value < 0;
             const float here = routine_.outputs[(routine_.outputs[0].sign > 0) == is_below ? 0 : 1].phase;
             if (carried_ < 0 || here == carried_) {
@@ -125,7 +125,7 @@ class Approach {
         return true;
     }
 
-    // The piece of the ray that is left.
+    // The segment that is left.
     HWY_INLINE RaySegment segment() const {
         return {.origin = {x_, y_, z_},
                 .direction = {ray_.direction.x, ray_.direction.y, ray_.direction.z},
@@ -139,7 +139,7 @@ class Approach {
                 .is_monotone = is_monotone_,
                 .on_interface = on_interface_ && visit_.t_begin == 0};
     }
-    // The distance along the ray at which that piece starts.
+    // The distance along the ray at which that segment starts.
     HWY_INLINE double start() const { return span_.low; }
 
   private:
@@ -153,7 +153,7 @@ class Approach {
     const TracedRay& ray_;
     const Routine& routine_;
     Interval span_;
-    float carried_;     // the phase that the ray is in; negative if it is not known
+    float carried_;     // the ray's phase; negative if unknown
     bool is_leaving_;   // whether there is a LeavingHint
     bool is_in_first_;  // whether the ray is in the phase of the first output
     bool on_interface_ = false;

@@ -6,8 +6,8 @@
 
 namespace phasetree {
 
-/// Cuts the stretch [near, far] of the line origin + t·direction down to what is within all half-spaces, each moved
-/// outward by a distance. If nothing is, far < near afterwards.
+/// Clips the range [near, far] of the line origin + t·direction to the intersection of all half-spaces, each moved
+/// outwards by a distance. If nothing is left, far < near afterwards.
 inline void clip_line(std::span<const HalfSpace> half_spaces, const glm::dvec3& origin, const glm::dvec3& direction,
                       double& near, double& far, double outward = 0) {
     for (const HalfSpace& half : half_spaces) {

@@ -9,7 +9,7 @@ namespace phasetree {
 
 namespace {
 
-// Distances below this share of the size are taken for rounding errors.
+// Distances below this fraction of the size are treated as rounding errors.
 constexpr double relative_error = 1e-11;
 
 glm::dvec3 across(const glm::dvec3& n) {
@@ -17,7 +17,7 @@ glm::dvec3 across(const glm::dvec3& n) {
     return glm::normalize(glm::cross(n, axis));
 }
 
-// The points in counterclockwise order about their middle, seen against the normal, each once.
+// The points in counter-clockwise order about their centre, as seen against the normal, without duplicates.
 std::vector<glm::dvec3> in_order(std::vector<glm::dvec3> points, const glm::dvec3& normal, double apart) {
     if (points.size() < 3) return {};
     glm::dvec3 middle(0);
@@ -34,7 +34,7 @@ std::vector<glm::dvec3> in_order(std::vector<glm::dvec3> points, const glm::dvec
     return points.size() < 3 ? std::vector<glm::dvec3>() : points;
 }
 
-// What of a polygon is within a half-space. Points on its plane are added to `cut`.
+// The part of a polygon within a half-space. Points on its plane are appended to `cut`.
 std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& corners, const HalfSpace& half, double apart,
                                 std::vector<glm::dvec3>& cut) {
     std::vector<glm::dvec3> kept;
@@ -84,7 +84,7 @@ void ConvexPolyhedron::clip(const HalfSpace& half, std::size_t plane) {
     std::vector<Face> kept;
     for (const Face& face : faces_) {
         Face rest{clipped(face.corners, half, apart, cut), face.plane};
-        // A face within the plane that cuts is what the new face will be.
+        // A face that lies within the cutting plane is replaced by the new face.
         const bool lies_within = std::all_of(rest.corners.begin(), rest.corners.end(),
                                              [&](const glm::dvec3& p) { return std::abs(half.distance(p)) <= apart; });
         if (rest.corners.size() >= 3 && !lies_within) kept.push_back(std::move(rest));
@@ -95,7 +95,7 @@ void ConvexPolyhedron::clip(const HalfSpace& half, std::size_t plane) {
     if (faces_.size() < 4) faces_.clear();
 }
 
-// Both by triangles that fan out from each face's first corner.
+// Both are sums over triangle fans about each face's first corner.
 double ConvexPolyhedron::volume() const {
     if (empty()) return 0;
     const glm::dvec3 apex = faces_.front().corners.front();

@@ -8,13 +8,13 @@
 
 namespace phasetree {
 
-/// A number with its gradient in space: forward-mode differentiation. Comparisons look at the value alone, so the
-/// gradient is that of the branch which the value takes. The four floats are one register, and choices are made
-/// without branches, which a processor would guess wrong at every other hit.
+/// A number with its spatial gradient: forward-mode differentiation. Comparisons consider only the value, so the
+/// gradient is that of the branch that the value takes. The four floats are one register. Selections have no branches,
+/// because a processor would mispredict them at every other hit.
 ///
-/// Where two values are equal, the gradient of their minimum is the first one's and that of their maximum the second
-/// one's. So min(a, b) and max(a, b) are a sorted pair also of gradients, not twice the same; max(a, 0) + min(a, 0) has
-/// the gradient of a; and smooth_min of equal values has the mean.
+/// Where two values are equal, their minimum has the gradient of the first, and their maximum that of the second. So
+/// min(a, b) and max(a, b) are a sorted pair in their gradients, too, instead of the same number twice. Also, max(a, 0)
+/// + min(a, 0) has the gradient of a, and smooth_min of equal values has the mean of both gradients.
 class Dual {
   public:
     using Lanes [[gnu::vector_size(16)]] = float;
@@ -34,7 +34,7 @@ class Dual {
     static Lanes each(float v) { return Lanes{v, v, v, v}; }
 
   private:
-    Lanes lanes_{};  // the value, and its derivatives by x, y and z
+    Lanes lanes_{};  // the value, and its derivatives with respect to x, y and z
 };
 
 [[gnu::always_inline]] inline Dual operator-(const Dual& a) {
@@ -80,7 +80,7 @@ class Dual {
     return Dual(all ? yes.lanes() : no.lanes());
 }
 [[gnu::always_inline]] inline Dual min(const Dual& a, const Dual& b) {
-    // The value must be that of min() for floats, also for two zeros of different signs.
+    // The value must equal that of min() for floats, even for two zeros of different signs.
     return Dual(min(a.value(), b.value()), a.values() <= b.values() ? a.lanes() : b.lanes());
 }
 [[gnu::always_inline]] inline Dual max(const Dual& a, const Dual& b) {
@@ -100,10 +100,10 @@ class Dual {
 }
 [[gnu::always_inline]] inline Dual sqrt(const Dual& a) {
     const float v = std::sqrt(a.value());
-    const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex every direction is as good: none
+    const float k = v > 0 ? 0.5f / v : 0.f;  // at a cone's apex there is no preferred direction; use none
     return Dual(v, Dual::each(k) * a.lanes());
 }
-/// The derivatives are those of the equation that is found.
+/// The derivatives are those of the equation that was found.
 template <class Search, class Equation, class Otherwise>
 Dual found_equation(const Vec3<Dual>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}), p);
@@ -118,8 +118,8 @@ Dual gathered_equation(const Vec3<Dual>& p, const Search& search, const Equation
     search(Vec3<float>{p.x.value(), p.y.value(), p.z.value()}, numbers.data(), std::size_t{1});
     return equation(numbers, p);
 }
-/// The derivative is (x dy − y dx)/(x² + y²), and zero at the origin. That of the equation itself, which is evaluated
-/// with the ratio of the lesser to the greater coordinate, would be wrong where both are equal.
+/// The derivative is (x dy − y dx)/(x² + y²), and zero at the origin. Differentiating the equation itself, which uses
+/// the ratio of the smaller to the larger coordinate, would be wrong where both are equal.
 [[gnu::always_inline]] inline Dual angle_of(const Dual& x, const Dual& y) {
     const float a = x.value(), b = y.value(), squared = a * a + b * b;
     const float k = squared > 0 ? 1.f / squared : 0.f;

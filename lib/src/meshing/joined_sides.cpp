@@ -12,7 +12,7 @@ namespace phasetree::meshing {
 
 namespace {
 
-// Across which axis the sides of a cube are, and how far along it, in the order of sides_of_cube.
+// The axis perpendicular to each side of a cube, and the side's position along it, in the order of sides_of_cube.
 constexpr int axis_of_side(int side) {
     return 2 - side / 2;
 }
@@ -44,7 +44,7 @@ void JoinedSides::find_all(const Labels& labels, const std::function<void()>& ca
             for (int i = 0; i + 1 < grid_.points.x; ++i) {
                 if (is_uniform(grid_, labels, {i, j, k})) continue;
                 const Corners corners = corners_of(grid_, labels, {i, j, k});
-                for (const int side : {0, 2, 4})  // those at the cube's low ends
+                for (const int side : {0, 2, 4})  // the sides at the cube's low ends
                     if (take_turns(corners, side))
                         layers[static_cast<std::size_t>(k)].emplace_back(glm::ivec3(i, j, k), axis_of_side(side));
             }

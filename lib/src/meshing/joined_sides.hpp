@@ -1,6 +1,6 @@
-// Where two phases take turns around a side of a cube (A, B, A, B), either could be joined across the side. We take the
-// one that a ray finds in the middle of the side. So a thin plate of one phase within another is whole, however it is
-// turned: if two opposite corners are in a flat plate, so is the middle between them.
+// Where two phases alternate around a side of a cube (A, B, A, B), either could be joined across the side. We choose
+// the one that a ray finds in the middle of the side. This keeps a thin plate of one phase within another connected,
+// whatever its orientation: if two opposite corners are in a flat plate, so is the middle between them.
 #pragma once
 
 #include <functional>
@@ -12,18 +12,18 @@ namespace phasetree::meshing {
 
 class JoinedSides {
   public:
-    /// Refers to the grid and the lines.
+    /// Keeps references to the grid and the lines.
     JoinedSides(const Grid& grid, const LineTracer& lines) : grid_(grid), lines_(lines) {}
 
-    /// Looks at the middles of all such sides. `cancelled` is called periodically, and may throw.
+    /// Examines the middles of all such sides. `cancelled` is called periodically, and may throw.
     void find_all(const Labels&, const std::function<void()>& cancelled);
-    /// Looks at the middles of such sides of a cube that came to be by changes of labels.
+    /// Examines the middles of such sides of a cube that changes of labels have created.
     void find(const Labels&, const glm::ivec3& cube);
-    /// The labels of a cube whose sides were examined. Any number of threads may call it at once.
+    /// The labels of a cube whose sides have been examined. Thread-safe.
     CubeLabels labels_of(const Labels&, const glm::ivec3& cube) const;
 
   private:
-    /// Sides are told apart by their point of the lowest coordinates and by the axis that is perpendicular to them.
+    /// A side is identified by its point with the lowest coordinates and by its perpendicular axis.
     std::size_t key(const glm::ivec3& point, int axis) const {
         return 3 * grid_.index(point) + static_cast<std::size_t>(axis);
     }
@@ -31,7 +31,7 @@ class JoinedSides {
 
     const Grid& grid_;
     const LineTracer& lines_;
-    std::unordered_map<std::size_t, Phase> middles_;  ///< the phase in the middle of a side, by its key
+    std::unordered_map<std::size_t, Phase> middles_;  ///< the phase in the middle of a side, by key
 };
 
 }  // namespace phasetree::meshing

@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t lines_a_task = 64;
 constexpr int default_cubes_along = 256;
 
-// The least spacing, in what the last digit of the farthest coordinate is worth.
+// The minimum spacing, in units of the last place of the farthest coordinate.
 constexpr double finest_in_digits = 16;
 
-// How far the first points are from the bounds, in cubes. Faces of objects often have round coordinates, and so often
-// have bounds: fractions of no simple ratio keep lines of the grid from running within faces.
+// The distance of the first points from the bounds, in cubes. Faces of objects, and therefore bounds, often have round
+// coordinates. Fractions that are not in a simple ratio keep lines of the grid from running within faces.
 constexpr double margin[] = {1.618, 1.571, 1.529};
 
 }  // namespace
@@ -33,7 +33,7 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
     const double longest = std::max({size.x, size.y, size.z});
     Grid grid;
-    double farthest = 0;  // from the origin, along an axis
+    double farthest = 0;  // largest absolute coordinate
     for (int i = 0; i < 3; ++i)
         farthest = std::max(
             {farthest, std::abs(static_cast<double>(bounds.low[i])), std::abs(static_cast<double>(bounds.high[i]))});
@@ -145,7 +145,7 @@ Corners corners_of(const Grid& grid, const Labels& labels, const glm::ivec3& cub
 
 Labels labels_of(const Grid& grid, const CrossingsAlong& x) {
     Labels labels(grid.size(), vacuum);
-    // The outermost points are outside of the bounds, and stay vacuum whatever a tracer says.
+    // The outermost points are outside the bounds, and stay vacuum whatever the tracer reports.
     tbb::parallel_for(1, grid.points.z - 1, [&](int k) {
         for (int j = 1; j + 1 < grid.points.y; ++j) {
             const std::span<const GridCrossing> line = x.of_line({0, j, k});

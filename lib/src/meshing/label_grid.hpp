@@ -7,20 +7,23 @@
 #include "meshing/cube_patches.hpp"
 #include "phasetree/meshing/phase_mesh.hpp"
 
-/// This room makes triangles of an object's interfaces, in these steps: the crossings along the lines of a grid and the
-/// labels at its points (label_grid.hpp), which phases are joined across sides of cubes (joined_sides.hpp), labels that
-/// give manifolds (well_composed.hpp), the patches in a cube (cube_patches.hpp), the place of the vertex of each patch
-/// (vertex_in_cube.hpp), and the triangles between these (phase_mesh.cpp).
+/// This room makes triangles of an object's interfaces, in these steps:
+///  * label_grid.hpp: the crossings along the lines of a grid, and the labels at its points;
+///  * joined_sides.hpp: which phases are joined across sides of cubes;
+///  * well_composed.hpp: changes to labels so that surfaces are manifolds;
+///  * cube_patches.hpp: the patches in a cube;
+///  * vertex_in_cube.hpp: the position of the vertex of each patch;
+///  * phase_mesh.cpp: the triangles between these vertices.
 namespace phasetree::meshing {
 
-/// A grid of points with equal distances. Its cubes are called by their corner of the lowest coordinates.
+/// A grid of equidistant points. Its cubes are identified by their corner with the lowest coordinates.
 struct Grid {
     glm::dvec3 low{0};
     double spacing = 0;
-    double digit = 0;  ///< what the last digit of the farthest coordinate is worth
+    double digit = 0;  ///< unit in the last place of the farthest coordinate
     glm::ivec3 points{0};
 
-    /// A grid whose outermost points are outside of the bounds. Throws ModelError; see mesh_of.
+    /// A grid whose outermost points are outside the bounds. Throws ModelError; see mesh_of.
     static Grid around(const Bounds&, float spacing);
 
     std::size_t size() const {
@@ -37,26 +40,26 @@ struct Grid {
 
 /// A crossing along a line of the grid.
 struct GridCrossing {
-    float at = 0;  ///< along the line, in cubes from its first point
+    float at = 0;  ///< position along the line, in cubes from its first point
     Phase from, to;
-    glm::vec3 normal{0};  ///< from `from` into `to`
+    glm::vec3 normal{0};  ///< points from `from` into `to`
 };
 
 /// The crossings along all lines of one direction.
 class CrossingsAlong {
   public:
     CrossingsAlong(const Grid& grid, int axis) : grid_(grid), axis_(axis) {}
-    /// Traces the lines. `advance` is called with how many lines more are traced; it may throw.
+    /// Traces the lines. `advance` receives the number of newly traced lines; it may throw.
     void trace(const LineTracer&, const std::function<void(std::size_t)>& advance);
 
     std::size_t lines() const;
     std::size_t size() const { return crossings_.size(); }
-    /// The crossings on the line through a point, in their order.
+    /// The crossings on the line through a point, in order.
     std::span<const GridCrossing> of_line(const glm::ivec3& point) const;
     /// The crossings between a point and the next one along the axis.
     std::span<const GridCrossing> of_edge(const glm::ivec3& point) const;
-    /// The crossing that stands for all of an edge, if there is any: of two, which are the faces of something thin, it
-    /// is the second, of three the one in their midst.
+    /// The crossing that represents an edge, if it has any. Two crossings are the faces of something thin; the second
+    /// is chosen. Of three, the middle one is chosen.
     std::optional<GridCrossing> shown_on_edge(const glm::ivec3& point) const;
 
   private:
@@ -64,17 +67,17 @@ class CrossingsAlong {
 
     const Grid& grid_;
     int axis_;
-    std::vector<std::size_t> starts_;  ///< where the crossings of each line begin, and where those of the last end
+    std::vector<std::size_t> starts_;  ///< where the crossings of each line begin, and where those of the last line end
     std::vector<GridCrossing> crossings_;
 };
 
 /// The phase at each point of the grid, x fastest.
 using Labels = std::vector<Phase>;
-/// Finds them by the crossings along the lines in x.
+/// Determines the labels from the crossings along the lines in x.
 Labels labels_of(const Grid&, const CrossingsAlong& x);
 /// The labels of a cube's corners.
 Corners corners_of(const Grid&, const Labels&, const glm::ivec3& cube);
-/// Whether all corners of a cube have one label, as those of most cubes have: such a cube is passed by at little cost.
+/// Whether all corners of a cube have the same label. Most cubes are like that and are skipped at little cost.
 bool is_uniform(const Grid&, const Labels&, const glm::ivec3& cube);
 
 }  // namespace phasetree::meshing

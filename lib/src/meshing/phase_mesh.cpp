@@ -22,19 +22,19 @@ namespace meshing {
 
 namespace {
 
-// The least `apart` of vertex_in_cube; rounding far from the origin asks for more.
+// The minimum of `apart` for vertex_in_cube; rounding far from the origin requires more.
 constexpr double least_apart = 1e-3;
 
 constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/// A cube that has vertices, because interfaces are in it.
+/// A cube with vertices, because it contains interfaces.
 struct ActiveCube {
     int x = 0;
-    std::uint32_t vertex = 0;  ///< the number of the first patch's vertex; those of the others follow
+    std::uint32_t vertex = 0;  ///< the index of the first patch's vertex; those of the other patches follow
     CubePatches patches;
 };
 
-/// All cubes that have vertices.
+/// All cubes with vertices.
 class ActiveCubes {
   public:
     ActiveCubes(const Grid& grid, const Labels& labels, const JoinedSides& joined)
@@ -62,7 +62,7 @@ class ActiveCubes {
     }
 
     std::size_t vertices() const { return vertices_; }
-    /// The vertex of the patch of an edge, between two phases, of a cube.
+    /// The vertex in a cube for the patch of an edge between two phases.
     std::uint32_t vertex(const glm::ivec3& cube, int edge) const {
         const std::size_t r = row(cube.y, cube.z);
         const auto begin = cubes_.begin() + static_cast<std::ptrdiff_t>(rows_[r]);
@@ -70,7 +70,7 @@ class ActiveCubes {
         const auto found = std::lower_bound(begin, end, cube.x, [](const ActiveCube& c, int x) { return c.x < x; });
         return found->vertex + static_cast<std::uint32_t>(found->patches.patch(edge));
     }
-    /// Calls f(lowest point, cube) for each of them in a layer.
+    /// Calls f(lowest point, cube) for each of the cubes in a layer.
     template <class F>
     void for_each_in_layer(int k, F&& f) const {
         for (int j = 0; j + 1 < grid_.points.y; ++j)
@@ -88,19 +88,19 @@ class ActiveCubes {
     std::size_t vertices_ = 0;
 };
 
-/// Tells how much of the work is done, over all of its stages.
+/// Reports the progress of the work over all of its stages.
 class MeshProgress {
   public:
     explicit MeshProgress(const std::function<void(float)>& tell) : tell_(tell) {}
 
-    /// Begins a stage of this many steps, which ends at a share of all the work.
+    /// Begins a stage of this many steps, at whose end this share of all the work is done.
     void begin(std::size_t steps, float end) {
         start_ = end_;
         end_ = end;
         steps_ = steps;
         done_ = 0;
     }
-    /// This many steps more are done. Any thread.
+    /// Records that this many more steps are done. Thread-safe.
     void advance(std::size_t steps = 1) {
         if (!tell_) return;
         const std::lock_guard lock(mutex_);
@@ -179,7 +179,8 @@ class Mesher {
     }
     Phase label(const glm::ivec3& point) const { return labels_[grid_.index(point)]; }
 
-    // Calls f(axis, point) for each edge of the grid from a point of a layer to the next along an axis.
+    // Calls f(axis, point) for each edge of the grid that leads from a point of a layer to the next point along an
+    // axis.
     template <class F>
     void for_each_edge_of_layer(int k, F&& f) const {
         for (int axis = 0; axis < 3; ++axis) {
@@ -190,7 +191,7 @@ class Mesher {
         }
     }
 
-    // An edge of the grid shows one crossing if its ends have different labels; all others are passed over.
+    // An edge of the grid shows one crossing if its ends have different labels; all other crossings are skipped.
     void count_crossings(PhaseMesh& mesh) const {
         for (const CrossingsAlong& axis : crossings_) mesh.crossings += axis.size();
         std::vector<std::size_t> shown(static_cast<std::size_t>(grid_.points.z), 0);
@@ -231,12 +232,13 @@ class Mesher {
         const double apart = std::max(least_apart, 4 * grid_.digit / grid_.spacing);
         glm::dvec3 vertex = mean;
         if (count > 0) vertex = vertex_in_cube(std::span(planes).first(count), mean, apart, patches.count() == 1);
-        // Where labels were changed planes are missing, and the vertex may be away from all interfaces.
+        // Where labels were changed, planes are missing, and the vertex may be away from all interfaces.
         return static_cast<int>(count) < edges ? on_interface(cube, vertex, apart) : vertex;
     }
 
-    // Moves a vertex to the nearest place where one of the lines through it along the axes meets an interface. If there
-    // is none within two cubes, the vertex stays: farther away it might be that of another part of the object.
+    // Moves a vertex to the nearest point where one of the axis-parallel lines through it meets an interface. If there
+    // is none within two cubes, the vertex stays: farther away, the interface might belong to another part of the
+    // object.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
         const FlushSubnormals flush;
         const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
@@ -259,14 +261,14 @@ class Mesher {
         return found;
     }
 
-    // Adds two triangles for each edge of the grid that begins in a layer of points and is between two phases.
+    // Adds two triangles for each edge of the grid that begins in this layer of points and lies between two phases.
     void add_layer(int k, const ActiveCubes& cubes, const PhaseMesh& mesh,
                    std::vector<PhaseMesh::Triangle>& triangles) const {
         for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
             const Phase first = label(point), second = label(point + along[axis]);
             if (first == second) return;
             const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
-            // Counterclockwise as seen against the axis, so from `second`.
+            // Counter-clockwise as seen against the axis, that is, from `second`.
             std::array<std::uint32_t, 4> corners{};
             const glm::ivec3 offsets[] = {u + v, v, glm::ivec3(0), u};
             for (std::size_t i = 0; i < 4; ++i)
@@ -287,8 +289,8 @@ class Mesher {
         });
     }
 
-    // Chooses the diagonal of a quadrilateral by the interface's normal: it goes from corner 0 or corner 1, whichever
-    // makes the triangle that deviates most deviate less.
+    // Chooses the diagonal of a quadrilateral using the interface's normal. The diagonal starts at corner 0 or corner
+    // 1, whichever gives the smaller maximum deviation of a triangle from the normal.
     static int better_diagonal(const PhaseMesh& mesh, const std::array<std::uint32_t, 4>& corners,
                                const glm::dvec3& normal) {
         const auto at = [&](int i) { return glm::dvec3(mesh.vertices[corners[static_cast<std::size_t>(i % 4)]]); };

@@ -11,8 +11,8 @@ namespace phasetree::meshing {
 
 namespace {
 
-// A direction whose eigenvalue is less than this share of the largest is left out: two faces count as one that is bent
-// if their normals are less than 11° apart.
+// Directions whose eigenvalue is less than this fraction of the largest are ignored. So two faces count as a single
+// bent one if their normals differ by less than 11°.
 constexpr double least_eigenvalue = 0.01;
 
 struct Eigen {
@@ -20,7 +20,7 @@ struct Eigen {
     std::array<glm::dvec3, 3> vectors{};
 };
 
-// Of a symmetric matrix, by Jacobi's rotations.
+// The eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.
 Eigen eigen_of(glm::dmat3 a) {
     glm::dmat3 v(1);
     const double small = 1e-16 * (a[0][0] + a[1][1] + a[2][2]);
@@ -42,12 +42,13 @@ Eigen eigen_of(glm::dmat3 a) {
     return {{a[0][0], a[1][1], a[2][2]}, {v[0], v[1], v[2]}};
 }
 
-// How far from the cube the vertex may be, in its sides. Nearer than that few vertices are kept from an edge of the
-// object that they belong on; farther, vertices of neighbouring cubes pass each other where two faces meet at a small
-// angle, and triangles between them fold over.
+// How far outside the cube the vertex may be, in side lengths. This limit keeps few vertices from an edge of the object
+// to which they belong. With a larger one, vertices of neighbouring cubes pass each other where two faces meet at a
+// small angle, and the triangles between them fold over.
 constexpr double most_outside = 0.5;
 
-// The point b or, if that is too far from the cube, where the way to it from a, which is in the cube, leaves the cube.
+// Returns b. If that is too far from the cube, returns the point where the segment from a, which is in the cube, to b
+// leaves the cube.
 glm::dvec3 kept_near_cube(const glm::dvec3& a, const glm::dvec3& b, double apart, bool is_alone) {
     double share = is_alone ? 1 : 1 - apart;
     const bool is_near = glm::clamp(b, -most_outside, 1 + most_outside) == b;

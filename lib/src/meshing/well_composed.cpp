@@ -11,7 +11,7 @@ namespace phasetree::meshing {
 
 namespace {
 
-// Which label is to rise, and to what; a default-made change changes nothing.
+// The label to raise, and its new value; a default-constructed change does nothing.
 struct Change {
     int corner = -1;
     Phase to{};
@@ -19,8 +19,8 @@ struct Change {
     explicit operator bool() const { return corner >= 0; }
 };
 
-// Around a side with a wall across it, two opposite corners have a phase that neither of the others has. One of the
-// others takes it if its label is lower, else one of the two takes the lower label of the others.
+// A side with a wall across it has two opposite corners with a phase that neither of the others has. If one of the
+// other corners has a lower label, it takes that phase; otherwise, one of the two takes the lower label of the others.
 Change change_of_side(const CubeLabels& c, int side) {
     const auto& corners = sides_of_cube[side];
     for (int turn = 0; turn < 2; ++turn) {
@@ -32,14 +32,14 @@ Change change_of_side(const CubeLabels& c, int side) {
     return {};
 }
 
-// Returns whether both faces of a wall across a side are of one patch.
+// Whether both faces of a wall across a side belong to the same patch.
 bool is_wall_in_one_patch(const CubePatches& patches, int side, const WallAcross& wall) {
     const auto& corners = sides_of_cube[side];
     const auto patch_at = [&](int i) { return patches.patch(edge_between(corners[i], corners[(i + 1) % 4])); };
     return patch_at(wall.first) == patch_at(wall.first + 2);
 }
 
-// Returns whether a patch has two rings of a phase (well_composed.hpp).
+// Whether a patch has two rings of a phase (well_composed.hpp).
 bool has_two_rings(const CubeLabels& c, const CubePatches& patches, Phase phase) {
     const LinkedEdges rings = cut_edges(c, [&](Phase a, Phase b) { return (a == phase) != (b == phase); });
     std::array<int, 4> in_patch{};
@@ -50,7 +50,7 @@ bool has_two_rings(const CubeLabels& c, const CubePatches& patches, Phase phase)
     return false;
 }
 
-// A corner of the lowest label that is beside a higher one takes the lowest of these.
+// A corner with the lowest label that is adjacent to a higher label takes the lowest of these.
 Change change_of_lowest(const CubeLabels& c) {
     const Phase lowest = *std::min_element(c.corners.begin(), c.corners.end());
     for (int corner = 0; corner < 8; ++corner) {
@@ -64,9 +64,10 @@ Change change_of_lowest(const CubeLabels& c) {
     return {};
 }
 
-// Finds what is to be changed in a cube, if anything. The outermost points, all of them vacuum, stay so: in a cube with
-// four of them, a side that has any of them has two that are neighbours, so that no phase is at opposite corners alone;
-// and the vacuum and all else have one ring each in a patch, since each patch there is about corners of the inner side.
+// Finds the change that a cube needs, if any. The outermost points are all vacuum, and stay so. In a cube with four of
+// them, any side that contains some of them contains two neighbouring ones, so no phase is only at opposite corners.
+// The vacuum and everything else have one ring each in a patch, because each patch there surrounds corners of the inner
+// side.
 Change change_of(const CubeLabels& c) {
     if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);
@@ -82,7 +83,8 @@ class Repair {
   public:
     Repair(const Grid& grid, Labels& labels, JoinedSides& joined) : grid_(grid), labels_(labels), joined_(joined) {}
 
-    // Changes labels of a cube until nothing is to be changed in it; cubes around those labels are to be seen again.
+    // Changes labels of a cube until no further change is needed. The cubes around changed labels must be examined
+    // again.
     void mend(const glm::ivec3& cube) {
         for (;;) {
             joined_.find(labels_, cube);
@@ -114,7 +116,7 @@ class Repair {
 
 void make_well_composed(const Grid& grid, Labels& labels, JoinedSides& joined, const std::function<void()>& cancelled) {
     Repair repair(grid, labels, joined);
-    // Few cubes are unsound: all are examined in parallel, these are mended in turn.
+    // Few cubes need changes. All are examined in parallel; those are then repaired one after the other.
     std::vector<std::vector<glm::ivec3>> unsound(static_cast<std::size_t>(grid.points.z - 1));
     tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
         cancelled();

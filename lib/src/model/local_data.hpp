@@ -10,9 +10,9 @@
 
 namespace phasetree {
 
-/// What LocalPrimitive is, of a primitive with data: of all that it has, few floats matter in a small box. Its
-/// specialise() is given its data. search_half_instructions is the cost of a search in them for eight points, in halves
-/// of that of a simple instruction.
+/// The equivalent of LocalPrimitive for a primitive with data: in a small box, only few of its floats matter.
+/// specialise() receives its data. search_half_instructions is the cost of searching them for eight points, in halves
+/// of a simple instruction.
 template <class N>
 concept LocalDataPrimitive = DataPrimitive<N> &&
     requires(const float* data, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
@@ -22,15 +22,15 @@ concept LocalDataPrimitive = DataPrimitive<N> &&
     { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
     { N::search_half_instructions } -> std::convertible_to<unsigned>;
 };
-/// One that can do with fewer floats where only values up to `farthest` are required: above it, the specialised
-/// primitive's are any others above it. It never refuses if `of` is not empty.
+/// A primitive that needs fewer floats if only values up to `farthest` are required. Where its values are larger, those
+/// of the specialised primitive are arbitrary but also larger. Specialisation always succeeds if `of` is not empty.
 template <class N>
 concept RequiredDataPrimitive = LocalDataPrimitive<N> &&
     requires(const float* data, const PointRange& range, double farthest, std::span<const float> of,
              std::vector<float>& floats) {
     { N::specialise(data, range, farthest, of, floats) } -> std::same_as<bool>;
 };
-/// One whose data are many parts, which are balls or pieces of a mesh, about spacing() apart from each other.
+/// A primitive whose data are many parts, which are balls or pieces of a mesh, about spacing() apart.
 template <class N>
 concept PrimitiveOfParts = LocalDataPrimitive<N> && requires(const float* data) {
     { N::spacing(data) } -> std::same_as<float>;
@@ -38,7 +38,7 @@ concept PrimitiveOfParts = LocalDataPrimitive<N> && requires(const float* data) 
 template <class N>
 concept AnyLocalPrimitive = LocalPrimitive<N> || LocalDataPrimitive<N>;
 
-/// What PatternPrimitive is, of a primitive with data: its features are about as large as period(data).
+/// The equivalent of PatternPrimitive for a primitive with data: its features are about as large as period(data).
 template <class N>
 concept PatternDataPrimitive = DataPrimitive<N> && requires(const float* data) {
     { N::period(data) } -> std::same_as<float>;

@@ -8,7 +8,7 @@ namespace phasetree::model {
 
 namespace {
 
-// The budget that this thread holds.
+// This thread's current budget.
 thread_local PreparationTogether* held = nullptr;
 
 }  // namespace

@@ -7,10 +7,11 @@
 
 namespace phasetree {
 
-/// What is wrong within a text that is a node's parameter, and where in it. A reader shows the place in the file.
+/// An error within a text that is a node's parameter, with its position. A reader translates it to the position in the
+/// file.
 class TextError : public ModelError {
   public:
-    /// `offset` counts bytes from the text's first.
+    /// `offset` is in bytes from the beginning of the text.
     TextError(const std::string& node, std::string parameter, std::size_t offset, const std::string& message)
         : ModelError(node + ": " + message + ", at character " + std::to_string(offset + 1)),
           parameter_(std::move(parameter)),
@@ -18,7 +19,7 @@ class TextError : public ModelError {
           offset_(offset) {}
 
     const std::string& parameter() const noexcept { return parameter_; }
-    /// Without the node and the place.
+    /// The message without the node and the position.
     const std::string& message() const noexcept { return message_; }
     std::size_t offset() const noexcept { return offset_; }
 

@@ -13,15 +13,15 @@ namespace phasetree::balls {
 namespace {
 
 constexpr std::size_t most_in_leaf = 8;
-constexpr std::size_t tallest = 64;                // The tree is balanced, so that it is never so tall.
-constexpr std::size_t few = std::size_t{1} << 15;  // Fewer balls are not worth a task of their own.
+constexpr std::size_t tallest = 64;                // never reached, because the tree is balanced
+constexpr std::size_t few = std::size_t{1} << 15;  // fewer balls do not get a task of their own
 
-// How many balls the first child of a node has.
+// The number of balls in a node's first child.
 std::size_t half(std::size_t count) {
     return count / 2;
 }
 
-// The number of nodes of a tree over this many balls. On each level all nodes have n balls or n + 1.
+// The number of nodes of a tree over this many balls. On each level, every node has either n or n + 1 balls.
 std::size_t nodes_over(std::size_t count) {
     std::size_t sum = 0, n = count, with_n = 1, with_one_more = 0;
     for (;;) {
@@ -29,7 +29,7 @@ std::size_t nodes_over(std::size_t count) {
         const std::size_t dividing_n = n > most_in_leaf ? with_n : 0;
         const std::size_t dividing_more = n + 1 > most_in_leaf ? with_one_more : 0;
         if (dividing_n + dividing_more == 0) return sum;
-        // n becomes n/2 twice, or (n − 1)/2 and (n + 1)/2.
+        // n is divided into n/2 twice, or into (n − 1)/2 and (n + 1)/2.
         const bool is_odd = n % 2 == 1;
         with_n = is_odd ? dividing_n : 2 * dividing_n + dividing_more;
         with_one_more = is_odd ? dividing_n + 2 * dividing_more : dividing_more;
@@ -37,7 +37,7 @@ std::size_t nodes_over(std::size_t count) {
     }
 }
 
-// Where a tree's floats hold its balls and its nodes.
+// The locations of a tree's balls and nodes among its floats.
 struct TreeView {
     const float* balls;
     float largest;
@@ -54,7 +54,7 @@ std::size_t index_at(const float* node, std::size_t member) {
     return static_cast<std::size_t>(node[member]);
 }
 
-// Writes the nodes over a range of the balls, which it sorts for that.
+// Writes the nodes over a range of balls, sorting the balls.
 class Writer {
   public:
     Writer(std::vector<glm::vec4>& balls, float* nodes) : balls_(balls), nodes_(nodes) {}
@@ -63,7 +63,7 @@ class Writer {
         float* const to = nodes_ + node * Tree::node_floats;
         const auto range = std::span(balls_).subspan(first, count);
         if (count <= most_in_leaf) {
-            std::ranges::sort(range, comes_before);  // for a tree that is the same whatever order the balls had
+            std::ranges::sort(range, comes_before);  // makes the tree independent of the order of the balls
             Bounds box;
             float radius = 0;
             for (const glm::vec4& b : range) {
@@ -96,7 +96,7 @@ class Writer {
             if (a[i] != b[i]) return a[i] < b[i];
         return false;
     }
-    // Puts one half before the other, along the axis along which the centres extend the farthest.
+    // Partitions a range into halves along the axis along which the centres extend farthest.
     static void divide(std::span<glm::vec4> range) {
         Bounds box;
         for (const glm::vec4& b : range) box = unite(box, {glm::vec3(b), glm::vec3(b)});
@@ -135,8 +135,8 @@ Number least_distance(const float* node, const std::array<Number, 3>& p, const s
     return std::sqrt(sum) - static_cast<Number>(node[Tree::radius]);
 }
 
-// Visits the leaves, near ones first, that are no farther from p than limit() tells, which may fall meanwhile. Ends
-// when a visit returns false.
+// Visits the leaves, near ones first, that are no farther from p than limit(), which may decrease meanwhile. Stops when
+// a visit returns false.
 template <class Number, class Limit, class Visit>
 void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents,
                    const Limit& limit, const Visit& visit) {
@@ -163,14 +163,14 @@ void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const s
     }
 }
 
-// More than the distance from p to a ball can be off by rounding errors.
+// An upper bound of the rounding error of the distance from p to a ball.
 template <class Number>
 Number margin(float largest, const std::array<Number, 3>& p) {
     const Number far = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
     return static_cast<Number>(2e-6) * (far + static_cast<Number>(largest));
 }
 
-// What is known of the distance from the points of a box to a ball.
+// Bounds of the distance from the points of a box to a ball.
 struct InBox {
     double least, most;
 };
@@ -186,7 +186,7 @@ InBox in_box(const float* ball, const PointRange& box) {
     return {std::sqrt(near) - radius, std::sqrt(far) - radius};
 }
 
-// The balls that may be the nearest in a box, as far as they are known.
+// The balls found so far that may be nearest somewhere in a box.
 class Candidates {
   public:
     Candidates(const Tree::Wanted& wanted, double margin) : wanted_(wanted), margin_(margin) {}
@@ -200,13 +200,14 @@ class Candidates {
         }
         if (known.least <= limit()) found_.push_back({ball, known.least});
     }
-    /// No ball that is farther everywhere in the box matters.
+    /// Balls that are farther than this everywhere in the box do not matter.
     double limit() const { return std::min(upper_, wanted_.farthest) + margin_; }
     std::size_t size() const { return found_.size(); }
     void remove_far() {
         std::erase_if(found_, [&](const Candidate& c) { return c.least > limit(); });
     }
-    /// In the order in which they are in memory. If there is none, the nearest that was considered stands for them.
+    /// Appends the balls in the order of their addresses. If there are none, the nearest ball considered so far
+    /// represents them.
     void append_to(std::vector<float>& floats) {
         remove_far();
         if (found_.empty() && nearest_) found_.push_back({nearest_, least_});
@@ -222,7 +223,7 @@ class Candidates {
     };
     const Tree::Wanted& wanted_;
     double margin_;
-    double upper_ = std::numeric_limits<double>::infinity();  // of the distance to the nearest, anywhere in the box
+    double upper_ = std::numeric_limits<double>::infinity();  // of the distance to the nearest ball, over the whole box
     const float* nearest_ = nullptr;
     double least_ = 0;
     std::vector<Candidate> found_;
@@ -248,7 +249,7 @@ const float* Tree::nearest(const float* data, const Vec3<float>& point) {
             }
             return true;
         });
-    return found ? found : view.balls;  // Where coordinates are infinite, all balls are as far.
+    return found ? found : view.balls;  // If coordinates are infinite, all balls are equally far away.
 }
 
 bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const float> around,
@@ -269,14 +270,14 @@ bool Tree::balls_in(const float* tree, const Wanted& wanted, std::span<const flo
     bool is_too_many = false, is_any = false;
     for_each_leaf(
         view, centre, half_extents,
-        // As long as there is no ball at all, one that is too far is looked for.
+        // Until a ball is found, also search for one that is too far away.
         [&] { return is_any ? candidates.limit() : std::numeric_limits<double>::infinity(); },
         [&](const float* leaf) {
             is_any = true;
             const float* ball = view.ball(index_at(leaf, link));
             for (std::size_t left = index_at(leaf, count); left > 0; --left, ball += ball_floats)
                 candidates.consider(ball);
-            // The near leaves come first, so what is left of many after some leaves is likely to stay.
+            // Near leaves come first, so if many candidates remain after some leaves, they are likely to stay.
             if (candidates.size() > 4 * wanted.most) {
                 candidates.remove_far();
                 is_too_many = candidates.size() > 2 * wanted.most;
@@ -302,7 +303,7 @@ float Tree::spacing(const float* data) {
 double Tree::support(const float* data, const glm::dvec3& d, float more) {
     const TreeView view(data);
     const double length = glm::length(d);
-    // The most that a node's box allows, by which the search is ordered and ends.
+    // An upper bound for a node, from its box. The search is ordered by it and ends with it.
     const auto bound = [&](const float* node) {
         const Bounds box = Writer::box_of(node);
         double sum = length * static_cast<double>(node[radius] + more);
@@ -355,7 +356,7 @@ Bounds bounds_of(const float* tree) {
     for (int i = 0; i < 3; ++i) {
         glm::dvec3 axis(0);
         axis[i] = 1;
-        // The box holds the exact one, whichever way floats are rounded.
+        // The box contains the exact one, however floats are rounded.
         const double most = Tree::support(tree, axis, 0), least = -Tree::support(tree, -axis, 0);
         high[i] = std::nextafter(static_cast<float>(most), std::numeric_limits<float>::infinity());
         low[i] = std::nextafter(static_cast<float>(least), -std::numeric_limits<float>::infinity());

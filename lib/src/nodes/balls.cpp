@@ -12,15 +12,15 @@ namespace phasetree {
 
 namespace {
 
-// Coordinates whose squares come near the ends of the floats' range cannot be computed with.
+// Coordinates whose squares approach the limits of the range of floats cannot be used in computations.
 constexpr float farthest = 1e9f, smallest = 1e-9f;
 
-// "ball 3 of sand.ply", or "ball 3" of a list in the scene.
+// "ball 3 of sand.ply", or "ball 3" for a list in the scene.
 std::string name_of_ball(std::size_t i, const std::string& path) {
     return fmt::format("ball {}{}{}", i + 1, path.empty() ? "" : " of ", path);
 }
 
-// The phase of each ball, as the number of an entry of `phases`.
+// The phase of each ball, as an index into `phases`.
 std::vector<std::uint8_t> phases_of_balls(const Particles& n, std::size_t balls) {
     std::vector<std::uint8_t> result(balls, 0);
     const std::size_t listed = n.of_phases.size();

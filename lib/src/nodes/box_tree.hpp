@@ -8,21 +8,21 @@
 
 namespace phasetree {
 
-/// A balanced hierarchy of boxes. Nodes stand in depth-first order: a node's first child follows it.
+/// A balanced hierarchy of boxes. Nodes are stored in depth-first order: a node is followed by its first child.
 struct BoxTree {
     struct Node {
         Bounds box;
         std::uint32_t second_child = 0;      ///< 0 for a leaf
-        std::uint32_t first = 0, count = 0;  ///< a leaf's items: this many of `order` from this one on
+        std::uint32_t first = 0, count = 0;  ///< a leaf's items: `count` entries of `order` from `first` on
     };
     std::vector<Node> nodes;
-    std::vector<std::uint32_t> order;  ///< the items' numbers, leaf after leaf
+    std::vector<std::uint32_t> order;  ///< the indices of the items, leaf by leaf
 
-    /// Divides at the median of the boxes' centres along the axis along which these extend the farthest, until there
-    /// are no more than `most` items in each leaf. There must be an item.
+    /// Divides at the median of the boxes' centres, along the axis along which they extend farthest, until each leaf
+    /// has at most `most` items. There must be at least one item.
     BoxTree(std::span<const Bounds> items, std::uint32_t most);
 
-    /// Calls visit(first, count) for each leaf whose box meets; meets(box) tells that.
+    /// Calls visit(first, count) for each leaf whose box satisfies meets(box).
     template <class Meets, class Visit>
     void for_each_leaf(const Meets& meets, const Visit& visit) const {
         for (std::size_t i = 0; i < nodes.size();) {
@@ -36,7 +36,7 @@ struct BoxTree {
   private:
     void divide(std::span<const Bounds> items, std::uint32_t first, std::uint32_t count, std::uint32_t most);
 
-    std::vector<std::uint32_t> behind_;  // for each node the first that is not below it
+    std::vector<std::uint32_t> behind_;  // for each node, the first node that is not below it
 };
 
 }  // namespace phasetree

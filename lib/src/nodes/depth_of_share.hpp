@@ -7,9 +7,9 @@
 
 namespace phasetree {
 
-/// Φ⁻¹, the inverse of the normal distribution, by Newton's method on the complementary error function; u from 0.001 to
-/// 0.999. From 0 no step goes beyond the root, because Φ is concave on one side of 0 and convex on the other; within
-/// the range 11 steps reach the rounding errors of doubles.
+/// Φ⁻¹, the inverse of the normal distribution, for u from 0.001 to 0.999. Newton's method is applied to the
+/// complementary error function. Starting from 0, no step overshoots the root, because Φ is concave on one side of 0
+/// and convex on the other. Within this range, 11 steps reach the rounding errors of doubles.
 inline double inverse_normal(double u) {
     double x = 0;
     for (int i = 0; i < 12; ++i) {
@@ -20,23 +20,23 @@ inline double inverse_normal(double u) {
     return x;
 }
 
-/// How deep in a phase a point is, in voxels, by what blurring has left there of the phase's indicator, its share: the
-/// distance to a flat interface with that share, σ Φ⁻¹(share). It is asked for at each voxel and phase, hence
-/// tabulated.
+/// The depth of a point in a phase, in voxels, from the value of the phase's blurred indicator there, its share. The
+/// depth is the distance to a flat interface with that share, σ Φ⁻¹(share). It is needed for each voxel and phase, so
+/// it is tabulated.
 class DepthOfShare {
   public:
     explicit DepthOfShare(float sigma) : most_(most(sigma)) {
         for (std::size_t i = 0; i < table_.size(); ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
-            // Beyond this range depths are cut off anyway, at shares of 0.006 and 0.994.
+            // Depths are clamped beyond shares of 0.006 and 0.994, which is inside this range.
             const double inner = std::clamp(share, 0.001, 0.999);
-            // Without a blur a share is 0 or 1.
+            // Without blurring, a share is 0 or 1.
             const double depth = sigma > 0 ? static_cast<double>(sigma) * inverse_normal(inner) : share - 0.5;
             table_[i] = std::clamp(static_cast<float>(depth), -most_, most_);
         }
     }
-    /// The greatest depth that is told, in voxels. Further away a share is so near to 0 or 1 that the table, and the
-    /// Gaussian's end, no longer tell depths apart.
+    /// The maximum depth, in voxels. Farther away, a share is so close to 0 or 1 that the table, and the end of the
+    /// Gaussian, cannot resolve depths.
     static float most(float sigma) { return sigma > 0 ? 2.5f * sigma : 0.5f; }
     float most() const { return most_; }
     float operator()(float share) const {

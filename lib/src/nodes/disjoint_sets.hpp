@@ -5,7 +5,7 @@
 
 namespace phasetree {
 
-/// Numbers 0 … n − 1 in disjoint sets, which are joined (union-find). The root of a set is its least member.
+/// Disjoint sets of the numbers 0 … n − 1, which can be joined (union-find). The root of a set is its smallest member.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t n) {

@@ -1,4 +1,4 @@
-// A formula's terms, the bound of their slope by which all are divided, and the box in which its solid is.
+// Determines a formula's terms, the bound of their slope by which all are divided, and the box that contains its solid.
 #include "phasetree/nodes/fields/formula.hpp"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int most_boxes = 4000;  // are examined to find the slope of one term
-constexpr double steepest = 1e6;  // a steeper formula is rejected
-// Without bounds the slope is found in a large cube and in a small one, of half these sides, with fewer boxes: nothing
-// is to be refined there. If it is larger in the large one, it is taken to grow without limit, and the formula is
-// refused. Beyond the large cube, 1000 km from the origin, nothing is proven, so the author's bounds may not reach
-// farther either.
+constexpr int most_boxes = 4000;  // examined to find the slope of a term
+constexpr double steepest = 1e6;  // steeper formulas are rejected
+// Without bounds, the slope is determined in a large cube and in a small one, with these half sides and fewer boxes:
+// nothing needs refinement there. If it is larger in the large cube, it is assumed to grow without limit, and the
+// formula is rejected. Nothing is proven beyond the large cube, 1000 km from the origin, so the author's bounds may not
+// extend farther either.
 constexpr double everywhere = 1e6, nearby = 1e3;
 
 BoxOfDoubles box_of(const std::vector<glm::vec3>& corners) {
@@ -72,7 +72,7 @@ void Formula::prepare() {
         }
     }
     if (slope > steepest) fail_in_formula(0, "the formula is too steep: its slope may be " + std::to_string(slope));
-    if (slope < 1e-6) slope = 1;  // it is nearly constant
+    if (slope < 1e-6) slope = 1;  // the formula is nearly constant
 
     lipschitz = static_cast<float>(slope);
     const float scale = 1 / lipschitz;

@@ -1,4 +1,4 @@
-// Boxes in which a formula is enclosed, in doubles.
+// Boxes of doubles in which a formula is enclosed.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct BoxOfDoubles {
         return {enclosure::Enclosure::coordinate(0, m[0], half(0)), enclosure::Enclosure::coordinate(1, m[1], half(1)),
                 enclosure::Enclosure::coordinate(2, m[2], half(2))};
     }
-    /// The two halves of the box, which is divided across its longest side among the axes that count.
+    /// The two halves of the box, divided across the longest side among the axes that count.
     std::pair<BoxOfDoubles, BoxOfDoubles> split(const std::array<bool, 3>& counts = {true, true, true}) const {
         std::size_t longest = 3;
         for (std::size_t i = 0; i < 3; ++i)
@@ -34,7 +34,7 @@ struct BoxOfDoubles {
         both.first.high[longest] = both.second.low[longest] = middle()[longest];
         return both;
     }
-    /// Its middle, as text for an error.
+    /// The centre as text for an error message.
     std::string middle_text() const {
         const auto m = middle();
         const auto text = [](double v) {

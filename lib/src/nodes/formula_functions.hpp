@@ -1,4 +1,4 @@
-// The functions that a formula may call: one list, in formula_functions.cpp.
+// The functions that a formula may call. formula_functions.cpp contains the list.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace phasetree::nodes {
 
 struct FormulaFunction {
     std::string_view name;
-    std::size_t least, most;  ///< arguments
+    std::size_t least, most;  ///< number of arguments
     FormulaIndex (*apply)(FormulaSteps&, const std::vector<FormulaIndex>& arguments);
 };
 

@@ -13,10 +13,10 @@ using formula::Op;
 
 namespace {
 
-constexpr double close_enough = 1.02;  // the search ends when the bound is this many times the steepest gradient seen
-constexpr double no_bound = 1e50;      // a bound above this stands for none: Range::most is larger
+constexpr double close_enough = 1.02;  // stop when the bound is at most this many times the steepest gradient found
+constexpr double no_bound = 1e50;      // larger bounds count as none: Range::most is larger
 
-// Why a term has no bound in a box: the first step that has none although its operands have.
+// Reports why a term has no bound in a box: the first step without a bound whose operands have bounds.
 [[noreturn]] void refuse(const TermSteps& term, const TermInBox& in, const BoxOfDoubles& box, bool has_bounds) {
     for (std::size_t i = 0; i < term.steps.size(); ++i) {
         if (in.slope(i) < no_bound) continue;
@@ -63,7 +63,7 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
         open.push({std::min(bound_around, in.bound()), box});
     };
     look(whole, Range::most);
-    // Half of the longest side of a box along the axes that the term depends on.
+    // Half of the longest side of a box, among the axes on which the term depends.
     const auto size = [&](const BoxOfDoubles& box) {
         double longest = 0;
         for (std::size_t i = 0; i < 3; ++i)

@@ -72,7 +72,7 @@ BoxOfDoubles around_solid(const FormulaTerms& formula, const BoxOfDoubles& whole
         open.pop_back();
         budget.pay(work_of_a_step * steps);
         const Range values = values_in(formula, top.box);
-        // Floats may be negative where the formula is not.
+        // The formula in floats may be negative where the exact one is not.
         if (values.low > 1e-5 * std::min(1 + values.magnitude(), 1e4)) continue;
         if (top.depth < divisions) {
             const auto [one, other] = top.box.split();

@@ -1,4 +1,4 @@
-// Where the solid of a formula is.
+// Finds where the solid of a formula is.
 #pragma once
 
 #include "model/preparation.hpp"
@@ -7,9 +7,9 @@
 
 namespace phasetree::nodes {
 
-/// A box around what of the solid is in a box: the box around those of its sub-boxes in which the formula may be
-/// negative. It is the whole box if there are none. `steps` is how many operations the formula has; `budget` throws
-/// when it is used up.
+/// A box around the part of the solid within a box: the union of the sub-boxes in which the formula may be negative, or
+/// the whole box if there are none. `steps` is the number of operations of the formula; `budget` throws when it is used
+/// up.
 BoxOfDoubles around_solid(const FormulaTerms& formula, const BoxOfDoubles& whole, std::uint64_t steps,
                           model::Preparation& budget);
 

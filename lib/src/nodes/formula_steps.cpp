@@ -13,7 +13,7 @@ using formula::Op;
 namespace {
 
 constexpr std::size_t most_steps = 2'000;
-// A root of a sum of more squares than these stays a root.
+// A root of a sum of more squares than this stays a root.
 constexpr std::size_t most_squares = 16;
 
 }  // namespace
@@ -148,9 +148,9 @@ FormulaIndex FormulaSteps::emit(FormulaStep s) {
     return index;
 }
 
-// Returns whether a value is a sum of squares, and appends to `sides` what is squared. It may append steps, and may
-// leave `sides` half filled if it returns false. A step that is used twice counts twice, so a few steps could make very
-// many squares; hence the limit.
+// Whether a value is a sum of squares; appends the squared values to `sides`. It may append steps, and may leave
+// `sides` incomplete if it returns false. A step that is used twice counts twice, so a few steps could make a huge
+// number of squares; this is the reason for the limit.
 bool FormulaSteps::collect_squares(Index i, std::vector<Index>& sides, int depth) {
     const FormulaStep s = steps_[i];
     if (depth > deepest_formula || sides.size() >= most_squares) return false;
@@ -185,7 +185,7 @@ std::vector<FormulaStep> needed_steps(const std::vector<FormulaStep>& all, Formu
         if (!is_needed[i]) continue;
         new_index[i] = static_cast<FormulaIndex>(needed.size());
         FormulaStep s = all[i];
-        // Operands that an operation does not take are set to 0.
+        // Unused operands are set to 0.
         const int n = operands(s.op);
         s.a = n > 0 ? new_index[s.a] : 0;
         s.b = n > 1 ? new_index[s.b] : 0;

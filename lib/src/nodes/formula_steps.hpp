@@ -1,4 +1,4 @@
-// The operations of a formula, and how they are written down: each once, and simpler ones where that is possible.
+// The operations of a formula. Duplicates are recorded once, and operations are simplified where possible.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,37 @@
 
 namespace phasetree::nodes {
 
-/// One operation of a formula, on values before it.
+/// One operation of a formula, with earlier values as operands.
 struct FormulaStep {
     formula::Op op{};
     std::uint32_t a = 0, b = 0, c = 0;
-    double value = 0;        ///< of a constant; the radius of a smooth minimum
-    std::size_t offset = 0;  ///< where in the text it stands, in bytes
+    double value = 0;        ///< of a constant, or the radius of a smooth minimum
+    std::size_t offset = 0;  ///< position in the text, in bytes
 };
 
-/// How many values an operation takes.
+/// The number of operands of an operation.
 int operands(formula::Op);
 
-/// The index of a step. Operands have lower indices than what is made of them.
+/// The index of a step. Operands have lower indices than the steps that use them.
 using FormulaIndex = std::uint32_t;
 
-/// No formula, and no expression in one, is nested deeper than this.
+/// The maximum nesting depth of a formula and of its expressions.
 inline constexpr int deepest_formula = 100;
 
-/// Throws TextError about the place in the formula's text.
+/// Throws TextError at this position of the formula's text.
 [[noreturn]] void fail_in_formula(std::size_t offset, const std::string& message);
 
 /// The steps of a formula while it is read. Each member that returns an Index appends an operation, unless the same one
-/// is there already, which is then meant again. Operations on constants are computed at once. A root of a sum of
-/// squares becomes a length, because the slope of a length has a bound and that of a root has none. Members throw
-/// TextError for what has no value (a division by zero, a number of 10³⁰ or more), for an exponent or a radius that is
-/// not allowed, and for more than 2,000 steps.
+/// already exists, which is then reused. Operations on constants are evaluated immediately. A root of a sum of squares
+/// becomes a length, because the slope of a length is bounded and that of a root is not.
+///
+/// Members throw TextError for undefined values (division by zero, numbers of 10³⁰ or more), for an exponent or a
+/// radius that is not allowed, and for more than 2,000 steps.
 class FormulaSteps {
   public:
     using Index = FormulaIndex;
 
-    /// Where in the text the steps stand that follow.
+    /// Sets the position in the text of the following steps.
     void stand_at(std::size_t offset) { offset_ = offset; }
 
     Index constant(double v);
@@ -52,7 +53,7 @@ class FormulaSteps {
     Index multiply(Index a, Index b);
     Index divide(Index a, Index b);
     Index power(Index a, double n);
-    /// The same with an exponent that has been read as a step; it must be a constant.
+    /// The same with an exponent given as a step, which must be a constant.
     Index power_of(Index a, Index exponent);
     Index square_root(Index a);
     Index length_of(Index a, Index b) { return emit({.op = formula::Op::length_of_two, .a = a, .b = b}); }
@@ -63,12 +64,12 @@ class FormulaSteps {
     Index minimum(Index a, Index b);
     Index maximum(Index a, Index b);
     Index smooth_minimum(Index a, Index b, Index radius);
-    /// A function of one argument, which `of` computes where that is constant.
+    /// A function of one argument. `of` evaluates it for constants.
     Index function(formula::Op op, Index a, double (*of)(double)) {
         return is_constant(a) ? constant(of(value(a))) : emit({.op = op, .a = a});
     }
 
-    /// The steps that one of them needs, in their order; it is the last.
+    /// The steps that a step needs, in order; the last is the step itself.
     std::vector<FormulaStep> needed_for(Index result) const;
 
   private:
@@ -86,7 +87,7 @@ class FormulaSteps {
     std::size_t offset_ = 0;
 };
 
-/// The steps that one step of a list needs, in their order and renumbered; it is the last.
+/// The steps that a step of a list needs, in order and renumbered; the last is the step itself.
 std::vector<FormulaStep> needed_steps(const std::vector<FormulaStep>& all, FormulaIndex root);
 
 }  // namespace phasetree::nodes

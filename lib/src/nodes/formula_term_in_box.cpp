@@ -31,7 +31,7 @@ double TermInBox::slope_of(const FormulaStep& s) const {
             return slopes_[s.a];
         case Op::sine:
         case Op::cosine:
-            return at(s.a) <= 1e4 ? slopes_[s.a] : Range::most;  // sine_of() promises nothing beyond
+            return at(s.a) <= 1e4 ? slopes_[s.a] : Range::most;  // sine_of() is not valid beyond
         case Op::add:
         case Op::subtract:
             return slopes_[s.a] + slopes_[s.b];
@@ -44,7 +44,8 @@ double TermInBox::slope_of(const FormulaStep& s) const {
         case Op::smooth_minimum:
             return std::max(slopes_[s.a], slopes_[s.b]);
         case Op::exponential:
-            return std::exp(std::min(values_[s.a].value.high, 80.0)) * slopes_[s.a];  // exponential() ends there
+            return std::exp(std::min(values_[s.a].value.high, 80.0)) * slopes_[s.a];  // exponential() is constant
+                                                                                      // beyond
         case Op::length_of_two:
             return slope_of_length({s.a, s.b, s.b}, 2);
         case Op::length_of_three:
@@ -56,9 +57,9 @@ double TermInBox::slope_of(const FormulaStep& s) const {
     return Range::most;
 }
 
-// A bound of the slope of the length of a vector of n values. The length is at most as steep as the largest stretch of
-// the matrix J of the values' gradients. The square of that stretch is the largest eigenvalue of J Jᵀ, which by
-// Gershgorin's theorem is no larger than the largest sum of magnitudes in a row.
+// An upper bound of the slope of the length of a vector of n values. The length is at most as steep as the largest
+// stretch of the matrix J of the values' gradients. The square of that stretch is the largest eigenvalue of J Jᵀ. By
+// Gershgorin's theorem, this is at most the largest sum of magnitudes in a row.
 double TermInBox::slope_of_length(const std::array<Index, 3>& of, std::size_t n) const {
     double most = 0;
     for (std::size_t i = 0; i < n; ++i) {

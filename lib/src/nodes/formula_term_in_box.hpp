@@ -1,6 +1,6 @@
-// The values of a formula's term in a box, and two bounds of the slope of each, of which the smaller counts: the
-// longest vector in the range of its gradient, in which what cancels does cancel; and a bound that a rule of each
-// operation makes of the slopes of its operands, which is better for lengths.
+// The values of a formula's term in a box, and two bounds of the slope of each value, of which the smaller is used. One
+// is the longest vector in the range of the gradient, in which terms that cancel do cancel. The other follows from the
+// slopes of the operands by a rule for each operation; it is better for lengths.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace phasetree::nodes {
 class TermInBox {
   public:
     void run(const TermSteps& term, const BoxOfDoubles& box);
-    /// The bound of the slope, and the enclosure, of the whole term.
+    /// The bound of the slope of the whole term, and its enclosure.
     double bound() const { return slopes_.back(); }
     const enclosure::Enclosure& result() const { return values_.back(); }
     /// The bound of the slope of one of its steps.

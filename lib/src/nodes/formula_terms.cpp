@@ -7,7 +7,7 @@ using Index = FormulaIndex;
 
 namespace {
 
-// Makes a term of a step and of all that it needs.
+// Makes a term from a step and all the steps that it needs.
 TermSteps term_of(const std::vector<FormulaStep>& all, Index root) {
     TermSteps term{{}, needed_steps(all, root)};
     if (term.steps.size() > most_operations)
@@ -22,7 +22,7 @@ TermSteps term_of(const std::vector<FormulaStep>& all, Index root) {
     return term;
 }
 
-// Divides a formula into terms and what joins them.
+// Divides a formula into terms and the operations that join them.
 class Division {
   public:
     explicit Division(const std::vector<FormulaStep>& steps) : steps_(steps), part_of_(steps.size(), none) {}
@@ -75,7 +75,7 @@ class Division {
 
     bool is_constant(Index i) const { return steps_[i].op == Op::constant; }
     float value(Index i) const { return static_cast<float>(steps_[i].value); }
-    // Whether a value is made of minima, maxima and absolute values, up to constants and signs.
+    // Whether a value consists of minima, maxima and absolute values, up to constants and signs.
     bool is_joined(Index i) const {
         const FormulaStep& s = steps_[i];
         switch (s.op) {

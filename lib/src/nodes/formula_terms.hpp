@@ -1,5 +1,5 @@
-// A formula as terms that minima, maxima and absolute values join: the terms become primitives, and what joins them
-// instructions of a program.
+// A formula as terms joined by minima, maxima and absolute values. The terms become primitives, and the joining
+// operations become instructions of a program.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace phasetree::nodes {
 
-/// A term as it is evaluated, and where its steps stand in the text.
+/// A term in the form that is evaluated, and its steps with their positions in the text.
 struct TermSteps {
-    /// As formula::run() reads it: the number of steps, the factor of the result (1 until the slope is known), and four
-    /// floats for each step.
+    /// In the format of formula::run(): the number of steps, the factor of the result (1 until the slope is known), and
+    /// four floats per step.
     std::vector<float> data;
     std::vector<FormulaStep> steps;
 
-    /// Which coordinates it depends on.
+    /// The coordinates on which it depends.
     std::array<bool, 3> axes() const {
         std::array<bool, 3> all{};
         for (const FormulaStep& s : steps)
@@ -27,10 +27,10 @@ struct TermSteps {
 
 struct FormulaTerms {
     std::vector<TermSteps> terms;
-    std::vector<Formula::Part> parts;  ///< the last is the formula
+    std::vector<Formula::Part> parts;  ///< the last one is the whole formula
 };
 
-/// Throws TextError where a term has too many operations.
+/// Throws TextError if a term has too many operations.
 FormulaTerms divided_into_terms(const std::vector<FormulaStep>& steps);
 
 }  // namespace phasetree::nodes

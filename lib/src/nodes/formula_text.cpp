@@ -89,7 +89,7 @@ class FormulaReader {
         return std::string_view(text_).substr(begin, at_ - begin);
     }
 
-    // A name that is given to a value.
+    // Parses the assignment of a value to a name.
     bool assignment() {
         blanks();
         const std::size_t begin = at_;

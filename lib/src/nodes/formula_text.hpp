@@ -7,7 +7,7 @@
 
 namespace phasetree::nodes {
 
-/// The formula as steps without duplicates, of which the last is the result (FormulaSteps). Throws TextError.
+/// Parses a formula into steps without duplicates, the last of which is the result (FormulaSteps). Throws TextError.
 std::vector<FormulaStep> read_formula(const std::string& text);
 
 }  // namespace phasetree::nodes

@@ -29,14 +29,14 @@ JoinedVertices join_equal(std::span<const glm::vec3> vertices) {
     std::ranges::sort(order, {}, key);
     JoinedVertices joined{{}, Indices(vertices.size())};
     for (std::size_t i = 0; i < order.size(); ++i) {
-        // A sum with 0 is never −0, which would be the same point with other bits.
+        // Adding 0 turns −0 into 0, because the same point must have the same bits.
         if (i == 0 || key(order[i]) != key(order[i - 1])) joined.points.push_back(vertices[order[i]] + 0.f);
         joined.of[order[i]] = static_cast<std::uint32_t>(joined.points.size() - 1);
     }
     return joined;
 }
 
-// Three corners of which two are equal have no edges.
+// A triangle with two equal corners has no edges.
 bool is_degenerate(const std::array<std::uint32_t, 3>& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -44,7 +44,7 @@ std::array<std::uint32_t, 3> corners_of(const glm::uvec3& t, const Indices& of) 
     return {of[t.x], of[t.y], of[t.z]};
 }
 
-// The ends of edges that an odd number of triangles share, in rising order.
+// The ends of edges shared by an odd number of triangles, in ascending order.
 Indices ends_of_open_edges(std::span<const glm::uvec3> triangles, const Indices& of) {
     std::vector<std::uint64_t> edges;
     edges.reserve(3 * triangles.size());
@@ -91,8 +91,9 @@ bool is_within(const Bounds& box, double size) {
     return true;
 }
 
-// Points in a grid of cells that are as wide as the tolerance. Those of one cell are near each other. So only
-// neighbouring cells are compared, by the boxes around their points, and many points in one cell cost no more than few.
+// Points in a grid whose cells are as wide as the tolerance, so that the points of a cell are near each other. Only
+// neighbouring cells are compared, by the boxes around their points. Hence many points in one cell cost no more than a
+// few.
 class NearPoints {
   public:
     NearPoints(const std::vector<glm::vec3>& points, const Indices& candidates, double tolerance)
@@ -113,7 +114,8 @@ class NearPoints {
         first_.push_back(members_.size());
     }
 
-    // Groups of at least two points that are all near each other and near no others. The indices of each rise.
+    // Groups of at least two points that are all near each other and near no others. The indices in each group are in
+    // ascending order.
     std::vector<Indices> groups() const {
         DisjointSets sets(cells_.size());
         for (std::size_t c = 0; c < cells_.size(); ++c) join_neighbours(c, sets);
@@ -145,7 +147,7 @@ class NearPoints {
     void join_neighbours(std::size_t c, DisjointSets& sets) const {
         for (int n = 0; n < 27; ++n) {
             const Cell beside{cells_[c][0] + n / 9 - 1, cells_[c][1] + n / 3 % 3 - 1, cells_[c][2] + n % 3 - 1};
-            if (!(beside < cells_[c])) continue;  // each pair of cells once
+            if (!(beside < cells_[c])) continue;  // visit each pair of cells once
             const auto found = std::ranges::lower_bound(cells_, beside);
             if (found == cells_.end() || *found != beside) continue;
             const auto other = static_cast<std::size_t>(found - cells_.begin());
@@ -155,13 +157,13 @@ class NearPoints {
 
     const std::vector<glm::vec3>& points_;
     double tolerance_;
-    std::vector<Cell> cells_;         // those with points, in rising order
-    std::vector<std::size_t> first_;  // of each cell in `members_`, and their end
+    std::vector<Cell> cells_;         // cells with points, in ascending order
+    std::vector<std::size_t> first_;  // the start of each cell in `members_`, and the end
     Indices members_;                 // the points, cell by cell
     std::vector<Bounds> boxes_;       // around the points of each cell
 };
 
-// For each point, the point that it becomes.
+// For each point, the point that replaces it.
 Indices targets_of(const std::vector<glm::vec3>& points, const std::vector<Indices>& groups) {
     Indices target(points.size());
     std::iota(target.begin(), target.end(), 0u);
@@ -178,9 +180,9 @@ Indices after(const Indices& target, Indices of) {
     return of;
 }
 
-// What becomes of triangles with corners in a group, by the point that the group becomes.
+// What happens to triangles with corners in a group, by the point that replaces the group.
 struct Effects {
-    std::vector<bool> collapses;  // a triangle loses its area, because two of its corners are joined
+    std::vector<bool> collapses;  // a triangle degenerates, because two of its corners are joined
     std::vector<bool> remains;    // a triangle keeps its area
 };
 Effects effects_of(std::span<const glm::uvec3> triangles, const Indices& of, const Indices& target) {
@@ -197,7 +199,7 @@ Effects effects_of(std::span<const glm::uvec3> triangles, const Indices& of, con
     return effects;
 }
 
-// Moves the vertices to the points that theirs become, and removes points that no longer have vertices.
+// Moves the vertices to the points that replace theirs, and removes points without vertices.
 void move_to(const Indices& target, JoinedVertices& joined) {
     joined.of = after(target, std::move(joined.of));
     Indices place(target.size());
@@ -221,7 +223,7 @@ JoinedVertices join_vertices(std::span<const glm::vec3> vertices, std::span<cons
     if (groups.empty()) return joined;
     const Indices target = targets_of(joined.points, groups);
     const Effects effects = effects_of(triangles, joined.of, target);
-    // A part that would vanish altogether is small, and not rounded.
+    // A part that would vanish completely is small rather than inexact, so keep it.
     std::erase_if(groups, [&](const Indices& group) { return !effects.remains[target[group[0]]]; });
     if (!ends_of_open_edges(triangles, after(targets_of(joined.points, groups), joined.of)).empty())
         std::erase_if(groups, [&](const Indices& group) { return effects.collapses[target[group[0]]]; });

@@ -10,15 +10,15 @@ namespace phasetree {
 
 namespace {
 
-// By how much, in voxels, the depth of a voxel's own phase is greater than that of any other. Where blurring has made
-// another phase deeper by some amount, the own one leads by that amount afterwards, but by most_margin at most: enough
-// for a wall of one voxel to stay about half a voxel thick, and the slope, by which all is divided, stays small. The
-// least margin is far more than what is lost by rounding and by all_the_same.
+// The margin, in voxels, by which the depth of a voxel's own phase exceeds that of any other. If blurring makes another
+// phase deeper by some amount, the voxel's own phase leads by that amount afterwards, but at most by most_margin. That
+// is enough for a wall of one voxel to stay about half a voxel thick, and keeps the slope, by which everything is
+// divided, small. The least margin far exceeds the errors from rounding and all_the_same.
 constexpr float least_margin = 0.02f, most_margin = 0.3f;
-// Coefficients of the spline nearer than this to the greatest or least depth are set to it, so that most blocks hold
-// one value and take no room. The spline then misses the depths by at most as much.
+// Spline coefficients closer than this to the greatest or least depth are set to it, so that most blocks have a single
+// value and take no memory. The error of the spline is then at most as large.
 constexpr float all_the_same = 1e-4f;
-// Blurred phases are needed twice. If they take more than this, a quarter of a gigabyte, they are blurred twice.
+// Blurred phases are needed twice. If they take more than this, a quarter of a gigabyte, they are computed twice.
 constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 // Calls f(i) for each voxel.
@@ -50,15 +50,15 @@ std::vector<Labels::Part> LabelDepths::of(const std::vector<int>& present) {
     }
     std::vector<Labels::Part> parts;
     for (std::size_t i = 0; i < present.size(); ++i) {
-        // One divisor for all, so that each is 1-Lipschitz, also after rounding, and their differences keep their
-        // signs.
+        // Divide all by the same number, so that each is 1-Lipschitz, even after rounding, and their differences keep
+        // their signs.
         if (steepest > 0) grids[i].divide_by(steepest * (1 + 1e-6));
         parts.push_back({present[i], std::make_shared<const VoxelGrid>(std::move(grids[i]))});
     }
     return parts;
 }
 
-// The depth in a phase, from its share after blurring.
+// The depth in a phase, from its blurred share.
 std::vector<float> LabelDepths::blurred(int phase) const {
     std::vector<float> share(grid_.voxels.size());
     for_each_voxel(share.size(), [&](std::size_t i) { share[i] = phase_at(i) == phase ? 1.f : 0.f; });
@@ -67,7 +67,7 @@ std::vector<float> LabelDepths::blurred(int phase) const {
     return share;
 }
 
-// Enters the depths in a phase at all voxels: those of the phase itself, and others.
+// Records the depths in a phase at all voxels, both of the phase itself and of others.
 void LabelDepths::enter(int phase, const std::vector<float>& depths) {
     for_each_voxel(depths.size(), [&](std::size_t i) {
         Depths& at = depths_[i];
@@ -83,14 +83,14 @@ void LabelDepths::settle() {
         Depths& at = depths_[i];
         const float ahead = at.own - at.others;
         const float margin = std::max(least_margin, std::min(-ahead, most_margin));
-        // The own depth is raised by half of what is lacking, and the others are lowered by the rest.
+        // Raise the depth of the voxel's own phase by half of the deficit, and lower the others by the rest.
         at.own += 0.5f * std::max(margin - ahead, 0.f);
         at.others = at.own - margin;
     });
 }
 
-// The spline through minus the depths in a phase. They are in voxels; that they are multiplied by the least spacing
-// matters only where no depth changes anywhere, because else all are divided by the steepest slope in the end.
+// The spline through minus the depths in a phase. Depths are in voxels. Multiplying them by the least spacing matters
+// only if no depth changes anywhere; otherwise, all are eventually divided by the steepest slope.
 VoxelGrid LabelDepths::grid_of(int phase, std::vector<float> depths) const {
     for_each_voxel(depths.size(), [&](std::size_t i) {
         depths[i] = phase_at(i) == phase ? depths_[i].own : std::min(depths[i], depths_[i].others);

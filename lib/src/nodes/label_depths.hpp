@@ -6,22 +6,23 @@
 
 namespace phasetree {
 
-/// From whole numbers at voxels to a smooth field for each phase, as phased/labels.hpp defines it. All of it is done on
-/// all threads, and does not depend on how many there are.
+/// Converts integers at voxels to a smooth field for each phase, as defined in phased/labels.hpp. It uses all threads;
+/// the result does not depend on their number.
 class LabelDepths {
   public:
-    /// `phases` are those of each of the grid's numbers; `sigma` is in voxels.
+    /// `phases` maps each of the grid's numbers to its phase; `sigma` is in voxels.
     LabelDepths(const LabelGrid& grid, const VoxelLattice& lattice, std::vector<int> phases, float sigma)
         : grid_(grid), lattice_(lattice), phases_(std::move(phases)), blur_(sigma), depth_of_(sigma) {}
 
-    /// The fields Dₖ of the phases that are present: all that voxels have.
+    /// The fields Dₖ of the phases that occur; `present` must contain all phases of voxels.
     std::vector<Labels::Part> of(const std::vector<int>& present);
 
   private:
-    /// Depths at a voxel. settle() raises that of its own phase and lowers those of others where they are too close.
+    /// Depths at a voxel. settle() raises the depth of the voxel's own phase and lowers those of others where they are
+    /// too close.
     struct Depths {
         float own = 0;
-        float others = 0;  ///< the greatest of any other phase; after settle(), the greatest that others may have
+        float others = 0;  ///< the greatest depth of any other phase; after settle(), the upper limit for other phases
     };
 
     int phase_at(std::size_t voxel) const { return phases_[grid_.voxels[voxel]]; }

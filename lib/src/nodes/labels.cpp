@@ -1,4 +1,5 @@
-// Which phase each number of a grid is, and where its voxels are; the fields are made in nodes/label_depths.hpp.
+// Maps the numbers of a grid to phases, and determines the positions of its voxels. nodes/label_depths.hpp makes the
+// fields.
 #include "phasetree/nodes/phased/labels.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +53,7 @@ void refuse_unknown_number(const LabelGrid& grid, const std::vector<int>& phases
                     x, y, z, grid.numbers[*unknown]));
 }
 
-// Where the voxels are: a grid's own place, or about the origin.
+// The positions of the voxels: those given by the grid, or centred on the origin.
 VoxelLattice placed(const LabelGrid& grid, const glm::vec3& spacing) {
     VoxelLattice lattice = grid.lattice;
     const bool is_given = spacing.x > 0 && spacing.y > 0 && spacing.z > 0;
@@ -102,7 +103,7 @@ void Labels::prepare() {
     const Bounds extent = parts.front().depth->extent();
     box = {extent.centre(), extent.extent() * 0.5f};
     solid = extent;
-    // Where the vacuum's blocks and all around them hold its greatest depth, no other phase is.
+    // There are no other phases where the vacuum's block and all blocks around it have its greatest depth.
     if (parts.size() > 1 && parts.front().phase == vacuum.index) {
         solid = {};
         for (std::size_t i = 1; i < parts.size(); ++i) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-// What a product with a unit vector may be wrong by, as a share of the length of what is multiplied.
+// The error of a product with a unit vector, relative to the length of the other factor.
 constexpr double product_error = 0x1p-22;
 
 void append(std::vector<float>& floats, const glm::dvec3& v) {
@@ -33,7 +33,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// The table of a mesh, from its surface.
+// Builds the table of a mesh from its surface.
 class TableWriter {
   public:
     explicit TableWriter(const Surface& s) : s_(s), tree_(mesh::boxes_of(s), most_in_leaf), index_(s.triangles.size()) {
@@ -47,7 +47,7 @@ class TableWriter {
                                  static_cast<float>(vertices_.size())};
         const Bounds& box = tree_.nodes[0].box;
         append(table, box.centre());
-        // The half extents reach the box's sides whichever way the centre was rounded.
+        // The half extents reach the box's sides, however the centre was rounded.
         for (int i = 0; i < 3; ++i)
             table.push_back(std::max(box.high[i] - box.centre()[i], box.centre()[i] - box.low[i]));
         for (const std::uint32_t t : tree_.order) append_face(t, table);
@@ -58,7 +58,7 @@ class TableWriter {
     }
 
   private:
-    // An edge or a vertex is in the leaf of the first of its triangles.
+    // An edge or a vertex belongs to the leaf of the first of its triangles.
     void prepare_vertices() {
         first_index_.assign(s_.vertices.size(), none);
         normal_.assign(s_.vertices.size(), glm::dvec3(0));
@@ -141,7 +141,7 @@ class TableWriter {
 
     const Surface& s_;
     BoxTree tree_;
-    std::vector<std::uint32_t> index_;  // of each triangle in the order of leaves
+    std::vector<std::uint32_t> index_;  // of each triangle, in the order of leaves
     std::vector<std::uint32_t> first_index_, vertices_, edges_;
     std::vector<glm::dvec3> normal_;
     std::vector<double> largest_angle_;

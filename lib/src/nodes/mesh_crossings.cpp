@@ -1,4 +1,4 @@
-// Whether a surface crosses itself, and which side of it is out.
+// Tests whether a surface crosses itself, and which side of it is outside.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ bool overlap(const Bounds& a, const Bounds& b) {
     return !intersect(a, b).empty();
 }
 
-// On which side of the plane through a, b and c the point d is: 1, −1, or 0 if that is a matter of rounding errors. The
-// bound of the error is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
+// The side of the plane through a, b and c on which the point d lies: 1, −1, or 0 if rounding errors could change it.
+// The error bound is that of Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), rounded up.
 int side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const glm::dvec3 u = a - d, v = b - d, w = c - d;
     const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y, uv = u.x * v.y, vu = v.x * u.y;
@@ -35,7 +35,7 @@ int side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const gl
     return determinant > error ? 1 : determinant < -error ? -1 : 0;
 }
 
-// Whether the segment from p to q goes through the triangle, or along its edge from one side to the other.
+// Whether the segment from p to q passes through the triangle, or across one of its edges from one side to the other.
 bool goes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t) {
     if (side(t[0], t[1], t[2], p) * side(t[0], t[1], t[2], q) >= 0) return false;
     int seen = 0;
@@ -47,7 +47,7 @@ bool goes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm
     return true;
 }
 
-// Whether two triangles cross. Of two that share a vertex, the edges opposite to it are enough.
+// Whether two triangles cross. If they share a vertex, testing the edges opposite to it is enough.
 bool cross(const Surface& s, std::uint32_t one, std::uint32_t other) {
     const auto goes = [&](std::uint32_t edges_of, std::uint32_t through) {
         const glm::uvec3 &a = s.triangles[edges_of], &b = s.triangles[through];
@@ -62,8 +62,8 @@ bool cross(const Surface& s, std::uint32_t one, std::uint32_t other) {
     return goes(one, other) || goes(other, one);
 }
 
-// Whether two triangles of one plane and opposite outsides have an area in common. All points above it would be equally
-// near to both.
+// Whether two triangles in the same plane with opposite outsides overlap in an area. All points above it would be
+// equally near to both.
 bool lie_on_each_other(const Surface& s, std::uint32_t one, std::uint32_t other) {
     if (!(glm::dot(s.normals[one], s.normals[other]) < -0.999999)) return false;
     for (int i = 0; i < 3; ++i)
@@ -83,8 +83,8 @@ bool lie_on_each_other(const Surface& s, std::uint32_t one, std::uint32_t other)
     return !has_side_between(one, other) && !has_side_between(other, one);
 }
 
-// How often a surface winds around a point, by the crossings of a ray with those triangles that are not left out.
-// Nothing if the ray comes too close to an edge to tell.
+// The winding number of a surface around a point, from the crossings of a ray with the triangles that are not left out.
+// Nothing if the ray comes too close to an edge for a reliable result.
 template <class IsLeftOut>
 std::optional<int> winding_number(const Surface& s, const BoxTree& tree, const glm::dvec3& p, const glm::dvec3& d,
                                   const IsLeftOut& is_left_out) {
@@ -180,7 +180,7 @@ void require_outward(const Surface& s, const std::string& name) {
     for (const std::uint32_t root : roots) {
         const int expected = volume[root] > 0 ? 0 : 1;
         std::optional<int> winding;
-        // Any directions do that no mesh is likely to be aligned with.
+        // Any directions will do, as long as no mesh is likely to be aligned with them.
         for (int attempt = 0; attempt < 16 && !winding; ++attempt) {
             work.pay(200 + s.triangles.size() / 50);
             const double turn = 2.39996 * attempt + 0.3, z = 0.137 + 0.051 * attempt;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float farthest_coordinate = 1e9f;
 
-// Throws what is wrong with one mesh.
+// Throws a description of what is wrong with one mesh.
 class Complaint {
   public:
     explicit Complaint(const std::string& name) : name_(name) {}
@@ -41,7 +41,7 @@ void check_numbers(const TriangleMesh& mesh, const Complaint& complain) {
                 complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
 }
 
-// The triangles of these points, in rising order and each from its least corner on.
+// Adds the triangles of these points in ascending order, each starting with its smallest corner.
 void add_triangles(Surface& s, const TriangleMesh& mesh, const JoinedVertices& joined) {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> numbered;
     numbered.reserve(mesh.triangles.size());
@@ -62,7 +62,7 @@ void add_triangles(Surface& s, const TriangleMesh& mesh, const JoinedVertices& j
 // One triangle's use of an edge.
 struct EdgeUse {
     std::uint32_t low, high, triangle;
-    bool is_rising;  // whether the triangle goes from the low to the high vertex
+    bool is_rising;  // whether the triangle traverses it from the low to the high vertex
 };
 
 std::vector<EdgeUse> uses_of_edges(const Surface& s) {
@@ -107,13 +107,13 @@ void join(Surface& s, const Complaint& complain) {
                              open_edges > 1 ? fmt::format(", as have {} more", open_edges - 1) : ""));
 }
 
-// The corner of a triangle at a vertex, as a number.
+// The index of the corner of a triangle at a vertex.
 std::size_t corner_at(const Surface& s, std::uint32_t triangle, std::uint32_t vertex) {
     const glm::uvec3& t = s.triangles[triangle];
     return 3 * std::size_t{triangle} + (t.x == vertex ? 0u : t.y == vertex ? 1u : 2u);
 }
 
-// The triangles about each vertex must be one ring.
+// Requires that the triangles around each vertex form a single ring.
 void require_single_rings(const Surface& s, const Complaint& complain) {
     DisjointSets corners(3 * s.triangles.size());
     for (const SharedEdge& e : s.edges)

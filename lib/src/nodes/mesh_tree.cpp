@@ -9,9 +9,9 @@ namespace phasetree::mesh {
 
 namespace {
 
-constexpr std::size_t tallest = 64;  // The tree is balanced, so that it is never so tall.
+constexpr std::size_t tallest = 64;  // never reached, because the tree is balanced
 
-// Where a tree's floats hold its pieces and its nodes.
+// The locations of a tree's pieces and nodes among its floats.
 struct TreeView {
     std::array<const float*, piece_kinds> pieces;
     const float* nodes;
@@ -27,7 +27,7 @@ struct TreeView {
     const float* node(std::size_t i) const { return nodes + i * PieceTree::node_floats; }
 };
 
-// Calls f with each piece of a leaf; pieces of a kind stand one behind the other.
+// Calls f with each piece of this kind in a leaf; pieces of one kind are contiguous.
 template <class Kind, class F>
 void for_each_piece(const TreeView& view, const float* leaf, F&& f) {
     constexpr auto kind = static_cast<std::size_t>(Kind::kind);
@@ -50,7 +50,8 @@ Number squared_distance_to_box(const float* node, const Number* p) {
     return sum;
 }
 
-// More than distances of pieces from p can be off by rounding errors: the box's size counts, and how far p is from it.
+// An upper bound of the rounding errors of distances from p to pieces. It depends on the size of the box and on the
+// distance of p from it.
 template <class Number>
 Number margin(const float* box, const Number* p) {
     Number sum = 0;
@@ -59,7 +60,7 @@ Number margin(const float* box, const Number* p) {
     return sum * static_cast<Number>(2e-6);
 }
 
-// Visits the leaves, near ones first, whose boxes are no farther from p than limit() tells; it may fall meanwhile.
+// Visits the leaves, near ones first, whose boxes are no farther from p than limit(), which may decrease meanwhile.
 template <class Number, class Limit, class Visit>
 void for_each_leaf(const TreeView& view, const Number* p, const Limit& limit, const Visit& visit) {
     struct Entry {
@@ -87,10 +88,10 @@ void for_each_leaf(const TreeView& view, const Number* p, const Limit& limit, co
     }
 }
 
-// What is known of the distance from the points of a box to a piece.
+// Bounds of the distance from the points of a box to a piece.
 struct InBox {
-    double least;      // nowhere in the box is it less
-    double at_centre;  // at the centre at most
+    double least;      // lower bound over the whole box
+    double at_centre;  // upper bound at the centre
 };
 
 struct BoxOfPoints {
@@ -124,7 +125,7 @@ struct BoxOfPoints {
     InBox of(const float* piece) const {
         if constexpr (std::is_same_v<Kind, Face>) {
             const double height = along(piece + Face::normal, piece + Face::corner);
-            double beside = 0;  // how far the centre is outside of the prism, by its worst side
+            double beside = 0;  // distance of the centre from the prism, by the side that it is farthest beyond
             for (std::size_t side = 0; side < 3; ++side) {
                 const float* inward = piece + Face::inward + 3 * side;
                 double within = along(inward, piece + Face::corner);
@@ -164,7 +165,7 @@ FoundPiece PieceTree::nearest(const float* data, const Vec3<float>& point) {
             for_each_kind([&]<class Kind>() {
                 for_each_piece<Kind>(view, leaf, [&](const float* piece) {
                     const float squared = Kind::tell(piece, point).squared;
-                    // All pieces are in one array, kind after kind, so the first of two is that of the lower address.
+                    // All pieces are in one array, kind after kind, so the lower address identifies the first of two.
                     if (!(squared < least || (squared == least && found.piece && piece < found.piece))) return;
                     least = squared;
                     found = {piece, Kind::kind};
@@ -183,7 +184,8 @@ bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<
     box.margin = margin(tree + piece_kinds, box.centre.data()) + 2e-6 * box.radius;
     if (!(box.margin < 1e12)) return false;
 
-    // First an upper bound of the distance at the centre, then all pieces that can be no farther somewhere.
+    // First find an upper bound of the distance at the centre, then all pieces that can be at most that far away
+    // somewhere.
     struct Candidate {
         const float* piece;
         PieceKind kind;
@@ -211,7 +213,7 @@ bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<
                     for_each_piece<Kind>(view, leaf,
                                          [&](const float* piece) { consider.template operator()<Kind>(piece); });
                 });
-                // The near leaves come first, so what is left of many after some leaves is likely to stay.
+                // Near leaves come first, so if many candidates remain after some leaves, they are likely to stay.
                 if (candidates.size() > 4 * most) {
                     remove_far();
                     is_too_many = candidates.size() > 2 * most;

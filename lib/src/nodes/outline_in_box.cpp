@@ -9,10 +9,10 @@ namespace phasetree {
 namespace {
 
 constexpr std::size_t piece_floats = OutlinePieces::floats;
-// The work for one piece, in halves of a simple instruction's.
+// The cost of one piece, in halves of a simple instruction.
 constexpr unsigned work_of_curved = 200, work_of_straight = 60;
 
-// An outline, or what is left of it in a box around this one.
+// An outline, or the part of it that is left in a surrounding box.
 struct Outline {
     std::span<const float> pieces, heights;
     float half_thickness, sign;
@@ -32,7 +32,7 @@ struct Outline {
 struct Rectangle2 {
     glm::dvec2 low, high;
 
-    // Around a piece: its curve lies between its control points.
+    // The bounding rectangle of a piece, whose curve lies within the hull of its control points.
     static Rectangle2 around(std::span<const float> piece) {
         const glm::dvec2 s(piece[0], piece[1]), b(piece[3], piece[4]), a(piece[5], piece[6]);
         const glm::dvec2 control = s + b, end = s + 2.0 * b + a;
@@ -58,7 +58,7 @@ bool OutlineInBox::specialise(const float* data, const PointRange& range, std::s
     const Rectangle2 box{centre - half, centre + half};
     const auto piece = [&](std::size_t i) { return outline.pieces.subspan(i * piece_floats, piece_floats); };
 
-    // No point of the box is farther from the outline than `nearest`, and `rounding` is what distances may be wrong by.
+    // No point of the box is farther from the outline than `nearest`; `rounding` bounds the error of distances.
     double nearest = std::numeric_limits<double>::infinity();
     double size = std::max(glm::length(box.low), glm::length(box.high));
     for (std::size_t i = 0; i < count; ++i) {
@@ -84,7 +84,7 @@ bool OutlineInBox::specialise(const float* data, const PointRange& range, std::s
             heights.insert(heights.end(), {p[1], p[2]});
     }
 
-    // Of equal heights two cancel; below the box each turns the sign of all its points, and above it of none.
+    // Two equal heights cancel. A height below the box flips the sign of all its points, and a height above it of none.
     float sign = outline.sign;
     std::ranges::sort(heights);
     std::vector<float> left;
@@ -98,7 +98,7 @@ bool OutlineInBox::specialise(const float* data, const PointRange& range, std::s
             left.push_back(y);
     }
     if (5 * kept.size() > 4 * outline.pieces.size()) {
-        // Too little is gained to have data of its own, unless the box around this one had.
+        // The saving is too small to justify separate data, unless the surrounding box had its own.
         if (of.empty()) return false;
         floats.insert(floats.end(), of.begin(), of.end());
         return true;

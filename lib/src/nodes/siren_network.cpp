@@ -14,11 +14,11 @@ using model::Preparation;
 
 namespace {
 
-// An upper bound of ‖W‖₂: the eigenvalues of WᵀW are the squares of the singular values of W.
+// An upper bound of ‖W‖₂. The eigenvalues of WᵀW are the squares of the singular values of W.
 double spectral_norm(const SirenNetwork::Layer& layer) {
     const auto n = static_cast<std::size_t>(std::min(layer.inputs, layer.outputs));
     const auto inputs = static_cast<std::size_t>(layer.inputs), outputs = static_cast<std::size_t>(layer.outputs);
-    // W Wᵀ has the same norm as WᵀW, so the smaller of the two is taken.
+    // W Wᵀ has the same norm as WᵀW, so use the smaller of the two.
     const bool wide = layer.inputs > layer.outputs;
     const auto at = [&](std::size_t row, std::size_t column) {
         return static_cast<double>(layer.weights[row * inputs + column]);
@@ -33,7 +33,7 @@ double spectral_norm(const SirenNetwork::Layer& layer) {
 
 constexpr std::uint64_t multiplications_a_step = 8;
 
-// The n-th number of the van der Corput sequence in a base; three bases make a Halton sequence in space.
+// The n-th number of the van der Corput sequence in a base; three bases give a Halton sequence in space.
 double radical_inverse(unsigned n, unsigned base) {
     double result = 0, digit = 1.0 / base;
     for (; n > 0; n /= base, digit /= base) result += digit * (n % base);
@@ -61,7 +61,7 @@ const char* SirenNetwork::mistake() const {
             for (std::size_t i = 0; i < static_cast<std::size_t>(layer.inputs); ++i)
                 sum += std::abs(static_cast<double>(layer.weights[o * static_cast<std::size_t>(layer.inputs) + i])) *
                        largest_input;
-            // sine() is exact for arguments up to 10⁴.
+            // sine() is accurate for arguments up to 10⁴.
             if (!(sum < 9000)) return "a layer's weights are too large";
         }
         width = layer.outputs;

@@ -13,9 +13,10 @@ using Contour = TextOutlines::Contour;
 using Pieces = std::vector<float>;
 
 constexpr std::size_t most_contours_of_letter = 256;
-constexpr float largest = 1e9f;  // of all coordinates, in metres
+constexpr float largest = 1e9f;  // limit of all coordinates, in metres
 
-// Points along a contour. What is asked of them, an area and what is around what, needs no more of its curves.
+// Points along a contour. They only serve to compute areas and to test which contour is inside which, so no finer
+// approximation of the curves is needed.
 std::vector<glm::dvec2> points_along(const Contour& contour) {
     constexpr int steps = 8;
     std::vector<glm::dvec2> points;
@@ -51,9 +52,9 @@ struct Traced {
     bool is_outer = false;
 };
 
-// The contours of each stroke of a letter: an outer one and its holes. A hole belongs to the smallest outer contour
-// that is around it; one that is in none is left out. Which way around the outer ones run differs from font to font;
-// the largest is one.
+// The contours of each stroke of a letter: an outer contour and its holes. A hole belongs to the smallest outer contour
+// around it; a hole that is in none is dropped. The orientation of outer contours differs between fonts; the largest
+// contour is always an outer one.
 std::vector<std::vector<const Contour*>> strokes_of(const TextOutlines::Letter& letter) {
     std::vector<Traced> all;
     for (const Contour& contour : letter.contours) {
@@ -61,7 +62,7 @@ std::vector<std::vector<const Contour*>> strokes_of(const TextOutlines::Letter& 
         const double area = signed_area(points);
         if (area != 0) all.push_back({&contour, std::move(points), area});
     }
-    // The smallest come first.
+    // Sort by size, smallest first.
     std::ranges::stable_sort(all, {}, [](const Traced& t) { return std::abs(t.area); });
     std::vector<std::vector<const Contour*>> strokes;
     std::vector<std::size_t> stroke_of(all.size());

@@ -9,12 +9,11 @@ namespace phasetree {
 
 namespace {
 
-// The error of positions, in cubes: here they are doubles, but values are computed with floats.
+// The error of positions, in cubes: positions here are doubles, but values are computed with floats.
 double margin(const std::array<double, 3>& p) {
     return 1e-3 + 1e-5 * (std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
 }
-// Larger boxes would have long lists. Farther from the origin the pattern is not what it is elsewhere: it ends at
-// 65536.
+// Larger boxes would have long lists. Farther from the origin, the pattern is different: it ends at 65536.
 constexpr double largest_radius = 1, farthest = 60000;
 constexpr std::size_t most_sites = 100;
 
@@ -34,11 +33,11 @@ bool is_small(const PointRange& r) {
            std::abs(r.centre[0]) + std::abs(r.centre[1]) + std::abs(r.centre[2]) < farthest;
 }
 
-// The list of sites in the floats that append() has made; empty if there are none.
+// The list of sites in floats written by append(); empty if there are none.
 std::span<const float> sites_of(std::span<const float> of) {
     return of.empty() ? of : SpecialisedVoronoi::list(of.data());
 }
-// Appends the data of a SpecialisedVoronoi; returns false, and appends nothing, if there are too many sites.
+// Appends the data of a SpecialisedVoronoi. Returns false, appending nothing, if there are too many sites.
 bool append(std::span<const VoronoiSites::Site> sites, std::array<float, SpecialisedVoronoi::parameters> parameters,
             std::vector<float>& floats) {
     if (sites.size() > most_sites) return false;
@@ -79,7 +78,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         std::array<float, 3> own;
         for (std::size_t axis = 0; axis < 3; ++axis) own[axis] = static_cast<float>(std::floor(centre[axis]));
         const int steps = static_cast<int>(std::ceil(search.most));
-        // A lower bound of the squared distance along an axis to the sites of a layer of cubes.
+        // A lower bound of the squared distance, along an axis, to the sites of a layer of cubes.
         const auto away = [&](std::size_t axis, int step) {
             const double low = static_cast<double>(own[axis]) + step + corner - centre[axis];
             const double high = static_cast<double>(own[axis]) + step + highest - centre[axis];
@@ -111,7 +110,7 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
     if (!is_small(box)) return false;
     const VoronoiSites sites{jitter, seed};
     const double extra = 2 * (radius(box) + margin(box.centre)), far = static_cast<double>(seen());
-    // The bisector of two sites is at least half the difference of their distances away.
+    // The distance to the bisector of two sites is at least half the difference of the distances to both.
     std::vector<VoronoiSites::Site> found;
     sites.find({.centre = box.centre,
                 .most = static_cast<double>(sites.nearest()) + extra + 2 * far,
@@ -120,8 +119,7 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
     const auto nearest = std::ranges::min_element(found, {}, &VoronoiSites::Site::distance);
     const auto may_be_nearest = [&](const VoronoiSites::Site& s) { return s.distance <= nearest->distance + extra; };
     if (std::ranges::count_if(found, may_be_nearest) == 1) {
-        // Only one site can be the nearest in the box, so its bisectors are planes, whose distance from the box is
-        // exact.
+        // Only one site can be nearest in the box, so its bisectors are planes, whose distance from the box is exact.
         const VoronoiSites::Site s = *nearest;
         std::erase_if(found, [&](const VoronoiSites::Site& t) {
             std::array<double, 3> between;

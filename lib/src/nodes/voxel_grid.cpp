@@ -15,7 +15,7 @@ using voxels::Table;
 
 namespace {
 
-// The blocks of a grid of this many voxels, of which x varies fastest.
+// The blocks of a grid with this many voxels; x varies fastest.
 class Blocks {
   public:
     explicit Blocks(const std::array<int, 3>& size) {
@@ -38,7 +38,7 @@ class Blocks {
     }
 
   private:
-    std::array<int, 3> along_;  ///< how many there are along each axis
+    std::array<int, 3> along_;  ///< the number of blocks along each axis
 };
 
 std::vector<float> head_of(const VoxelLattice& lattice) {
@@ -68,10 +68,10 @@ ModelError too_many_values(std::string_view who) {
                                   VoxelGrid::most_values));
 }
 
-// What the directory says of a block, and what is wrong with it.
+// The range of a block's values for the directory, and whether a value is invalid.
 struct BlockRange {
     float low = 0, high = 0;
-    bool has_bad_value = false;  // too large, or no number
+    bool has_bad_value = false;  // too large, or not a number
 
     explicit BlockRange(std::span<const float, VoxelGrid::kept_values> values) : low(values[0]), high(values[0]) {
         for (const float v : values) {
@@ -83,7 +83,7 @@ struct BlockRange {
     BlockRange() = default;
 };
 
-// The error that names the first bad value of a block whose first voxel is `at`.
+// The error that names the first invalid value of a block whose first voxel is `at`.
 ModelError bad_value(std::string_view who, const VoxelLattice& lattice, const std::array<int, 3>& at,
                      std::span<const float, VoxelGrid::kept_values> values) {
     const auto bad = std::ranges::find_if(values, [](float v) { return !(std::abs(v) <= 1e9f); });
@@ -91,17 +91,17 @@ ModelError bad_value(std::string_view who, const VoxelLattice& lattice, const st
     constexpr int kept = VoxelGrid::kept_side;
     const std::array<int, 3> within{i % kept, i / kept % kept, i / kept / kept};
     std::array<int, 3> voxel;
-    // What is beyond the border is the border's.
+    // Values beyond the border are copies of the border's.
     for (std::size_t a = 0; a < 3; ++a) voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
     return ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who, voxel[0],
                                   voxel[1], voxel[2]));
 }
 
-// A grid with its head and an empty directory.
+// A grid with its header and an empty directory.
 VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     check(who, lattice);
     VoxelGrid grid{lattice, head_of(lattice)};
-    // A directory takes 180 MB at most.
+    // A directory takes at most 180 MB.
     constexpr std::size_t most_blocks = VoxelGrid::most_values / 8;
     const std::size_t count = Blocks(lattice.size).count();
     if (count > most_blocks) throw too_many_values(who);
@@ -109,7 +109,7 @@ VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     return grid;
 }
 
-// Enters a block, and returns whether its values are kept.
+// Writes a block's directory entry. Returns whether its values are kept.
 bool enter(const BlockRange& range, std::size_t kept, float* entry) {
     entry[0] = range.low < range.high ? static_cast<float>(kept) : -1.f;
     entry[1] = range.low;
@@ -117,7 +117,7 @@ bool enter(const BlockRange& range, std::size_t kept, float* entry) {
     return range.low < range.high;
 }
 
-// Shaders look up the values of some block also where they do not use them.
+// Shaders fetch values even for blocks where they ignore them, so at least one block must exist.
 void keep_some_block(std::vector<float>& table, std::size_t kept) {
     if (kept == 0) table.insert(table.end(), VoxelGrid::kept_values, table[voxels::head + 1]);
 }
@@ -144,12 +144,12 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
     return grid;
 }
 
-// Blocks are examined on all threads, then numbered in their order, then copied on all threads.
+// Examines blocks on all threads, then numbers them in order, then copies them on all threads.
 VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice, std::span<const float> values) {
     VoxelGrid grid = empty_grid(who, lattice);
     const std::array<int, 3> size = lattice.size;
     const Blocks blocks(size);
-    // The values about a block, from the voxel before its first along each axis.
+    // Copies the values of a block and its surroundings, from the voxel before its first one along each axis.
     const auto copy_about = [&](const std::array<int, 3>& at, std::span<float, kept_values> to) {
         const auto inside = [&](std::size_t axis, int i) {
             return static_cast<std::size_t>(std::clamp(at[axis] - 1 + i, 0, size[axis] - 1));
@@ -168,7 +168,7 @@ VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice
         copy_about(blocks.first_voxel(i), about);
         ranges[i] = BlockRange(about);
     });
-    std::vector<std::size_t> kept;  // the blocks whose values are
+    std::vector<std::size_t> kept;  // the blocks whose values are kept
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         if (ranges[i].has_bad_value) {
             std::array<float, kept_values> about;
@@ -229,7 +229,7 @@ Bounds VoxelGrid::blocks_below(float level) const {
         }
     }
     if (high[0] < 0) return {};
-    // In voxels: as far as a spline has influence, and a little for the rounding of coordinates to floats.
+    // In voxels: the range of influence of a spline, plus a little for rounding coordinates to floats.
     constexpr double influence = 1.5 + 0.001;
     Bounds box;
     for (glm::length_t i = 0; i < 3; ++i) {

@@ -10,16 +10,16 @@ namespace phasetree::voxels {
 
 namespace {
 
-// This many lines are worked on at a time, a lane for each: the same operations on neighbours in memory, which
-// compilers make vector instructions of. Lanes do not depend on each other.
+// The number of lines processed at a time, one per lane. All lanes perform the same operations on adjacent memory,
+// which compilers vectorise. Lanes are independent of each other.
 constexpr std::size_t lanes = 16;
 
-// This many lines, side by side: the value k of the line in a lane is at lanes · k + lane.
+// `lanes` lines, interleaved: value k of the line in a lane is at lanes · k + lane.
 using Bundle = std::vector<float>;
 
-// Calls work(bundle) for all lines along an axis, on all threads. Lines are copied to a bundle and back, unless they
-// hold one value: most lines are all of one phase, or have none of it, and neither of what is done to lines changes
-// such a line.
+// Calls work(bundle) for all lines along an axis, on all threads. Lines are copied to a bundle and back, unless all
+// their values are equal. Most lines contain a single phase or none of it, and neither operation on lines changes such
+// a line.
 template <class Work>
 void for_each_bundle(std::size_t axis, std::vector<float>& values, const Size& size, const Work& work) {
     const std::array<std::size_t, 3> n{static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]),
@@ -87,12 +87,13 @@ void Blur::along(std::size_t axis, std::vector<float>& values, const Size& size)
     });
 }
 
-// Gaussian elimination without pivoting is stable here, for the diagonal dominates.
+// Gaussian elimination without pivoting is stable here, because the matrix is diagonally dominant.
 void to_spline_along(std::size_t axis, std::vector<float>& values, const Size& size) {
     const auto n = static_cast<std::size_t>(size[axis]);
     std::vector<double> pivot(n), above(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const double beyond = (i == 0 ? 1. / 8 : 0) + (i + 1 == n ? 1. / 8 : 0);  // what goes on as the line ends
+        const double beyond = (i == 0 ? 1. / 8 : 0) + (i + 1 == n ? 1. / 8 : 0);  // the line continues with its last
+                                                                                  // value
         pivot[i] = 6. / 8 + beyond - (i > 0 ? above[i - 1] / 8 : 0);
         above[i] = 1. / 8 / pivot[i];
     }

@@ -1,4 +1,4 @@
-// How the values of a grid's voxels are found in its table.
+// Looks up the values of a grid's voxels in its table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,9 +35,9 @@ float Table::operator()(int x, int y, int z) const {
 
 namespace {
 
-// Where in the table the value of a voxel is, and those of its neighbours 1, 10 and 100 floats before and behind it; a
-// null pointer if the block is not kept because all of these are the value `only`. It reads the table as Table does,
-// but faster, since it is called for each point.
+// The location in the table of a voxel's value; its neighbours are 1, 10 and 100 floats before and after it. The
+// pointer is null if the block is not stored because all of these equal `only`. It reads the table as Table does, but
+// faster, because it is called for each point.
 struct Around {
     const float* values;
     float only;
@@ -60,7 +60,7 @@ void gather_eight(const float* data, const Vec3<float>& p, float* to, std::size_
     const std::array<float, 3> u = places(data, p, 0.f);
     std::array<int, 3> voxel;
     for (std::size_t a = 0; a < 3; ++a) {
-        // The coordinate is not negative, so this is its floor.
+        // The coordinate is not negative, so truncation is its floor.
         voxel[a] = std::max(std::min(static_cast<int>(u[a]), static_cast<int>(data[size + a]) - 2), 0);
         to[a * stride] = static_cast<float>(voxel[a]);
     }
@@ -104,7 +104,7 @@ const float* for_shader(std::string_view who, const float* data) {
     std::size_t kept = 0;
     for (const float* block = at.directory; block < at.values; block += entry) kept += block[0] >= 0;
     constexpr std::size_t most = 1 << 21;
-    // Offsets into the table are floats there.
+    // Shaders represent offsets into the table as floats.
     if (static_cast<std::size_t>(at.values - at.directory) > most)
         throw ModelError(fmt::format("{}: the grid has too many voxels for a shader", who));
     if (kept * VoxelGrid::kept_values > most)

@@ -1,4 +1,4 @@
-// The steepest slopes of what is interpolated between the voxels of a grid.
+// Computes the steepest slopes of the interpolation between the voxels of a grid.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace phasetree {
 
 namespace {
 
-// The largest f(values) of all blocks that are kept, but at least 0. In other blocks, and next to them, nothing
-// changes.
+// The maximum of f(values) over all stored blocks, but at least 0. In other blocks, and next to them, the values are
+// constant.
 template <class F>
 double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     const float* values = voxels::Table(table.data()).values;
@@ -25,8 +25,8 @@ double largest_at_kept_blocks(const std::vector<float>& table, F&& f) {
     return largest.empty() ? 0.0 : *std::ranges::max_element(largest);
 }
 
-// The same of f(values about a voxel); the neighbours along x, y and z are 1, 10 and 100 floats before and behind.
-// Voxels behind the grid's last ones are copies of them, at which nothing is steeper than at those.
+// The same for f(pointer to a voxel's value); the neighbours along x, y and z are 1, 10 and 100 floats before and after
+// it. Voxels after the grid's last ones are copies, where nothing is steeper than at the originals.
 template <class F>
 double largest_at_kept_voxels(const std::vector<float>& table, F&& f) {
     return largest_at_kept_blocks(table, [&](const float* block) {
@@ -45,9 +45,9 @@ double squared(double x) {
 
 }  // namespace
 
-// In a cell between eight voxels the derivative along x is linear along y and along z and does not depend on x. So the
-// square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are
-// the differences to the neighbours.
+// In a cell between eight voxels, the derivative along x is linear along y and along z and does not depend on x. So the
+// square of the slope is convex along each axis, and largest at one of the eight voxels, where the derivatives are the
+// differences to the neighbours.
 double VoxelGrid::steepest_linear() const {
     const double steepest = largest_at_kept_voxels(table, [&](const float* v) {
         double sum = 0;
@@ -63,12 +63,12 @@ double VoxelGrid::steepest_linear() const {
 
 namespace {
 
-// By value, so that loops over them become vector instructions.
+// Parameters are passed by value, so that loops over them are vectorised.
 float larger(float a, float b) {
     return a < b ? b : a;
 }
 
-// For all voxels of a block at once, the largest of the values before, at and behind along an axis.
+// For all voxels of a block at once: the largest of the values before, at and after each voxel along an axis.
 void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::size_t stride) {
     const std::array<float, VoxelGrid::kept_values> original = values;
     for (std::size_t i = stride; i < original.size() - stride; ++i)
@@ -78,10 +78,10 @@ void larger_of_three(std::array<float, VoxelGrid::kept_values>& values, std::siz
 }  // namespace
 
 // The derivative along x is an average of the differences along x between the 27 voxels, so it is at most the largest
-// of them. The bound on the slope takes the largest along each axis, which need not be at one point. They are found for
-// all voxels of a block at once, along one axis after the other; what these loops compute for voxels at the block's
-// border wraps around it, and is not used. The sum of squares is taken in floats first, which lose less than a part in
-// 10⁵, and in doubles where it may be the largest.
+// of them. The bound of the slope combines the largest differences along each axis, which need not occur at one point.
+// They are computed for all voxels of a block at once, one axis after the other. The results of these loops for voxels
+// at the block's border wrap around it, and are not used. The sum of squares is first computed in floats, which lose
+// less than a part in 10⁵, and again in doubles where it may be the largest.
 double VoxelGrid::steepest_spline() const {
     using Block = std::array<float, kept_values>;
     const glm::vec3 inverse(1.0 / lattice.spacing);

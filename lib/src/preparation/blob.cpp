@@ -16,8 +16,8 @@ using preparation::BatchOfPoints, preparation::PreparedField;
 
 namespace {
 
-// sup over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ, x = d/R, rises to
-// x² = 1/5 and falls from there.
+// The supremum over a ball of Σ wᵢ |gᵢ′(dᵢ)|, from the distances at its centre. |gᵢ′| = 6x(1 − x²)²/Rᵢ with x = d/R
+// increases up to x² = 1/5 and decreases from there.
 double steepness(const Blob& blob, const std::vector<double>& distances, double radius) {
     double sum = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -31,7 +31,7 @@ double steepness(const Blob& blob, const std::vector<double>& distances, double 
     return sum;
 }
 
-// Finds the distances to a blob's skeletons.
+// Computes the distances to a blob's skeletons.
 class Skeletons {
   public:
     Skeletons(const Blob& blob, Preparation& preparation) : blob_(blob), preparation_(preparation) {
@@ -39,7 +39,7 @@ class Skeletons {
         for (const Field& f : blob.of) fields_.emplace_back(Blob::info.name, f, preparation);
     }
 
-    // Finds the distances at the first `count` points of a batch.
+    // Computes the distances at the first `count` points of a batch.
     void find(const BatchOfPoints& p, std::size_t count) {
         preparation_.pay(count * own_steps_);
         values_.clear();
@@ -58,9 +58,9 @@ class Skeletons {
             for (const BatchOfFloats& v : values_) all.push_back(static_cast<double>(v[lane]));
         }
     }
-    // The distances at one point, to the skeletons in their order.
+    // The distances at one point to all skeletons, in order.
     const std::vector<double>& at(std::size_t lane) const { return at_[lane]; }
-    // The work of one call of find().
+    // The cost of one call of find().
     std::uint64_t steps() const {
         std::uint64_t steps = batch_size * (1 + own_steps_);
         for (const PreparedField& f : fields_) steps += f.steps();
@@ -76,8 +76,8 @@ class Skeletons {
     std::array<std::vector<double>, batch_size> at_;
 };
 
-// A bound of sup ‖∇b‖ over all of space, which is close to Σ wᵢ |gᵢ′| where that is largest. The supports are covered
-// by cubes, and the cube with the largest bound is divided until that no longer helps (branch and bound).
+// An upper bound of sup ‖∇b‖ over all space, close to the maximum of Σ wᵢ |gᵢ′|. The supports are covered by cubes, and
+// the cube with the largest bound is divided until that no longer helps (branch and bound).
 double blob_slope(const Blob& blob) {
     double everywhere = 0;
     for (std::size_t i = 0; i < blob.count(); ++i)
@@ -102,7 +102,7 @@ double blob_slope(const Blob& blob) {
         bool operator<(const Cube& o) const { return bound < o.bound; }
     };
     std::priority_queue<Cube> cubes;
-    double largest = 0;  // the largest value of the sum at a cube's centre
+    double largest = 0;  // the largest sum found at a cube's centre
     Preparation preparation(Blob::info.name);
     Skeletons skeletons(blob, preparation);
     const auto add = [&](std::span<const glm::vec3> centres, float half) {
@@ -119,7 +119,7 @@ double blob_slope(const Blob& blob) {
     };
     const glm::vec3 extent = support.extent(), middle = support.centre();
     add({&middle, 1}, 0.5f * std::max({extent.x, extent.y, extent.z}) * (1 + 1e-6f));
-    // Skeletons of many instructions are evaluated less often; the result is a bound all the same.
+    // Skeletons with many instructions are evaluated less often. The result is still an upper bound.
     const std::uint64_t affordable = batch_size * (preparation.left() / 8 / skeletons.steps());
     const std::size_t most =
         std::min<std::uint64_t>(std::clamp<std::size_t>(2'000'000 / blob.count(), 2'000, 50'000), affordable);

@@ -11,7 +11,7 @@ using program::traits;
 
 namespace {
 
-// The work of recording an instruction, in steps.
+// The cost of recording an instruction, in steps.
 constexpr std::uint64_t recording = 100;
 
 Program recorded(std::string_view node, const Field& field) {
@@ -25,8 +25,8 @@ Program recorded(std::string_view node, const Field& field) {
 constexpr auto height_map = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
                                             index_in<HeightMap>(DataPrimitives()));
 
-// The work of an evaluation. A long primitive counts for several steps, and a primitive with data for a quarter of its
-// floats; except that an evaluation of a height map reads only nine of them.
+// The cost of an evaluation. A long primitive counts as several steps, and a primitive with data as a quarter of its
+// floats. A height map reads only nine of its floats per evaluation.
 std::uint64_t steps_of(const Program& program) {
     std::uint64_t steps = 20;  // for the call
     for (std::size_t i = 1; i < program.instructions.size(); ++i) {

@@ -18,16 +18,15 @@ struct BatchOfPoints {
     }
 };
 
-/// A field that a node evaluates to derive what it needs. It is evaluated by its program, in which a shared shape
-/// counts once for each use; a walk through the tree could take exponentially long. Its work is paid for from a
-/// Preparation.
+/// A field that a node evaluates to derive data. It is evaluated through its program; a walk through the tree could
+/// take exponential time, because it visits a shared shape once per use. A Preparation pays for the work.
 class PreparedField {
   public:
-    /// Throws ModelError, said of the node, if the field takes too many instructions.
+    /// Throws ModelError, naming the node, if the field has too many instructions.
     PreparedField(std::string_view node, const Field&, Preparation&);
 
     BatchOfFloats operator()(const BatchOfPoints&);
-    /// The work of one evaluation.
+    /// The cost of one evaluation.
     std::uint64_t steps() const { return steps_; }
 
   private:

@@ -24,12 +24,12 @@ double next_fraction(SplitMix64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-// The points that were accepted, in a hashed grid, so that those near a point are found without a look at all.
+// The accepted points, in a hashed grid, so that points near a given point are found without visiting all of them.
 class Neighbourhood {
   public:
     explicit Neighbourhood(float spacing) : spacing_(spacing) {}
 
-    // Whether no point is nearer than the spacing.
+    // Whether no point is closer than the spacing.
     bool is_free(const glm::vec3& p) const {
         if (spacing_ == 0) return true;
         const glm::ivec3 cell = cell_of(p);
@@ -59,16 +59,17 @@ class Neighbourhood {
     std::unordered_multimap<std::uint64_t, glm::vec3> cells_;
 };
 
-// A straight line through the ball around the surface, and how far it was searched for changes of the field's sign.
+// A straight line through the ball around the surface, and the state of the search along it for changes of the field's
+// sign.
 struct Line {
     glm::vec3 origin{}, direction{};
-    float before = 0;  // it was searched up to here,
-    float value = 0;   // where the field has this value
-    float t = 0;       // where it is evaluated next
+    float before = 0;  // the line has been searched up to here
+    float value = 0;   // the field's value there
+    float t = 0;       // where to evaluate the field next
 
     glm::vec3 at(float along) const { return origin + along * direction; }
 };
-// A change of the field's sign along a line, between two points.
+// A change of the field's sign between two points of a line.
 struct Change {
     std::size_t line = 0;
     float low = 0, high = 0;
@@ -86,7 +87,7 @@ class Search {
           smallest_(2e-4f * radius),
           random_(0x5851f42d4c957f2du + static_cast<std::uint64_t>(seed)) {}
 
-    // The points where the next eight lines cross the surface, line after line.
+    // The points where the next eight lines cross the surface, line by line.
     std::vector<glm::vec3> crossings() {
         for (Line& line : lines_) line = random_line();
         std::vector<Change> changes = march();
@@ -115,7 +116,7 @@ class Search {
     }
 
   private:
-    // A line of uniformly random direction through a uniformly random point of the disk across it.
+    // A line with a uniformly random direction through a uniformly random point of the disk perpendicular to it.
     Line random_line() {
         const double z = 2 * next_fraction(random_) - 1, a = 2 * pi * next_fraction(random_),
                      rho = std::sqrt(1 - z * z);
@@ -134,7 +135,7 @@ class Search {
         return surface_(points);
     }
     float step(float value) const { return std::max(std::abs(value), smallest_); }
-    // The changes of sign along all lines, which are sphere-traced at once, each with its own steps.
+    // Finds the changes of sign along all lines. They are sphere-traced together, each with its own step lengths.
     std::vector<Change> march() {
         std::vector<Change> changes;
         for (Line& line : lines_) line.before = -radius_;
@@ -156,7 +157,7 @@ class Search {
         }
         return changes;
     }
-    // Narrows changes of sign, at most eight, by bisection.
+    // Narrows up to eight changes of sign by bisection.
     void bisect(std::span<Change> changes) {
         for (int n = 0; n < 24; ++n) {
             BatchOfPoints points;
@@ -189,7 +190,7 @@ std::vector<SurfacePoint> scattered(const Field& surface, int count, float spaci
     const float radius = 0.5f * b.diagonal() * (1 + 1e-4f);
     if (!(radius > 1e-9f && radius < 1e9f))
         throw ModelError("scatter: the surface must be between 1e-9 and 1e9 m large");
-    // A smaller spacing would overflow the numbers of the grid's cells; at this size it excludes nothing.
+    // A smaller spacing would overflow the cell numbers of the grid; at this size it excludes nothing.
     if (spacing > 0 && spacing < 1e-4f * radius) spacing = 0;
     Neighbourhood taken(spacing);
     std::vector<SurfacePoint> found;

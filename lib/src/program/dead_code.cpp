@@ -16,7 +16,7 @@ Program without_dead_code(Program program) {
         if (operands(in.op) > 0) live[in.a] = 1;
         if (operands(in.op) > 1) live[in.b] = 1;
     }
-    // Programs may carry images, which take long to copy.
+    // Avoid copying: programs may contain images.
     if (std::ranges::all_of(live, [](char is_live) { return is_live != 0; })) return program;
     std::vector<std::uint32_t> moved(live.size(), 0);  // the new index of each live value
     Program kept;

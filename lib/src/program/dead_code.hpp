@@ -4,8 +4,8 @@
 
 namespace phasetree::program {
 
-/// The program without the instructions that no output needs. Recording leaves some, because operators compute
-/// components which a node above may not use.
+/// Removes the instructions that no output needs. Recording leaves some, because operators compute components that the
+/// node above may not use.
 Program without_dead_code(Program);
 
 }  // namespace phasetree::program

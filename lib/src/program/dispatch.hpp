@@ -1,4 +1,4 @@
-// The ways from the number of an operation to the type of its primitive, and from an instruction's floats to a struct.
+// Finds the type of a primitive from the number of its operation, and converts an instruction's floats to a struct.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ template <std::size_t first, std::size_t count, class... Ts, class Run>
             dispatch_among<first + half, count - half>(list, index, run);
     }
 }
-/// Calls run.template operator()<T>() for the index-th type of a list, and nothing for an index past its end. The type
-/// is found by bisection, so that the call can be inlined.
+/// Calls run.template operator()<T>() for the type with this index in a list; does nothing if the index is past its
+/// end. The type is found by bisection, so that the call can be inlined.
 template <class... Ts, class Run>
 void dispatch(TypeList<Ts...> list, std::uint32_t index, Run&& run) {
     if (index < sizeof...(Ts)) dispatch_among<0, sizeof...(Ts)>(list, index, run);
@@ -47,7 +47,7 @@ Struct read(const float* constants) {
     return result;
 }
 
-/// The distance of a primitive P, with or without data, whose floats are at `constants`.
+/// The distance of a primitive P, with or without data, whose floats start at `constants`.
 template <class P, class T>
 T distance_of(const float* constants, const Vec3<T>& q) {
     if constexpr (DataPrimitive<P>) {

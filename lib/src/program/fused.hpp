@@ -1,6 +1,6 @@
-// Instructions that only the programs of cells have (rewriting/fuse.hpp): a primitive fused with the affine maps before
-// and after it, rounded as they would be alone. Their operations follow those of the maps of space: first an affine map
-// alone, then one operation for each primitive.
+// Instructions that occur only in the programs of cells (rewriting/fuse.hpp): a primitive fused with the affine maps
+// before and after it, with the same rounding as the separate instructions. Their operations follow those of the maps
+// of space: first an affine map alone, then one operation for each primitive.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace phasetree::program {
 
-/// The constants of scale · d(map(p)) + offset. Those of the primitive d follow.
+/// The constants of scale · d(map(p)) + offset. The constants of the primitive d follow.
 struct PlacedPrimitive {
     AffineMap map;
     float scale = 1, offset = 0;

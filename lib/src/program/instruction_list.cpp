@@ -12,8 +12,8 @@ namespace phasetree::program {
 
 namespace {
 
-// Of long lists of constants, as those of images are, this many are examined to tell them from others: evenly spaced.
-// Lists that have these in common are compared in full.
+// Only this many constants, evenly spaced, are hashed of a long list such as an image. Lists with equal hashes are
+// compared in full.
 constexpr std::size_t most_hashed = 512;
 
 std::uint64_t hash_of(std::span<const float> constants) {

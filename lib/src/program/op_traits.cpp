@@ -10,7 +10,7 @@ namespace {
 
 static_assert(first_placed + Primitives::size <= most_operations);
 
-// For each primitive of a list, whether it is long.
+// Whether each primitive of a list is long.
 template <class... Ps>
 constexpr auto long_ones(TypeList<Ps...>) {
     return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
@@ -20,7 +20,7 @@ constexpr OpTraits& traits_of(auto& all, Op op) {
     return all[static_cast<std::size_t>(op)];
 }
 
-// Sets what is special of patterns, and of what can be specialised.
+// Sets the traits of patterns and of primitives that can be specialised.
 template <class... Ps>
 constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
     const auto mark = [&]<class P>() {
@@ -29,7 +29,7 @@ constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
         if constexpr (AnyLocalPrimitive<P>) {
             OpTraits& local = traits_of(all, op_of<P>());
             local.is_local = true;
-            local.half_instructions = 800;  // a rough estimate of the cost of all sites of a Voronoi pattern
+            local.half_instructions = 800;  // rough estimate for all sites of a Voronoi pattern
             local.has_many_parts = PrimitiveOfParts<P>;
             traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
         }
@@ -53,7 +53,7 @@ constexpr auto all_traits() {
     constexpr auto is_long = long_ones(Primitives());
     for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
         all[first_primitive + i].is_long_primitive =
-            i >= is_long.size() || is_long[i];  // primitives with data follow, and all count as long
+            i >= is_long.size() || is_long[i];  // primitives with data follow; all count as long
     for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
         all[i].half_instructions = all[i].is_long_primitive ? 120 : 3;  // rough estimates
     for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;

@@ -9,23 +9,24 @@ namespace phasetree::program {
 
 /// The properties of an operation.
 struct OpTraits {
-    std::uint8_t operands = 1;  ///< the number of values it takes
-    /// Its cost, in halves of that of a simple operation such as an addition; a rough estimate.
+    std::uint8_t operands = 1;  ///< the number of operand values
+    /// Its cost, in halves of a simple operation such as an addition; a rough estimate.
     std::uint16_t half_instructions = 2;
-    bool gives_point = false;        ///< its result is a point and not a number
-    bool has_constant = false;       ///< its data are one constant
+    bool gives_point = false;        ///< its result is a point instead of a number
+    bool has_constant = false;       ///< its data is a single constant
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
     bool is_network = false;         ///< a neural field: Siren::Network
     bool is_fold = false;            ///< it folds space, so it is not continuous
     bool is_pattern = false;         ///< a PatternPrimitive or a PatternDataPrimitive: it has a period
     bool is_voxel_grid = false;      ///< a PatternDataPrimitive
-    bool is_local = false;           ///< a LocalPrimitive or a LocalDataPrimitive: little of it matters in a small box
+    bool is_local = false;           ///< a LocalPrimitive or a LocalDataPrimitive: only a small part of it matters in a
+                                     ///< small box
     bool has_many_parts = false;     ///< a PrimitiveOfParts
     bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
 };
-/// There are no more operations than this, those of fused.hpp included.
+/// The maximum number of operations, including those of fused.hpp.
 inline constexpr std::size_t most_operations = 256;
-/// The properties of all operations, by their number.
+/// The properties of all operations, indexed by operation.
 extern const std::array<OpTraits, most_operations> op_traits;
 
 inline const OpTraits& traits(Op op) {
@@ -46,7 +47,7 @@ inline bool is_long_primitive(Op op) {
 inline bool is_fold(Op op) {
     return traits(op).is_fold;
 }
-/// Whether an operation adds a far bound, which makes distances larger far from the surface and nothing else.
+/// Whether an operation adds a far bound, which only enlarges distances far from the surface.
 inline bool is_far_bound(Op op) {
     return op == Op::far_bound || op == Op::far_bound_inside;
 }

@@ -1,4 +1,4 @@
-// Recording: a tree is evaluated once with numbers that write instructions.
+// Recording: a tree is evaluated once, with numbers that write instructions.
 #include <unordered_map>
 
 #include "phasetree/program/program.hpp"
@@ -21,7 +21,7 @@ class Recorder {
 
     Recorder(Program& program, std::size_t limit) : list_(program, limit) {}
 
-    // A node at a point that was recorded before is not evaluated again, so that shared subtrees cost little.
+    // A node is not evaluated again at a point where it was recorded before, so that shared subtrees cost little.
     Recorded field(const Field& f, const RecordedPoint& p) {
         list_.work(1);
         const Key key{f.node(), p.value};

@@ -1,5 +1,5 @@
-// The number type with which an equation is recorded: each operation emits an instruction and returns the value that it
-// computes, with a Lipschitz bound that follows from those of its operands.
+// The number type used to record an equation. Each operation emits an instruction and returns the computed value, with
+// a Lipschitz bound derived from those of its operands.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ inline Recorded smooth_max(Recorded a, Recorded b, float r) {
 inline Recorded nearer(Recorded a, Recorded b) {
     return emit(Op::nearer, a, b, steeper(a, b));
 }
-/// The result is as steep as the bound alone, because it is the bound wherever f is steeper (math/number.hpp).
+/// The result is only as steep as the bound, because it equals the bound wherever f is steeper (math/number.hpp).
 inline Recorded guarded(Recorded bound, Recorded f, float far) {
     return emit(Op::guarded, bound, f, far, bound.lipschitz());
 }

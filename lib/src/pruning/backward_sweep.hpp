@@ -10,13 +10,13 @@ namespace phasetree::pruning {
 using program::operands, program::ProgramOutput;
 using rewriting::LiveSet, rewriting::Rewriter, rewriting::SignedValue;
 
-/// The sweep of prune.hpp over one program: from the last instruction to the first it decides, by the ranges of its
-/// operands and by its own required interval, what an instruction becomes, and requires of its operands what that
-/// needs. `Ranges` gives the values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
+/// The sweep of prune.hpp over one program, from the last instruction to the first. From the ranges of its operands and
+/// its own required interval, it decides what each instruction becomes, and what that requires of the operands.
+/// `Ranges` provides the values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
 template <class Ranges>
 class BackwardSweep {
   public:
-    /// Memory that outlives the sweep is taken of `arenas.results` alone.
+    /// Only memory from `arenas.results` outlives the sweep.
     BackwardSweep(const WorkingProgram& program, const Ranges& ranges, const ProgramContext& context,
                   const Arenas& arenas, bool drops_far_bounds)
         : program_(program),
@@ -51,7 +51,8 @@ class BackwardSweep {
         return LiveSet(rest, rest.outputs, arenas_.scratch).program(arenas_);
     }
 
-    /// After run(): how far up the values of local primitives are required. The result outlives the sweep.
+    /// After run(): the upper limits up to which the values of local primitives are required. The result outlives the
+    /// sweep.
     std::span<const RequiredOfLocal> required_of_locals() const {
         const std::span<const std::uint32_t> live = live_.first(live_count_);
         const auto is_local = [&](std::uint32_t i) { return program::traits(program_.code[i].op).is_local; };
@@ -70,7 +71,7 @@ class BackwardSweep {
     }
 
   private:
-    /// The outputs whose component may be negative somewhere. Nothing if one is negative everywhere.
+    /// The outputs whose component may be negative somewhere; nothing if one is negative everywhere.
     std::optional<std::span<const ProgramOutput>> possible_outputs() const {
         const std::span<ProgramOutput> possible = arenas_.scratch.allocate<ProgramOutput>(program_.outputs.size());
         std::size_t count = 0;
@@ -82,22 +83,23 @@ class BackwardSweep {
         }
         return possible.first(count);
     }
-    /// Whether rays can meet an interface: there are two phases, and not all of them are opaque.
+    /// Whether rays can meet an interface: there are at least two phases, and not all of them are opaque.
     bool has_interface(std::span<const ProgramOutput> outputs) const {
         return outputs.size() > 1 &&
                !std::ranges::all_of(outputs, [&](const ProgramOutput& o) { return opaque_.contains(o.phase); });
     }
     /// Whether the sweep has changed nothing: all instructions and outputs are left, and their slopes are the program's
-    /// own. Two phases must also share one value already, for otherwise by_one_component() may shorten the program.
+    /// own. If there are two phases, they must also share one value already; otherwise, by_one_component() may shorten
+    /// the program.
     bool is_unchanged(std::span<const ProgramOutput> outputs) const {
         return !is_changed_ && outputs.size() == program_.outputs.size() &&
                (outputs.size() != 2 || outputs[0].value == outputs[1].value) &&
                ranges_.slope.data() == program_.lipschitz.data() &&
-               live_count_ + 1 == program_.code.size();  // the input is always left
+               live_count_ + 1 == program_.code.size();  // the input is always kept
     }
 
-    /// The live instructions, written again by a Rewriter, with those outputs whose component may be negative. A
-    /// component that is an absolute value is negative nowhere, so its output is left out.
+    /// The live instructions, rewritten by a Rewriter, with the outputs whose component may be negative. A component
+    /// that is an absolute value is never negative, so its output is dropped.
     WorkingProgram rewritten(std::span<const ProgramOutput> outputs) {
         Arena& scratch = arenas_.scratch;
         Rewriter rewriter(constants_, live_count_, scratch);
@@ -112,7 +114,7 @@ class BackwardSweep {
                 continue;
             }
             const Instruction& in = code[i];
-            // A changed operation, a negation or a maximum, is as steep as its steepest operand.
+            // A changed operation, which is a negation or a maximum, is as steep as its steepest operand.
             const float bound = op_[i] == in.op        ? slope[i]
                                 : operands(op_[i]) > 1 ? std::max(slope[in.a], slope[in.b])
                                                        : slope[in.a];
@@ -130,8 +132,8 @@ class BackwardSweep {
         return {rewriter.code(), rewriter.lipschitz(), rest.first(count)};
     }
 
-    /// A program of two phases with one of its two components, from whose sign the phase follows: the one that takes
-    /// fewer instructions.
+    /// A program of two phases, reduced to one of its two components, whose sign determines the phase: the component
+    /// that takes fewer instructions.
     WorkingProgram by_one_component(const WorkingProgram& both) const {
         ProgramOutput outputs[2][2];
         for (const std::size_t k : {0, 1}) {
@@ -148,7 +150,7 @@ class BackwardSweep {
     bool is_above(std::uint32_t a, std::uint32_t b, float least = 0) const { return ranges_.is_above(a, b, least); }
     float constant(const Instruction& in) const { return constants_[in.data]; }
 
-    /// Adds an interval to what is required of a value.
+    /// Adds an interval to the requirements of a value.
     void require(std::uint32_t i, RequiredInterval r) { required_[i] = required_[i].hull(r); }
     /// Replaces a value by an earlier one.
     void replace(std::uint32_t i, std::uint32_t by) {
@@ -156,13 +158,13 @@ class BackwardSweep {
         is_changed_ = true;
         require(by, required_[i]);
     }
-    /// Gives an instruction another operation.
+    /// Replaces an instruction's operation.
     void change(std::uint32_t i, Op op) {
         op_[i] = op;
         is_changed_ = true;
     }
 
-    // These are in operation_rules.hpp. Each decides what an instruction becomes and requires its operands.
+    // The rules in operation_rules.hpp. Each decides what an instruction becomes and requires its operands.
     void resolve(std::uint32_t i);
     void resolve_minimum(std::uint32_t i);
     void resolve_maximum(std::uint32_t i);
@@ -176,7 +178,7 @@ class BackwardSweep {
     void resolve_product(std::uint32_t i);
     struct Choice {
         bool is_a, is_b;                          ///< whether an operand may replace the extremum
-        RequiredInterval required_a, required_b;  ///< what is required of the operands if neither does
+        RequiredInterval required_a, required_b;  ///< what is required of the operands if neither replaces it
     };
     void resolve_extremum(std::uint32_t i, const Choice&);
     bool is_leaf(std::uint32_t i) const;
@@ -189,9 +191,9 @@ class BackwardSweep {
     bool drops_far_bounds_;
     const Arenas& arenas_;
     std::span<RequiredInterval> required_;
-    std::span<std::uint32_t> replacement_;  ///< of each live value: itself, or an earlier one
-    std::span<Op> op_;                      ///< of each live value: its operation, which may have changed
-    std::span<std::uint32_t> live_;         ///< the values that are required, from the last one on
+    std::span<std::uint32_t> replacement_;  ///< for each live value: itself or an earlier one
+    std::span<Op> op_;                      ///< for each live value: its operation, possibly changed
+    std::span<std::uint32_t> live_;         ///< the required values, from the last one on
     std::size_t live_count_ = 0;
     bool is_changed_ = false;
 };

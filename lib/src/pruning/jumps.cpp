@@ -12,7 +12,7 @@ using program::is_fold, program::operands;
 
 namespace {
 
-// A Lipschitz bound above this has the factor FoldMap::jump, which is 2⁴⁰, in it.
+// A Lipschitz bound above this contains the factor FoldMap::jump, which is 2⁴⁰.
 constexpr float least_slope_of_jump = 0x1p20f;
 
 }  // namespace
@@ -33,18 +33,18 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-// The guard above a fold says whether it jumps in the ball: its bound exceeds half of its constant wherever the fold
-// jumps (`guarded` in math/number.hpp). A guard and its fold are known by their point: endless_grid measures the bound
-// at the very point that it folds. Only equal values take the place of a bound (resolve_guarded), so if its operand is
-// no longer that point, no fold is found, and one that no guard vouches for counts as one that may jump.
+// The guard above a fold determines whether the fold jumps in the ball: its bound exceeds half of its constant wherever
+// the fold jumps (`guarded` in math/number.hpp). A guard and its fold are matched by their point: endless_grid measures
+// the bound at the very point that it folds. Only equal values can replace a bound (resolve_guarded). So if its operand
+// is no longer that point, no fold is found, and a fold without a guard counts as one that may jump.
 std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);
     const auto size = static_cast<std::uint32_t>(program.code.size());
-    // Several folds may have the same point, and none of them is continuous unless all of their guards say so.
+    // Several folds may share a point; they count as continuous only if every guard confirms it.
     constexpr char is_continuous = 1, may_jump_here = 2;
-    const std::span<char> verdicts = arena.allocate<char>(size);  // What the guards say of each fold, as a set.
-    const std::span<char> jumps = arena.allocate<char>(size);     // Whether a value depends on a fold that may jump.
+    const std::span<char> verdicts = arena.allocate<char>(size);  // what the guards say of each fold, as a set
+    const std::span<char> jumps = arena.allocate<char>(size);     // whether a value depends on a fold that may jump
     std::ranges::fill(verdicts, 0);
     std::ranges::fill(jumps, 0);
     for (std::uint32_t i = 1; i < size; ++i) {
@@ -61,7 +61,7 @@ std::span<const float> slopes_in_ball(const WorkingProgram& program, const Value
         if (slope[i] <= least_slope_of_jump) continue;
         const int n = operands(in.op);
         jumps[i] = (n > 0 && jumps[in.a]) || (n > 1 && jumps[in.b]) || (is_fold(in.op) && verdicts[i] != is_continuous);
-        // Each fold that the value depends on has multiplied its bound once.
+        // Each fold on which the value depends has multiplied its bound once.
         while (!jumps[i] && slope[i] > least_slope_of_jump) slope[i] /= FoldMap::jump;
     }
     return slope;

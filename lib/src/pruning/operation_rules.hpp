@@ -2,8 +2,8 @@
 
 #include "pruning/backward_sweep.hpp"
 
-/// The rules of pruning, one function for each operation that has more than one. `r` is the required interval of the
-/// instruction `in` with the number i.
+/// The rules of pruning, one function for each operation that has more than one rule. `r` is the required interval of
+/// the instruction `in` with the index i.
 namespace phasetree::pruning {
 
 template <class Ranges>
@@ -60,13 +60,14 @@ void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
-    // If a is above b, or above r, b replaces the minimum: it is the minimum, or both of them are above r. If b is
-    // above a or above r, a does so for the same reason. An operand below r stands in, too, for the minimum is below r
-    // with it.
+    // If a is above b, or above r, then b replaces the minimum: either b is the minimum, or both are above r. Likewise,
+    // a replaces it if b is above a or above r. An operand below r also replaces the minimum, which is then below r as
+    // well.
     const bool is_b_surely = is_above(in.a, in.b) | bool(low_a > r.high());
     const bool is_a = is_above(in.b, in.a) | ((!is_b_surely) & (bool(low_b > r.high()) | bool(high_a < r.low())));
     const bool is_b = is_b_surely | bool(high_b < r.low());
-    // Above the largest value of the other nothing matters of an operand, because there the minimum is the other.
+    // Above the largest value of the other operand, an operand does not matter, because the minimum is the other one
+    // there.
     resolve_extremum(i, {is_a, is_b, r.below(high_b), r.below(high_a)});
 }
 
@@ -75,19 +76,20 @@ void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
-    // If a is below b, or below r, b replaces the maximum: it is the maximum, or both of them are below r. If b is
-    // below a or below r, a does so for the same reason. An operand above r stands in, too, for the maximum is above r
-    // with it.
+    // If a is below b, or below r, then b replaces the maximum: either b is the maximum, or both are below r. Likewise,
+    // a replaces it if b is below a or below r. An operand above r also replaces the maximum, which is then above r as
+    // well.
     const bool is_b_surely = is_above(in.b, in.a) | bool(high_a < r.low());
     const bool is_a = is_above(in.a, in.b) | ((!is_b_surely) & (bool(high_b < r.low()) | bool(low_a > r.high())));
     const bool is_b = is_b_surely | bool(low_b > r.high());
-    // Below the smallest value of the other nothing matters of an operand, because there the maximum is the other.
+    // Below the smallest value of the other operand, an operand does not matter, because the maximum is the other one
+    // there.
     resolve_extremum(i, {is_a, is_b, r.above(low_b), r.above(low_a)});
 }
 
-/// Replaces a minimum or maximum by one of its operands, by a if both are possible, or keeps it. This is written
-/// without branches because every other comparison here would be mispredicted; where there is one operand, it is
-/// required twice in the same way.
+/// Replaces a minimum or maximum by one of its operands (by a if both are possible), or keeps it. The code has no
+/// branches, because every other comparison here would be mispredicted. If a single operand is left, it is required
+/// twice in the same way.
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choice) {
     const Instruction& in = program_.code[i];
@@ -100,49 +102,50 @@ void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choi
     require(second, is_replaced ? r : choice.required_b);
 }
 
-/// min(a, b) − ρ/6 · max(1 − |b − a|/ρ, 0)³ with the radius ρ of blending (smooth_min in math/number.hpp).
+/// min(a, b) − ρ/6 · max(1 − |b − a|/ρ, 0)³ with the blending radius ρ (smooth_min in math/number.hpp).
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float radius = constant(in);
-    // Where the operands differ by more than the radius they are not blended.
+    // Operands that differ by more than the radius are not blended.
     if (is_above(in.b, in.a, radius)) return replace(i, in.a);
     if (is_above(in.a, in.b, radius)) return replace(i, in.b);
-    // If a is above r by more than the radius, b replaces the smooth minimum. Where b ≤ r.high, it is more than
-    // the radius below a and is the smooth minimum. Where b > r.high, the smooth minimum is above r as well: if b is
-    // the smaller, blending lowers it by a sixth of ρ − (a − b) at most, and it is above r by more than all of that; if
-    // a is the smaller, it is above r by more than ρ and lowered by a sixth of ρ at most. The same holds with a and b
-    // exchanged.
+    // If a is above r by more than the radius, b replaces the smooth minimum:
+    //  - Where b ≤ r.high, it is more than the radius below a, so it is the smooth minimum.
+    //  - Where b > r.high, the smooth minimum is above r as well. If b is the smaller, blending lowers it by at most a
+    //    sixth of ρ − (a − b), and it is above r by more than all of that. If a is the smaller, it is above r by more
+    //    than ρ, and is lowered by at most a sixth of ρ.
+    // The same holds with a and b exchanged.
     if (low(in.a) > r.high() + radius) return replace(i, in.b);
     if (low(in.b) > r.high() + radius) return replace(i, in.a);
-    // The smooth minimum is no more than either operand, so it is below r if one of them is.
+    // The smooth minimum is at most either operand, so it is below r if one of them is.
     if (high(in.a) < r.low()) return replace(i, in.a);
     if (high(in.b) < r.low()) return replace(i, in.b);
-    // For the same reasons an operand matters neither below r, nor more than the radius above r, nor more than the
-    // radius above the largest value of the other.
+    // For the same reasons, an operand does not matter below r, more than the radius above r, or more than the radius
+    // above the largest value of the other.
     require(in.a, {r.low(), std::min(r.high(), high(in.b)) + radius});
     require(in.b, {r.low(), std::min(r.high(), high(in.a)) + radius});
 }
 
-/// max(a, min(b, c − a)), where a is the bound, which is continuous, and b the field, which may jump (`guarded` in
+/// max(a, min(b, c − a)), where a is the bound, which is continuous, and b is the field, which may jump (`guarded` in
 /// math/number.hpp).
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
-    // Where a > c/2, c − a is below a, so that the maximum is a. Where a is above r, the maximum is above r with it.
+    // Where a > c/2, c − a is below a, so the maximum is a. Where a is above r, so is the maximum.
     const float half = 0.5f * constant(in);
     if (low(in.a) > std::min(half, r.high())) return replace(i, in.a);
-    // max(a, b) has the same sign: where a is positive both are positive, and elsewhere c − a is positive, so that
-    // min(b, c − a) has the sign of b. So it may take the place of this if b does not jump. If b jumps, its slope is
-    // far more than twice that of a (FoldMap::jump).
+    // max(a, b) has the same sign. Where a is positive, both are positive; elsewhere, c − a is positive, so min(b, c −
+    // a) has the sign of b. So max(a, b) can replace it if b does not jump. If b jumps, its slope is far more than
+    // twice that of a (FoldMap::jump).
     if (r.is_sign() && ranges_.slope[in.b] <= 2 * ranges_.slope[in.a]) {
         change(i, Op::maximum);
         return resolve_maximum(i);
     }
-    // The bound is required itself, because c − a depends on it. The field matters neither below the smallest value of
-    // the bound, which is then the maximum, nor below r, nor above r, where min(b, c − a) is above r or is c − a.
+    // The bound itself is required, because c − a depends on it. The field does not matter below the smallest value of
+    // the bound, which is then the maximum, nor below r, nor above r, where min(b, c − a) is above r or equals c − a.
     require(in.a, RequiredInterval::all());
     require(in.b, {std::max(r.low(), low(in.a)), r.high()});
 }
@@ -153,7 +156,7 @@ void BackwardSweep<Ranges>::resolve_sum(std::uint32_t i) {
     const RequiredInterval r = required_[i];
     if (is_zero(in.a)) return replace(i, in.b);
     if (is_zero(in.b)) return replace(i, in.a);
-    // One operand is required in an interval that is widened by the range of the other, which must then stay as it is.
+    // One operand is required in an interval widened by the range of the other, which must then stay unchanged.
     if (is_leaf(in.a)) {
         require(in.a, RequiredInterval::all());
         return require(in.b, {r.low() - high(in.a), r.high() - low(in.a)});
@@ -174,8 +177,8 @@ void BackwardSweep<Ranges>::resolve_difference(std::uint32_t i) {
     require(in.a, {r.low() + low(in.b), r.high() + high(in.b)});
 }
 
-/// The corner of a and b is max(a, b) where that is negative, and otherwise the length of the vector of max(a, 0) and
-/// max(b, 0). So it is no less than either operand.
+/// The corner of a and b is max(a, b) where that is negative, and otherwise the length of the vector (max(a, 0), max(b,
+/// 0)). So it is at least as large as either operand.
 template <class Ranges>
 void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
     const Instruction& in = program_.code[i];
@@ -183,16 +186,16 @@ void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
     // If one operand is negative and the smaller, the corner is the other.
     if (high(in.a) < 0 && is_above(in.b, in.a)) return replace(i, in.b);
     if (high(in.b) < 0 && is_above(in.a, in.b)) return replace(i, in.a);
-    // An operand below `least` is negative and below r. Either it is the smaller, and the corner is the other; or both
-    // are below r, and the corner, their maximum, is so, too.
+    // An operand below `least` is negative and below r. If it is the smaller, the corner is the other operand.
+    // Otherwise both operands are below r, and so is the corner, which is their maximum.
     const float least = std::min(r.low(), 0.f);
     if (high(in.a) < least) return replace(i, in.b);
     if (high(in.b) < least) return replace(i, in.a);
-    // An operand above r stands in, because the corner is above r with it.
+    // An operand above r replaces the corner, which is then above r as well.
     if (low(in.a) > r.high()) return replace(i, in.a);
     if (low(in.b) > r.high()) return replace(i, in.b);
-    // For the same reasons an operand matters neither below `least`, nor where it is negative and below the smallest
-    // value of the other, nor above r.
+    // For the same reasons, an operand does not matter below `least`, where it is negative and below the smallest value
+    // of the other, or above r.
     require(in.a, {std::max(least, std::min(low(in.b), 0.f)), r.high()});
     require(in.b, {std::max(least, std::min(low(in.a), 0.f)), r.high()});
 }
@@ -202,7 +205,7 @@ template <class Ranges>
 void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
-    // It is no less than a, so it is above r where a is.
+    // It is at least a, so it is above r where a is.
     if (low(in.a) > r.high()) return replace(i, in.a);
     if (!r.is_sign()) {
         require(in.a, RequiredInterval::all());
@@ -210,8 +213,8 @@ void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
     }
     // Where b is positive or above a, the sign is that of a.
     if (low(in.b) > 0 || is_above(in.b, in.a)) return replace(i, in.a);
-    // Both matter only where they are negative, and then neither below the smallest value of the other: that is below
-    // all that the other can be, and so the smaller of the two.
+    // Both matter only where they are negative, and not below the smallest value of the other. An operand below that is
+    // smaller than every possible value of the other, and so is the smaller of the two.
     require(in.a, {std::min(low(in.b), 0.f), 0});
     require(in.b, {std::min(low(in.a), 0.f), 0});
 }
@@ -238,14 +241,14 @@ void BackwardSweep<Ranges>::resolve_product(std::uint32_t i) {
     require(in.a, {std::min(one, other), std::max(one, other)});
 }
 
-/// Whether pruning could delete nothing of what computes a value.
+/// Whether pruning cannot delete any part of what computes a value.
 template <class Ranges>
 bool BackwardSweep<Ranges>::is_leaf(std::uint32_t i) const {
     const Instruction& in = program_.code[i];
     return in.op >= Op::first_primitive || (in.op == Op::multiply_constant && is_leaf(in.a));
 }
 
-/// Whether a value is exactly zero in the whole region, as the falloff of a skeleton out of reach is.
+/// Whether a value is exactly zero in the whole region, such as the falloff of a skeleton out of reach.
 template <class Ranges>
 bool BackwardSweep<Ranges>::is_zero(std::uint32_t i) const {
     const Instruction& in = program_.code[i];

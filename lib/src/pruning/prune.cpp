@@ -11,7 +11,7 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// Ranges that say nothing.
+// Ranges that contain no information.
 struct RangesAnywhere {
     std::span<const float> slope;
 

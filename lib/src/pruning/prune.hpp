@@ -7,42 +7,42 @@
 #include "rewriting/program_context.hpp"
 #include "rewriting/specialise.hpp"
 
-/// Pruning deletes what cannot matter in a region of space from a program, in one backward sweep over its instructions
-/// (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). There are two kinds of it.
+/// Pruning deletes from a program what cannot matter in a region of space. It is a single backward sweep over the
+/// instructions (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). It prunes in two ways.
 ///
-/// *By value* (Barbier et al. 2025): of min(a, b) only a is left if a < b is proven for the whole region, and likewise
-/// of maxima, and of smooth minima if a is below b by their radius. In a ball that follows from b − a at the centre and
-/// the Lipschitz bounds of both; in a box, where gradients are known, from the enclosure of b − a.
+/// *By value* (Barbier et al. 2025): only a is left of min(a, b) if a < b is proven for the whole region. The same
+/// holds for maxima, and for smooth minima if a is below b by their radius. In a ball, the proof follows from b − a at
+/// the centre and the Lipschitz bounds of both; in a box, where gradients are known, from the enclosure of b − a.
 ///
-/// *By the required interval*: of an output only the sign matters, and the sign of max(a, b) − τ is that of b − τ if a
-/// stays below τ. Negations, offsets and scalings only move the threshold τ. Of a in min(a, b) nothing matters above
-/// the largest value of b, for there the minimum is b. So each value is required only in an interval, and outside of
-/// it only on which side it lies (required_interval.hpp). That reaches down a long chain of minima to links that are
-/// far from the region, though each of them is too near to the next to be told from it by value.
+/// *By the required interval*: only the sign of an output matters, and the sign of max(a, b) − τ is that of b − τ if a
+/// stays below τ. Negations, offsets and scalings only move the threshold τ. In min(a, b), values of a above the
+/// largest value of b do not matter, because the minimum is b there. So each value is required only in an interval;
+/// outside of it, only the side matters (required_interval.hpp). This prunes links far down a long chain of minima that
+/// are far from the region, even if each link is too close to the next to be pruned by value.
 ///
-/// What replaces a value is equal to it within its required interval, and outside on the same side of it. Both operands
-/// of min(a, b) may be replaced at once, a by a′ and b by b′, which are also equal to them at the interval's ends. Let
-/// the minimum be required in [l, u], and A and B be the largest values of a and b in the region. Then a is required in
+/// A replacement equals the value within its required interval, and outside lies on the same side of it. Both operands
+/// of min(a, b) may be replaced at once, a by a′ and b by b′, which also equal them at the interval's ends. Let the
+/// minimum be required in [l, u], and let A and B be the largest values of a and b in the region. Then a is required in
 /// [l, min(u, B)] and b in [l, min(u, A)]. Where a ≤ b (and likewise where b ≤ a),
 ///     l ≤ a ≤ u   a′ = a, for a ≤ b ≤ B;  b′ = b, or both are above min(u, A) ≥ a   so min(a′, b′) = a
 ///     a > u       a′ > u;                 b′ > u, for b ≥ a > u                     so min(a′, b′) > u
 ///     a < l       a′ < l                                                            so min(a′, b′) < l
-/// A replacement has the same sign relative to each threshold and is Lipschitz itself, so its distance from the
+/// A replacement has the same sign relative to each threshold and is itself Lipschitz. So its distance from the
 /// threshold is still a lower bound of the distance to where the sign changes.
 ///
-/// *What replaces a value is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components
-/// of a pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first
-/// to the last; operations are those of program.hpp.
-///   - An instruction that is kept has the bound that follows from those of its operands, in all operations but three.
-///     `corner` is no steeper than the steeper operand because these vary along orthogonal directions; what replaces an
-///     operand is made of parts of it, so it varies along the same directions. `guarded` is as steep as its first
-///     operand, which is required everywhere and hence is not changed. A node that proves a bound of its
-///     own (`one_lipschitz` in tree/domain.hpp), as a blob does for its sum of `falloff`s, has less than the sum of
-///     theirs; each falloff is required as far as it is not zero, so none of them is changed.
+/// *A replacement is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components of a
+/// pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first to the
+/// last; operations are those of program.hpp.
+///   - An instruction that is kept has the bound that follows from the bounds of its operands, for all operations
+///     except three. `corner` is no steeper than its steeper operand because its operands vary along orthogonal
+///     directions; an operand's replacement is made of parts of it, so it varies along the same directions. `guarded`
+///     is as steep as its first operand, which is required everywhere and hence is not changed. A node that proves its
+///     own bound (`one_lipschitz` in tree/domain.hpp), as a blob does for its sum of `falloff`s, has a smaller bound
+///     than their sum; each falloff is required wherever it is not zero, so none of them is changed.
 ///   - An operand that replaces a minimum, a maximum, a smooth minimum or a corner is no steeper than the steeper
-///     operand, which is the instruction's bound; nor is one that replaces a sum of which the other is zero, whose
-///     bound is that of both together.
-///   - The maximum that takes the place of `guarded` gets the bound of its steeper operand.
+///     operand, which is the instruction's bound. An operand that replaces a sum whose other operand is zero is no
+///     steeper than the sum of both bounds.
+///   - The maximum that replaces `guarded` gets the bound of its steeper operand.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;
@@ -50,8 +50,8 @@ using evaluation::ValuesAtPoint;
 using rewriting::Arena, rewriting::Arenas, rewriting::ProgramContext, rewriting::RequiredOfLocal,
     rewriting::WorkingProgram;
 
-/// The range of every value in a ball, by the values at its centre and Lipschitz bounds: |v(p) − v(centre)| ≤ slope ·
-/// radius. Ranges are computed when they are asked for.
+/// The range of every value in a ball, from the values at its centre and their Lipschitz bounds: |v(p) − v(centre)| ≤
+/// slope · radius. Ranges are computed on demand.
 struct RangesInBall {
     ValuesAtPoint centre;
     std::span<const float> slope;
@@ -66,20 +66,21 @@ struct RangesInBall {
 };
 
 /// The program that is left in a region where the values of a program have these ranges. Nothing if no ray can meet an
-/// interface there: that needs two phases, one of which is not opaque. The result is in `results`; or it is the program
-/// itself, if that was pruned before and all of it is left.
+/// interface there: that takes two phases, at least one of which is not opaque. The result is allocated in `results`,
+/// unless it is the program itself because that was pruned before and nothing is deleted.
 ///
-/// In the region the result gives the same labels, and the absolute values of its components are still lower bounds of
+/// In the region, the result gives the same labels, and the absolute values of its components are still lower bounds of
 /// the distance to where the label changes.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
-/// The same, which also tells how far up the values of local primitives are required. A primitive whose constants
-/// several instructions have is left out, because smaller boxes do not find its specialisation again.
+/// Does the same, and also returns the upper limits up to which the values of local primitives are required. A
+/// primitive whose constants are used by several instructions is left out, because smaller boxes cannot find its
+/// specialisation again.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&,
                                     std::span<const RequiredOfLocal>& required);
 
-/// The program without the operations that enlarge distances far from the surface (Op::far_bound), which do not change
-/// any sign. Nothing if it has none, or if no interface is left.
+/// The program without the operations that enlarge distances far from the surface (Op::far_bound), which change no
+/// sign. Nothing if it has none, or if no interface is left.
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, const ProgramContext&, const Arenas&);
 
 }  // namespace phasetree::pruning

@@ -9,9 +9,8 @@
 
 namespace phasetree::rewriting {
 
-/// A stack of memory for one thread: what was allocated last is released first. A recursion allocates what it needs at
-/// each of its levels and releases it on its way back, so that no level calls the system's allocator. Blocks double in
-/// size and are reused until the arena is destroyed.
+/// A stack allocator for one thread. A recursion allocates what each of its levels needs and releases it on return, so
+/// that no level calls the system's allocator. Blocks double in size and are reused until the arena is destroyed.
 class Arena {
   public:
     /// A height of the stack.
@@ -20,7 +19,7 @@ class Arena {
         std::byte *next = nullptr, *end = nullptr;  ///< the unused part of that block; null before the first block
     };
 
-    /// Memory for `count` objects, which are not initialised. It is valid until a mark that was set before is released.
+    /// Memory for `count` uninitialised objects. It is valid until a mark set earlier is released.
     template <class T>
     std::span<T> allocate(std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -50,14 +49,14 @@ class Arena {
         std::size_t size;
     };
     std::size_t unused_bytes() const { return static_cast<std::size_t>(top_.end - top_.next); }
-    /// Moves the top to the next block that has this much room, or to a new one.
+    /// Moves the top to the next block with this much room, or to a new block.
     void open_block(std::size_t bytes);
 
     std::vector<Block> blocks_;
     Mark top_;
 };
 
-/// Releases at the end of a scope what was allocated in it.
+/// Releases, at the end of a scope, everything allocated in it.
 class ArenaScope {
   public:
     explicit ArenaScope(Arena& arena) : arena_(arena), mark_(arena.mark()) {}
@@ -72,8 +71,8 @@ class ArenaScope {
 
 /// The two arenas of a function that returns something large.
 struct Arenas {
-    Arena& results;  ///< holds what is returned
-    Arena& scratch;  ///< holds what is needed only until the function returns
+    Arena& results;  ///< for the result
+    Arena& scratch;  ///< for temporary data, until the function returns
 };
 
 }  // namespace phasetree::rewriting

@@ -2,8 +2,8 @@
 
 #include "rewriting/specialise.hpp"
 
-/// How large the features are that a program's primitives have, and how much work their parts are: by which boxes are
-/// judged that are larger than these.
+/// The sizes of the features of a program's primitives, and the work of their parts. They are used to judge boxes that
+/// are larger than these features.
 namespace phasetree::rewriting {
 
 /// Whether a program has a grid of voxels (PatternDataPrimitive).
@@ -11,15 +11,15 @@ inline bool has_grid(const WorkingProgram& program) {
     return std::ranges::any_of(program.code, [](const Instruction& in) { return traits(in.op).is_voxel_grid; });
 }
 
-/// The size of the smallest features among a program's patterns, in the object's space: a pattern's period is divided
-/// by the slope of the map into the pattern's own space. Infinity if the program has no pattern.
+/// The size of the smallest features among a program's patterns, in the object's space: a pattern's period divided by
+/// the slope of the map into the pattern's own space. Infinity if the program has no pattern.
 float finest_pattern(const WorkingProgram&, std::span<const float> constants);
 
-/// How far apart the parts of a program's primitives of parts are at least, in the object's space (PrimitiveOfParts).
+/// The smallest spacing between the parts of a program's primitives of parts (PrimitiveOfParts), in the object's space.
 /// Infinity if it has no such primitive.
 float finest_spacing(const WorkingProgram&, std::span<const float> constants);
 
-/// How much work those specialised primitives are that stand for primitives of parts, in simple instructions.
+/// The work, in simple instructions, of the specialised primitives that replace primitives of parts.
 float work_of_parts(const WorkingProgram&, std::span<const Specialisation>);
 
 }  // namespace phasetree::rewriting

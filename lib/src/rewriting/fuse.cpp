@@ -15,8 +15,7 @@ using program::affine_map, program::first_map, program::first_placed, program::g
 
 namespace {
 
-// The affine map that these constants describe as a map of the type with this index in the list. Nothing if it is not
-// affine.
+// The affine map given by the constants of a map of the type with this index in the list. Nothing if it is not affine.
 template <class... Ms>
 std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
     std::optional<AffineMap> found;
@@ -32,7 +31,7 @@ std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const
     return found;
 }
 
-// How many floats each of these primitives has.
+// The number of floats of each of these primitives.
 template <class... Ps>
 constexpr auto floats_of(TypeList<Ps...>) {
     return std::array<std::size_t, sizeof...(Ps)>{sizeof(Ps) / sizeof(float)...};
@@ -89,8 +88,8 @@ void Fuser::find_affine_values(std::span<const Instruction> code) {
     }
 }
 
-// What an instruction makes of its operand, which is a scaled primitive and has no other use. A fused instruction
-// multiplies once and then adds once, so nothing is joined to an offset but a change of sign.
+// The result of an instruction applied to its operand, a scaled primitive without other uses. A fused instruction
+// multiplies once and then adds once, so the only operation that can follow an offset is a change of sign.
 Fuser::ScaledPrimitive Fuser::scaled_primitive(const Instruction& in) const {
     const ScaledPrimitive& before = scaled_[in.a];
     const float c = constants_[in.data];
@@ -102,7 +101,7 @@ Fuser::ScaledPrimitive Fuser::scaled_primitive(const Instruction& in) const {
     return {};
 }
 
-// An instruction, fused with those before it where that is possible. Its operands have their old numbers.
+// An instruction, fused with those before it where possible. Its operands have their old indices.
 Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
     static constexpr auto floats_of_primitive = floats_of(Primitives());
     const Instruction& in = code[i];
@@ -133,7 +132,7 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
         if (operands(in.op) > 1) ++uses_[in.b];
     }
     const auto keep = [&](std::uint32_t v) {
-        uses_[v] += 2;  // A value with more than one use is never fused with what uses it.
+        uses_[v] += 2;  // A value with more than one use is never fused with its users.
         is_needed_[v] = 1;
     };
     for (const ProgramOutput& o : outputs) keep(o.value);

@@ -4,18 +4,18 @@
 
 namespace phasetree::rewriting {
 
-/// The instructions of a program whose values some of its outputs need (liveness analysis of straight-line code: one
-/// pass backward from the outputs).
+/// The instructions of a program that some of its outputs need (liveness analysis of straight-line code, in a single
+/// backward pass from the outputs).
 class LiveSet {
   public:
-    /// Refers to the program and to the outputs; its own memory is in `scratch`.
+    /// Keeps references to the program and the outputs. Its own memory is in `scratch`.
     LiveSet(const WorkingProgram&, std::span<const ProgramOutput>, Arena& scratch);
 
-    /// How many instructions are live, the input not counted.
+    /// The number of live instructions, without the input.
     std::size_t size() const { return size_; }
     bool has(std::size_t instruction) const { return instruction == 0 || is_live_[instruction]; }
 
-    /// The live instructions alone, with new numbers, as a program with these outputs.
+    /// The live instructions, renumbered, as a program with these outputs.
     WorkingProgram program(const Arenas&) const;
 
   private:

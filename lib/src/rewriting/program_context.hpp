@@ -5,12 +5,13 @@
 
 namespace phasetree::rewriting {
 
-/// What all programs that are derived from an object's program share with it. Some of it is what the caller knows of
-/// the whole object; the rest are questions that need not be asked of a derived program if the whole one says no.
+/// Data that all programs derived from an object's program share with it. Some of these are facts about the whole
+/// object supplied by the caller. The others save work: a property that the whole program lacks need not be tested in a
+/// derived one.
 struct ProgramContext {
     std::span<const float> constants;  ///< of the whole program; the instructions of derived programs refer to them
     PhaseSet opaque;                   ///< phases that no ray is ever in
-    /// A bound of the rounding error of any value, as a distance: half a resolution (cells/build.cpp).
+    /// An upper bound of the rounding error of any value, as a distance: half a resolution (cells/build.cpp).
     float value_error;
     bool has_folds;             ///< whether an instruction folds space
     bool has_local_primitives;  ///< whether an instruction is a LocalPrimitive

@@ -7,11 +7,11 @@ namespace phasetree::rewriting {
 
 using kernel::Routine, kernel::Step;
 
-/// Assigns registers of its own to every value, so that all values can be read after the program has run: one register
-/// to a number, three to a point. Returns how many registers there are.
+/// Assigns separate registers to every value, so that all values can be read after the program has run: one register
+/// per number, three per point. Returns the number of registers.
 std::uint32_t assign_slots(const WorkingProgram&, std::span<std::uint32_t> slot);
 
-/// The steps of a working program, with registers as assign_slots() assigns them. All of it is in an arena.
+/// The steps of a working program, with registers from assign_slots(). All memory is in an arena.
 struct ReadableSteps {
     std::span<const Step> steps;
     std::span<const std::uint32_t> data;  ///< for each step the index of its first constant

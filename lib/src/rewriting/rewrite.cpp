@@ -8,7 +8,7 @@ using program::has_constant, program::operands;
 
 namespace {
 
-// The other one of minimum and maximum.
+// Exchanges minimum and maximum.
 Op opposite(Op op) {
     return op == Op::minimum ? Op::maximum : Op::minimum;
 }
@@ -17,7 +17,7 @@ bool is_commutative(Op op) {
     return op == Op::minimum || op == Op::maximum || op == Op::add || op == Op::corner;
 }
 
-// Whether an operation has data. If it has none, the index of its data means nothing.
+// Whether an operation has data. If not, the index of its data is meaningless.
 bool has_data(Op op) {
     return has_constant(op) || op >= Op::first_primitive;
 }
@@ -27,12 +27,12 @@ bool has_data(Op op) {
 Rewriter::Rewriter(std::span<const float> constants, std::size_t instructions, Arena& arena,
                    std::vector<float>* new_constants)
     : constants_(constants.data()), new_constants_(new_constants) {
-    // Each instruction may take three: itself and the negations of both its operands.
+    // Each instruction may take three: itself and the negations of both operands.
     const std::size_t capacity = 3 * instructions + 2;
     code_ = arena.allocate<Instruction>(capacity);
     lipschitz_ = arena.allocate<float>(capacity);
     negation_ = arena.allocate<std::uint32_t>(capacity);
-    table_ = arena.allocate<std::uint32_t>(std::bit_ceil(capacity + 1));  // About a third of it is used.
+    table_ = arena.allocate<std::uint32_t>(std::bit_ceil(capacity + 1));  // about a third of it is used
     std::ranges::fill(table_, 0u);
     code_[0] = {};
     lipschitz_[0] = 1;
@@ -48,11 +48,11 @@ SignedValue Rewriter::append(const Instruction& in, float lipschitz) {
 }
 
 SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
-    // Constants may be added only when a program is rewritten for the first time. If none may be, it was rewritten
-    // before and has each primitive of the input point only once, so there is nothing to look up.
+    // Constants may be added only when a program is rewritten for the first time. If none may be added, the program was
+    // rewritten before, so each primitive of the input point occurs only once, and no lookup is needed.
     const bool was_rewritten = new_constants_ == nullptr;
     if (in.op >= Op::first_primitive && in.a == 0 && was_rewritten) return append(in, lipschitz);
-    // Constants are compared themselves and not their indices, because equal constants may have different ones.
+    // Compare the constants themselves instead of their indices, because equal constants may have different indices.
     const bool is_constant = has_constant(in.op), is_index = has_data(in.op);
     const auto content = [&](std::uint32_t data) {
         return is_constant ? std::bit_cast<std::uint32_t>(constants_[data]) : is_index ? data : 0u;
@@ -78,7 +78,7 @@ SignedValue Rewriter::emit(const Instruction& in, float lipschitz) {
     return append(in, lipschitz);
 }
 
-// The value −v. Of a + c it is (−c) − a, and of c − a it is a + (−c), if constants may be added.
+// The value −v. If constants may be added, the negation of a + c is (−c) − a, and that of c − a is a + (−c).
 std::uint32_t Rewriter::emit_negation(std::uint32_t v) {
     if (negation_[v]) return negation_[v];
     const Instruction in = code_[v];
@@ -96,21 +96,21 @@ std::uint32_t Rewriter::emit_negation(std::uint32_t v) {
     return n;
 }
 
-// A value for which there is a negation can be referred to in two ways: as itself, or as minus its negation. This
-// chooses the one of the two instructions that was written first, so that equal values have equal references.
+// A value that also exists in negated form can be referenced in two ways: as itself, or as minus its negation. This
+// chooses the instruction that was written first, so that equal values have equal references.
 SignedValue Rewriter::canonical(const SignedValue& v) const {
     const std::uint32_t negation = negation_[v.id()];
     return negation && negation < v.id() ? SignedValue{negation, !v.is_negative()} : v;
 }
 
-// The operands of a value that is the minimum, or the maximum, of two.
+// The operands of a value, if it is the minimum (or maximum) of two values.
 std::optional<Rewriter::Operands> Rewriter::operands_if(Op op, const SignedValue& v) const {
     const Instruction& in = code_[v.id()];
     if (in.op != (v.is_negative() ? opposite(op) : op)) return std::nullopt;
     return Operands{canonical({in.a, v.is_negative()}), canonical({in.b, v.is_negative()})};
 }
 
-// The minimum, or the maximum, of two values.
+// Writes the minimum or maximum of two values.
 SignedValue Rewriter::write_extremum(Op op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough) {
     for (int turn = 0; turn < 2; ++turn, std::swap(a, b)) {
         const auto same = operands_if(op, b);
@@ -118,13 +118,13 @@ SignedValue Rewriter::write_extremum(Op op, SignedValue a, SignedValue b, float 
         const auto inner = operands_if(opposite(op), b);
         if (!inner) continue;
         if (inner->a == a || inner->b == a) return a;
-        // Here b is max(−a, c), or min(−a, c), whose place c takes.
+        // Here b is max(−a, c) or min(−a, c), and c replaces it.
         if (is_sign_enough && (inner->a == -a || inner->b == -a)) b = inner->a == -a ? inner->b : inner->a;
     }
     if (a == b) return a;
     // min(a, −a) is −|a|.
     if (a == -b) return {emit({Op::absolute, a.id(), 0, 0}, lipschitz).id(), op == Op::minimum};
-    // If the signs differ, one operand must be negated: the one whose negation is there already.
+    // If the signs differ, one operand must be negated: preferably the one whose negation already exists.
     const bool is_negative = a.is_negative() == b.is_negative() ? a.is_negative()
                                                                 : negation_[(a.is_negative() ? a : b).id()] == 0 &&
                                                                       negation_[(a.is_negative() ? b : a).id()] != 0;
@@ -138,7 +138,7 @@ SignedValue Rewriter::write_extremum(Op op, SignedValue a, SignedValue b, float 
 
 SignedValue Rewriter::write(const Instruction& in, const SignedValue& left, const SignedValue& right, float lipschitz,
                             bool is_sign_enough) {
-    if (in.op >= Op::first_primitive) return emit({in.op, left.id(), 0, in.data}, lipschitz);  // Points have no sign.
+    if (in.op >= Op::first_primitive) return emit({in.op, left.id(), 0, in.data}, lipschitz);  // points have no sign
     const SignedValue a = canonical(left), b = canonical(right);
     switch (in.op) {
         case Op::negate:
@@ -148,7 +148,7 @@ SignedValue Rewriter::write(const Instruction& in, const SignedValue& left, cons
             return write_extremum(in.op, a, b, lipschitz, is_sign_enough);
         case Op::add:
         case Op::subtract: {
-            // The result is ±(|a| + |b|) or ±(|a| − |b|), where |a| and |b| stand for the values without their signs.
+            // The result is ±(|a| + |b|) or ±(|a| − |b|), where |a| and |b| denote the values without their signs.
             const bool is_difference = a.is_negative() != (b.is_negative() != (in.op == Op::subtract));
             const Op op = is_difference ? Op::subtract : Op::add;
             return {emit({op, a.id(), b.id(), 0}, lipschitz).id(), a.is_negative()};

@@ -5,8 +5,8 @@
 
 namespace phasetree::rewriting {
 
-/// A value of a program with a sign: the value `id`, or minus that. It is packed into one word, so that it is written
-/// and read again as a whole.
+/// A signed reference to a value of a program: the value `id`, or minus that value. It is packed into one word, so that
+/// it is read and written as a whole.
 class SignedValue {
   public:
     SignedValue() = default;
@@ -21,26 +21,27 @@ class SignedValue {
     std::uint32_t word_ = 0;
 };
 
-/// Writes a program again, instruction by instruction, in a shorter form (local value numbering with algebraic
+/// Rewrites a program in a shorter form, instruction by instruction (local value numbering with algebraic
 /// simplification):
-/// * Negations move outward, from operands to results and finally into the outputs' signs: min(−a, −b) = −max(a, b),
-///   −(a + c) = −c − a, (−a)·k = −(a·k) … The operators of objects negate a lot (φ₀ = −f, a layer's −a₀ − t); in a cell
-///   with a handful of instructions every third would be a negation.
-/// * The same operation on the same operands becomes one instruction. What pruning leaves of several objects is often
-///   equal.
+/// * Negations move outwards, from operands to results and finally into the signs of the outputs: min(−a, −b) = −max(a,
+///   b), −(a + c) = −c − a, (−a)·k = −(a·k) … The operators of objects negate a lot (φ₀ = −f, a layer's −a₀ − t). In a
+///   cell with a handful of instructions, every third one would otherwise be a negation.
+/// * The same operation on the same operands becomes a single instruction. After pruning, what is left of several
+///   objects is often equal.
 /// * min(a, a) = a, max(a, −a) = |a|, min(a, max(a, b)) = a, min(a, min(a, b)) = min(a, b).
 /// * Where only the sign matters, min(a, max(−a, b)) becomes min(a, b), which is as steep and nowhere nearer to zero.
 /// All of these also hold with min and max exchanged. Rounding is symmetric, so values stay the same except for the
 /// sign of a zero.
 class Rewriter {
   public:
-    /// Has room for this many calls of write(). `new_constants` is null if no constants may be added; otherwise it is
-    /// the vector behind `constants`, and it must have capacity for one more per instruction, since it may not move.
+    /// Has room for this many calls of write(). `new_constants` is null if no constants may be added. Otherwise it is
+    /// the vector viewed by `constants`; it must have spare capacity for one constant per instruction, because it must
+    /// not reallocate.
     Rewriter(std::span<const float> constants, std::size_t instructions, Arena&,
              std::vector<float>* new_constants = nullptr);
 
-    /// Writes an instruction `in`, whose operands are now the values `a` and `b`, and returns what its value is now.
-    /// `is_sign_enough` says that only the sign of this value matters.
+    /// Writes an instruction `in` whose operands are now the values `a` and `b`. Returns its new value.
+    /// `is_sign_enough` means that only the sign of this value matters.
     SignedValue write(const Instruction& in, const SignedValue& a, const SignedValue& b, float lipschitz,
                       bool is_sign_enough);
 
@@ -54,11 +55,11 @@ class Rewriter {
 
     /// Appends an instruction.
     SignedValue append(const Instruction&, float lipschitz);
-    /// Appends an instruction unless an equal one is there, and returns the value of that.
+    /// Appends an instruction unless an equal one exists. Returns its value.
     SignedValue emit(const Instruction&, float lipschitz);
     SignedValue write_extremum(Op, SignedValue a, SignedValue b, float lipschitz, bool is_sign_enough);
     std::uint32_t emit_negation(std::uint32_t);
-    /// The number of a value that is equal to a signed one; a negation is emitted where there is none yet.
+    /// The index of a value equal to a signed one. Emits a negation if none exists yet.
     std::uint32_t emit_unsigned(const SignedValue& v) { return v.is_negative() ? emit_negation(v.id()) : v.id(); }
     SignedValue canonical(const SignedValue&) const;
     std::optional<Operands> operands_if(Op, const SignedValue&) const;
@@ -68,11 +69,11 @@ class Rewriter {
     std::size_t size_ = 0;
     std::span<Instruction> code_;
     std::span<float> lipschitz_;
-    std::span<std::uint32_t> negation_;  ///< for each value the number of the value that is minus it, or 0
-    std::span<std::uint32_t> table_;     ///< instructions by their hash (open addressing); 0 where there is none
+    std::span<std::uint32_t> negation_;  ///< for each value: the index of its negation, or 0
+    std::span<std::uint32_t> table_;     ///< instructions by hash (open addressing); 0 for empty entries
 };
 
-/// The whole of a program rewritten. New constants are appended to the program's.
+/// Rewrites a whole program. Appends new constants to the program's.
 WorkingProgram rewrite(Program&, Arena&);
 
 }  // namespace phasetree::rewriting

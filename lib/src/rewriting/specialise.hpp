@@ -7,15 +7,16 @@
 #include "program/dispatch.hpp"
 #include "rewriting/working_program.hpp"
 
-/// Primitives of which little matters in a small box (LocalPrimitive in model/concepts.hpp). A Voronoi pattern looks at
-/// 125 sites for each point, and in a small box nearly all of them change nothing. There a program has a specialised
-/// primitive in its place, whose data are the few sites that matter; its values are the same to the last bit.
+/// Specialisation of primitives of which only a small part matters in a small box (LocalPrimitive in
+/// model/concepts.hpp). For example, a Voronoi pattern examines 125 sites per point, and in a small box nearly all of
+/// them have no effect. The program of such a box uses a specialised primitive instead, whose data are the few sites
+/// that matter. Its values are the same to the last bit.
 namespace phasetree::rewriting {
 
 using program::traits;
 
-/// How far up the values of a local primitive are required in a region (pruning/required_interval.hpp): of larger ones
-/// only that they are larger.
+/// The upper limit up to which the values of a local primitive are required in a region
+/// (pruning/required_interval.hpp). Of larger values, only the fact that they are larger matters.
 struct RequiredOfLocal {
     std::uint32_t source;  ///< see Specialisation::source
     float high;
@@ -26,12 +27,13 @@ struct Specialisation {
     static constexpr std::uint32_t no_source = 0xffffffff;
 
     std::uint32_t value = 0;  ///< the primitive's instruction
-    /// The index of the general primitive's constants, by which a smaller box finds this specialisation again, although
-    /// instructions are renumbered; no_source if several instructions of the program share these constants.
+    /// The index of the general primitive's constants. A smaller box uses it to find this specialisation again,
+    /// although instructions are renumbered. It is no_source if several instructions of the program share these
+    /// constants.
     std::uint32_t source = no_source;
     Op op{};                               ///< the operation of P::Specialised
-    std::span<const float> data{};         ///< the data of that; empty if the primitive is not replaced
-    unsigned half_instructions_saved = 0;  ///< by how much it is less work (OpTraits::half_instructions)
+    std::span<const float> data{};         ///< its data; empty if the primitive is not replaced
+    unsigned half_instructions_saved = 0;  ///< the work that it saves (OpTraits::half_instructions)
 
     template <AnyLocalPrimitive P>
     static Specialisation of(std::span<const float> data) {
@@ -47,13 +49,13 @@ inline bool has_local_primitive(const WorkingProgram& program) {
 
 /// The program with specialised primitives instead of local ones. Their data are appended to `floats`. Such an
 /// instruction (OpTraits::is_specialised) no longer refers to the whole program's constants: its index is `first` plus
-/// the offset in `floats`. To evaluate the program at once `first` is where a copy of `floats` stands behind those
-/// constants (SharedConstants); in a cell that is kept it is 0, until routines give these data an offset
-/// (RoutineBuilder).
+/// the offset in `floats`. To evaluate the program immediately, `first` is the position of a copy of `floats` after
+/// those constants (SharedConstants). In a cell that is kept, `first` is 0 until routines assign an offset to these
+/// data (RoutineBuilder).
 WorkingProgram specialised(const WorkingProgram&, std::span<const Specialisation>, std::vector<float>& floats,
                            Arena& scratch, std::uint32_t first = 0);
 
-/// The data of an instruction that specialised() has made: the first of `floats`.
+/// The data of an instruction created by specialised(), at the beginning of `floats`.
 std::span<const float> data_of_specialised(Op, std::span<const float> floats);
 
 }  // namespace phasetree::rewriting

@@ -10,9 +10,9 @@ namespace phasetree::rewriting {
 
 using program::ProgramOutput;
 
-/// A program that is derived from an object's program for a part of space. It is as Program, except that its constants
-/// remain those of the whole program (ProgramContext::constants), and that an operand which an operation does not take
-/// is 0, the input. Copies are cheap and refer to the same arena.
+/// A program derived from an object's program for a part of space. It differs from Program in two ways: its constants
+/// remain those of the whole program (ProgramContext::constants), and an unused operand is 0, the input. Copies are
+/// cheap and refer to the same arena.
 struct WorkingProgram {
     std::span<const Instruction> code;  ///< code[0] is the input point
     std::span<const float> lipschitz;   ///< a Lipschitz bound of each value

@@ -17,8 +17,8 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(), which asks for size() before each step. They end behind a fold of space that
-// jumps between the values of its point, because an enclosure across a jump would be wrong; has_jumped() says so.
+// The steps of a routine for interpret(), which calls size() before each step. The list ends after a fold of space that
+// jumps between the values of its point, because an enclosure across a jump would be wrong. has_jumped() reports this.
 class StepsUpToJump {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers)
@@ -50,11 +50,11 @@ class StepsUpToJump {
     mutable bool has_jumped_ = false;
 };
 
-// Tightens the enclosure of a convex primitive at points that go along a straight line, for t between −half and half. A
-// convex function lies below the chord through its values at both ends, so it is at most the larger of these. Behind
-// two values it lies above the line through them. So over the stretch it falls by no more than it fell over an equal
-// length before, and seen from the other end it rises by no more than over an equal length behind. This holds even
-// where the derivatives of the equation are not known, as those of a square root at zero.
+// Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
+// lies below the chord through its values at both ends, so it is at most the larger of these. Beyond two of its values,
+// it lies above the line through them. So over the stretch it falls by no more than it fell over an equal length
+// before; seen from the other end, it rises by no more than over an equal length after. This holds even where the
+// derivatives of the equation are unknown, such as those of a square root at zero.
 template <class P>
 void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
     if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
@@ -92,7 +92,7 @@ double ComponentAlongRay::upper_bound(float t_low, float t_high, double precisio
         registers_[static_cast<std::size_t>(i)] =
             Enclosure(centre, {centre - half_width, centre + half_width}, {Range{along, along}}, {along}, {});
     }
-    // The first axis of the enclosures' box stands for t; the others are not used.
+    // The first axis of the enclosures' box represents t; the others are unused.
     const Enclosure::Vector extent{half, 0, 0};
     StepsUpToJump steps(routine_, registers_.data());
     interpret(

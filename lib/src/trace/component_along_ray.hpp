@@ -8,15 +8,16 @@
 
 namespace phasetree::trace {
 
-/// The component of a ray's phase as a function of the distance t along the ray, enclosed over stretches of it: the
-/// routine is run with `Enclosure`s of the one variable t.
+/// The component of a ray's phase as a function of the distance t along the ray, enclosed over stretches of it. The
+/// routine is run with `Enclosure`s of the single variable t.
 class ComponentAlongRay {
   public:
-    /// For a search that is unfinished in the phase RayCrossing::from. The visit's routine must outlive the object.
+    /// For a search that was left unfinished in the phase RayCrossing::from. The visit's routine must outlive this
+    /// object.
     ComponentAlongRay(const kernel::Visit&, const kernel::RayCrossing&);
 
-    /// An upper bound of the component between two distances along the ray; Range::most if none is known. A bound that
-    /// is less than `precision` too high is as good as the best one.
+    /// An upper bound of the component between two distances along the ray; Range::most if none is known. The caller
+    /// does not need a bound that is tighter than `precision`.
     double upper_bound(float t_low, float t_high, double precision);
 
   private:

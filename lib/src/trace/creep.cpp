@@ -14,16 +14,17 @@ using kernel::few_slots, kernel::RayCrossing, kernel::Visit;
 
 namespace {
 
-// The lengths, in resolutions, of the first stretch that is enclosed and of the shortest. Shorter ones are sampled in
-// the time that it takes to enclose them.
+// The lengths, in resolutions, of the first stretch to enclose and of the shortest. Sampling a shorter one takes no
+// longer than enclosing it.
 constexpr float first_stretch = 1024, shortest_stretch = 256;
-// What enclosing a stretch costs, in batches of samples.
+// The cost of enclosing a stretch, in batches of samples.
 constexpr std::uint64_t batches_to_enclose = 32;
-// The batches of one walk, and those of a search after which steps become longer than the resolution.
+// The number of batches per walk, and the number of batches of a search after which steps become longer than the
+// resolution.
 constexpr std::uint64_t batches_of_walk = 256, most_batches = 524'288;
-// A ray that is farther than this from an interface, in resolutions, does not creep.
+// A ray farther than this from an interface, in resolutions, does not creep.
 constexpr float away = 16;
-// The length of a step of a walk, in resolutions. It is below 1, because positions are rounded.
+// The length of a step of a walk, in resolutions. It is below 1 because positions are rounded.
 constexpr float step_length = 0.95f;
 
 // The rest of an unfinished search.
@@ -32,7 +33,7 @@ class Creep {
     Creep(const Visit& visit, RayCrossing& c, TraceCounters& counters)
         : visit_(visit), crossing_(c), counters_(counters), component_(visit, c), t_(c.t_in) {}
 
-    // Alternates enclosed stretches, walks and searches by the kernel until one of these finishes.
+    // Alternates enclosed stretches, walks and searches by the kernel until one of them finishes.
     bool finish() {
         Visit rest = visit_;
         for (float step = visit_.resolution;;) {
@@ -40,7 +41,7 @@ class Creep {
             do {
                 pass_enclosed();
             } while (walk(step));
-            // The search has taken too long, and neither the stretches nor the walks have gone on by a step.
+            // The search has taken too long, and neither stretches nor walks have advanced by a step.
             if (spent_ > most_batches && !(t_ - previous > step) && !leap(step)) return false;
             rest.t_begin = t_;
             const bool is_hit = active_kernel().visit(rest, crossing_);
@@ -59,7 +60,7 @@ class Creep {
     struct Batch {
         BatchOfFloats t, label, distance;
     };
-    // Samples eight points behind `begin`, `step` apart, none beyond `end`.
+    // Samples eight points after `begin`, `step` apart, up to `end`.
     Batch sample(float begin, float step, float end) {
         Batch s;
         for (std::size_t i = 0; i < batch_size; ++i) s.t[i] = std::min(begin + step * static_cast<float>(i + 1), end);
@@ -70,8 +71,8 @@ class Creep {
         spend(1);
         return s;
     }
-    // Samples eight points between `begin` and `end`, and goes to the last of them that has the label of the ray's
-    // phase. Returns whether there is one.
+    // Samples eight points between `begin` and `end`, and moves to the last one with the label of the ray's phase.
+    // Returns whether there is one.
     bool go_to(float begin, float end) {
         const Batch s = sample(begin, (end - begin) / batch_size, end);
         for (std::size_t i = batch_size; i-- > 0;)
@@ -82,8 +83,8 @@ class Creep {
         return false;
     }
 
-    // Goes on behind stretches in which no other phase is deeper than the rounding error. Their length doubles while
-    // that is proven, and is halved where it is not.
+    // Passes stretches in which no other phase is deeper than the rounding error. Their length doubles while that is
+    // proven, and is halved where it is not.
     void pass_enclosed() {
         const float resolution = visit_.resolution;
         float end = t_;
@@ -93,17 +94,18 @@ class Creep {
             if (!(next > end)) break;
             spend(batches_to_enclose);
             const double rounding_error = static_cast<double>(resolution) / 16;
-            // The bound is below the rounding error: no change of label counts up to `next`.
+            // The bound is below the rounding error: no change of label counts before `next`.
             const bool is_free = component_.upper_bound(end, next, 0.1 * rounding_error) < rounding_error;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }
-        // The search goes on from a point in the ray's phase: near the end of what is proven, or else anywhere in it.
+        // Resume from a point in the ray's phase: preferably near the end of the proven stretch, otherwise anywhere in
+        // it.
         if (end > t_ && !go_to(std::max(t_, end - 8 * resolution), end)) go_to(t_, end);
     }
-    // Walks in steps while the label stays the same and the interface is near. The step is made twice as long first if
-    // the search has taken too long, and is a resolution again once the ray is away from the interface. Returns whether
-    // the ray still creeps, so that a stretch may be enclosed again.
+    // Walks in steps while the label stays the same and the interface is near. If the search has taken too long, the
+    // step is doubled first. It returns to one resolution once the ray is away from the interface. Returns whether the
+    // ray still creeps, so that enclosing another stretch may help.
     bool walk(float& step) {
         if (spent_ > most_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;
@@ -114,7 +116,7 @@ class Creep {
             for (std::size_t i = 0; i < batch_size; ++i) {
                 const bool was_other = is_other;
                 is_other = s.label[i] != crossing_.from;
-                // A single sample of another label that is no deeper than the rounding error is not decided.
+                // A single sample of another label, no deeper than the rounding error, does not decide a change.
                 if (is_other && (was_other || !(s.distance[i] < resolution / 16))) return false;
                 if (!is_other) t_ = s.t[i];
             }
@@ -128,8 +130,8 @@ class Creep {
         }
         return true;
     }
-    // Goes on from a point from which neither a walk nor a search went on, by longer and longer steps. Returns false at
-    // the ray's end.
+    // Advances, by longer and longer steps, from a point where neither a walk nor a search made progress. Returns false
+    // at the ray's end.
     bool leap(float& step) {
         do {
             if (go_to(t_, std::min(t_ + batch_size * step, crossing_.length))) return true;

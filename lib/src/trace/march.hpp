@@ -7,12 +7,12 @@ namespace phasetree::trace {
 
 using kernel::Visit;
 
-/// The first change of label along a ray within a box, which the kernel finds (kernel/visit.inl); a search that the
-/// kernel leaves unfinished is finished. It starts where the ray enters the box, so that t is small and exact there. A
-/// ray that starts inside keeps its own origin. The counters are added to.
+/// Finds the first change of label along a ray within a box with the kernel (kernel/visit.inl), and finishes the search
+/// if the kernel leaves it unfinished. The search starts where the ray enters the box, so that t is small and exact
+/// there. A ray that starts inside keeps its own origin. Adds to the counters.
 std::optional<Crossing> first_crossing(const Visit&, TraceCounters&);
 
-/// A phase in the form of Visit::carried.
+/// A phase in the representation of Visit::carried.
 inline float carried_by(const std::optional<Phase>& phase) {
     return phase ? static_cast<float>(phase->index) : -1.f;
 }

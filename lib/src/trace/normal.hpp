@@ -12,18 +12,18 @@ using evaluation::Component;
 
 /// The normal of a crossing, from the gradients of the components on its two sides.
 ///
-/// At the bracket's ends components are mostly half a resolution from zero, but sometimes zero up to rounding errors,
-/// where the gradient is meaningless: that of √(x² + z²) is along an axis if the coordinates are an ulp each, and zero
-/// if they are zero; and near an edge it may belong to a face that the ray does not cross. So a gradient is accepted
-/// only if it agrees with the component's value: a plane with this normal and distance must cross the ray within the
-/// bracket. If the gradient at the near end does not, others are tried, in this order:
+/// At the bracket's ends, components are usually half a resolution from zero. Sometimes they are zero up to rounding
+/// errors, where the gradient is meaningless. For example, the gradient of √(x² + z²) is along an axis if the
+/// coordinates are an ulp each, and zero if they are zero; near an edge it may belong to a face that the ray does not
+/// cross. So a gradient is accepted only if it agrees with the component's value: a plane with this normal and distance
+/// must cross the ray within the bracket. If the gradient at the near end does not, others are tried, in this order:
 ///  * a resolution before the bracket on the ray;
-///  * a resolution from the near end into `from`, against the normal of the point before, then against its own;
-///  * the far end, a resolution behind it on the ray, and a resolution from it into `to`, along the last normal;
-///  * two resolutions from both ends along the coordinate axes, of which the point deepest in its phase is taken.
-/// If none agrees, the normal is taken that has the smallest angle to the ray.
+///  * a resolution from the near end into `from`, against the normal of the previous point, then against its own;
+///  * the far end, a resolution beyond it on the ray, and a resolution from it into `to`, along the last normal;
+///  * two resolutions from both ends along the coordinate axes, taking the point deepest in its phase.
+/// If none agrees, the normal with the smallest angle to the ray is taken.
 ///
-/// `component(p, phase)` gives a component and its gradient, and `holds(p)` says whether it can do so at p.
+/// `component(p, phase)` returns a component and its gradient, and `holds(p)` says whether it is valid at p.
 template <class ComponentAt, class Holds>
 class NormalOf {
   public:
@@ -41,16 +41,16 @@ class NormalOf {
         if (s.is_sound && s.cosine > 0) [[likely]]
             return {s.normal, s.steepness * s.normal};
         const glm::vec3 found = sought(s);
-        // If both agree, that of the near end is taken, because the ray is reflected there.
+        // If both agree, take the one of the near end, because the ray is reflected there.
         return {along_the_ray(glm::dot(s.normal, found) > 0.9999f ? s.normal : found)};
     }
 
   private:
-    /// The side on which a component is evaluated: that of `from` about the near end, which grows along the normal, or
-    /// that of `to` about the far end, which falls.
+    /// The side on which a component is evaluated: `from` near the near end, where it grows along the normal, or `to`
+    /// near the far end, where it falls.
     enum Side { near_side, far_side };
-    /// The smallest cosine of a normal to the ray that is accepted. It is below zero, because a ray that creeps along
-    /// an interface, where its label is a matter of rounding errors, may cross it slightly against its normal.
+    /// The smallest accepted cosine between a normal and the ray. It is negative, because a ray that creeps along an
+    /// interface, where rounding errors determine its label, may cross it slightly against its normal.
     static constexpr float least_cosine = -0.1f;
 
     struct Sample {
@@ -61,9 +61,9 @@ class NormalOf {
         bool is_sound = false;  ///< whether the gradient agrees with the value
     };
 
-    /// The component of a side at an offset from that end of the bracket. It is sound if its value is farther from zero
-    /// than the rounding error, and if the plane of this value and gradient crosses the ray within the bracket, but for
-    /// rounding errors.
+    /// The component of a side at an offset from that end of the bracket. It is sound under two conditions: its value
+    /// is farther from zero than the rounding error, and the plane given by this value and gradient crosses the ray
+    /// within the bracket, up to rounding errors.
     Sample sample(Side side, const glm::vec3& away) const {
         const bool is_near = side == near_side;
         const Component c = component_((is_near ? c_.p_in : c_.p_out) + away, is_near ? c_.from : c_.to);
@@ -73,21 +73,21 @@ class NormalOf {
         s.normal = c.gradient * ((is_near ? 1 : -1) / s.steepness);
         s.cosine = glm::dot(s.normal, direction_);
         s.depth = -c.value / s.steepness;
-        // At an end of the bracket the gradient is wrong more often, so the test is stricter.
+        // The gradient is wrong more often at an end of the bracket, so the test is stricter there.
         const bool is_end = away == glm::vec3(0);
         const float rounding_error = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
-        // By the plane: how deep this end of the bracket is, and how deep it would be if the plane crossed the ray at
-        // the other end.
+        // According to the plane: the depth of this end of the bracket, and the depth it would have if the plane
+        // crossed the ray at the other end.
         const float depth_at_end = s.depth + (is_near ? across : -across), bracket_depth = width_ * s.cosine;
         s.is_sound = s.depth >= rounding_error && depth_at_end >= std::min(bracket_depth, 0.f) - rounding_error &&
                      depth_at_end <= std::max(bracket_depth, 0.f) + rounding_error;
         return s;
     }
 
-    /// The normal where the gradient at the near end is not sound.
+    /// Finds a normal if the gradient at the near end is not sound.
     glm::vec3 sought(const Sample& near) const {
         Sample best = near;
-        // Takes a sample that is sound, and returns whether it is; else keeps it if it points more along the ray.
+        // Accepts a sample and returns true if it is sound. Otherwise, keeps it if it points more along the ray.
         const auto take = [&](const Sample& s) {
             if (s.is_sound && s.cosine > least_cosine) {
                 best = s;
@@ -101,7 +101,7 @@ class NormalOf {
             return is_held ? sample(side, away) : Sample();
         };
         const float far = resolution_;
-        // The sample a resolution from that side's end straight into its phase, by the normal of s.
+        // The sample a resolution from that side's end, straight into its phase along the normal of s.
         const auto aside = [&](Side side, const Sample& s) {
             return at(side, (side == near_side ? -far : far) * s.normal);
         };
@@ -111,7 +111,7 @@ class NormalOf {
         const Sample beyond = at(far_side, glm::vec3(0)), behind = at(far_side, far * direction_);
         if (take(beyond) || take(behind) || take(aside(far_side, behind))) return best.normal;
 
-        // None of these is sound. Of the sound ones along the coordinate axes, the deepest is taken.
+        // None of these is sound. Take the deepest of the sound ones along the coordinate axes.
         Sample deepest;
         for (const Side side : {near_side, far_side})
             for (int i = 0; i < 6; ++i) {
@@ -123,12 +123,12 @@ class NormalOf {
         return deepest.is_sound ? deepest.normal : best.normal;
     }
 
-    /// Normals must point along the ray. One that does not because of rounding errors is turned as little as needed;
-    /// one that clearly points back belongs to the other face of something thin, and is reversed.
+    /// Makes a normal point along the ray. A normal that fails to do so because of rounding errors is rotated as little
+    /// as needed. One that clearly points back belongs to the opposite face of something thin, and is reversed.
     glm::vec3 along_the_ray(const glm::vec3& n) const {
         const float cosine = glm::dot(n, direction_);
         if (cosine > 0) return n;
-        if (n == glm::vec3(0)) return direction_;  // no gradient was found at all
+        if (n == glm::vec3(0)) return direction_;  // no gradient was found
         if (cosine < least_cosine) return -n;
         return glm::normalize(n + (1e-6f - cosine) * direction_);
     }

@@ -1,6 +1,6 @@
-// The resolution at which an object can be traced. A coordinate has an error of half a unit in the last place, which is
-// at most 6·10⁻⁸ of the largest one; a field's value has an error of a few such units of the coordinates that it
-// depends on.
+// Chooses the resolution at which an object can be traced. A coordinate has an error of half a unit in the last place,
+// at most 6·10⁻⁸ of the largest coordinate. A field's value has an error of a few such units of the coordinates on
+// which it depends.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,16 @@ namespace phasetree {
 
 namespace {
 
-// The finest resolution, as a share of the farthest coordinate: two to four units in the last place. There are no
-// floats to sample at a finer one.
+// The finest resolution, as a fraction of the farthest coordinate: two to four units in the last place. At finer ones,
+// there are no floats to sample.
 constexpr float finest = 2.5e-7f;
-// The resolution that is chosen, as a share of the farthest coordinate and of the diagonal, the larger of the two. The
-// rounding error of values does not show at it.
+// The chosen resolution, as fractions of the farthest coordinate and of the diagonal; the larger product is used. At
+// this resolution, the rounding errors of values are invisible.
 constexpr float of_farthest = 1e-6f, of_diagonal = 2e-6f;
-// The coarsest resolution, as a share of the diagonal: a coarser one would miss much of the object.
+// The coarsest resolution, as a fraction of the diagonal. A coarser one would miss much of the object.
 constexpr float coarsest = 0.01f;
-// A resolution coarser than this, as a share of the diagonal, is warned of. One is chosen only if the object is far
-// from the origin.
+// Warn about a resolution coarser than this fraction of the diagonal. It is chosen only for an object far from the
+// origin.
 constexpr float poor = 1e-3f;
 
 }  // namespace

@@ -30,12 +30,12 @@ InterfaceTracer::InterfaceTracer(const Phased& object, std::vector<HalfSpace> ar
 
 namespace {
 
-// Cuts [t_min, t_max] down to what of a ray is within half-spaces, a little moved outward.
+// Clips [t_min, t_max] to the part of a ray within half-spaces, which are moved outwards slightly.
 void clip(std::span<const HalfSpace> around, float outward, const glm::vec3& origin, const glm::vec3& direction,
           float& t_min, float& t_max) {
     double near = static_cast<double>(t_min), far = static_cast<double>(t_max);
     clip_line(around, glm::dvec3(origin), glm::dvec3(direction), near, far, static_cast<double>(outward));
-    // Outward by more than the rounding to floats.
+    // Move outwards by more than the error of rounding to floats.
     t_min = std::max(t_min, static_cast<float>(near - 1.2e-7 * std::abs(near)));
     t_max = std::min(t_max, static_cast<float>(far + 1.2e-7 * std::abs(far)));
 }
@@ -49,7 +49,7 @@ std::optional<Crossing> InterfaceTracer::first_crossing(const glm::vec3& origin,
     TraceCounters& c = counters ? *counters : unused;
     const Assembly& assembly = *evaluator_->assembly_;
     if (!around_.empty() && carried.value_or(vacuum) == vacuum) {
-        // A ray in the vacuum meets nothing before it comes to the half-spaces, and none after it has left them.
+        // A ray in the vacuum meets nothing before it enters the half-spaces, and nothing after it leaves them.
         clip(around_, 8 * resolution_, origin, direction, t_min, t_max);
         if (t_max < t_min) return std::nullopt;
     }

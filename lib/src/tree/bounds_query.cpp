@@ -13,8 +13,8 @@ using model::PreparationTogether;
 
 namespace {
 
-// A box with those sides of a tighter box that are tighter by more than a hundredth of its size. Other sides stay where
-// they are, so that rounding errors do not move them.
+// Returns `box` with only those sides moved that are tighter in `tighter` by more than a hundredth of its size. The
+// other sides stay in place, so that rounding errors do not move them.
 Bounds tightened(const Bounds& box, const Bounds& tighter) {
     if (tighter.empty()) return {};
     Bounds result = box;
@@ -53,14 +53,14 @@ struct BoundsQuery::Memory {
             return hash;
         }
     };
-    std::unordered_map<Key, Bounds, Hash> boxes;                        // the answers by boxes
-    std::unordered_map<DirectedKey, Bounds, Hash> directed;             // the answers by directions
-    std::unordered_map<const void*, std::unordered_set<float>> levels;  // for which each node was asked
-    std::size_t asked = 0;  // the number of subtrees that were asked by directions since the root was
+    std::unordered_map<Key, Bounds, Hash> boxes;                        // answers by boxes
+    std::unordered_map<DirectedKey, Bounds, Hash> directed;             // answers by directions
+    std::unordered_map<const void*, std::unordered_set<float>> levels;  // the levels for which each node was queried
+    std::size_t asked = 0;  // the number of subtrees queried by directions since the root was
 
-    // The level for which a node is asked instead of the given one. A tree of offsets of shared subtrees can ask for
-    // exponentially many levels, so beyond the first few they are rounded up to few numbers: the box of a higher level
-    // contains that of a lower.
+    // The level for which a node is queried instead of the given one. A tree of offsets of shared subtrees can query
+    // exponentially many levels. So beyond the first few, levels are rounded up to a small set of numbers: the box of a
+    // higher level contains that of a lower one.
     float rounded_level(const void* node, float level) {
         std::unordered_set<float>& known = levels[node];
         if (known.contains(level)) return level;
@@ -77,7 +77,7 @@ struct BoundsQuery::Memory {
 BoundsQuery::BoundsQuery() : memory_(std::make_unique<Memory>()) {}
 BoundsQuery::~BoundsQuery() = default;
 
-// The box of six supports, with a margin for rounding errors, which grows with the largest of them.
+// The box of six supports, with a margin for rounding errors that grows with the largest of them.
 Bounds BoundsQuery::gathered(const Supports& supports) {
     double largest = 0;
     for (const double r : supports)
@@ -91,7 +91,7 @@ Bounds BoundsQuery::gathered(const Supports& supports) {
     return b;
 }
 
-// The box of a child's six supports, with what a map of space adds to each.
+// The box of a child's six supports, after adding to each what a map of space contributes.
 Bounds BoundsQuery::moved(const Bounds& box, const Supports& more) {
     if (box.low.x == Bounds::infinity) return {};
     Supports supports;
@@ -107,7 +107,7 @@ Bounds BoundsQuery::moved(const Bounds& box, const Supports& more) {
 Bounds BoundsQuery::placed(const Bounds& box) const {
     if (is_by_boxes()) return box;
     if (box.empty()) return {};
-    // A side at infinity counts only for directions that are not parallel to it.
+    // An infinite side counts only for directions that are not parallel to it.
     Supports supports{};
     for (std::size_t k = 0; k < supports.size(); ++k) {
         for (int i = 0; i < 3; ++i) {
@@ -120,8 +120,8 @@ Bounds BoundsQuery::placed(const Bounds& box) const {
 
 template <class Handle>
 Bounds BoundsQuery::by_boxes(const Handle& handle, float level) {
-    // Nodes also ask when they are made, each with a new query, so questions are paid for: one by boxes counts as 60
-    // steps, one by directions as 120.
+    // Nodes also query bounds when they are created, each with a new query, so the work is charged: 60 steps for a
+    // query by boxes, 120 for one by directions.
     PreparationTogether::pay("bounds", 60);
     const typename Memory::Key key{handle.node(), memory_->rounded_level(handle.node(), level)};
     if (const auto found = memory_->boxes.find(key); found != memory_->boxes.end()) return found->second;
@@ -167,7 +167,7 @@ Bounds BoundsQuery::along_own_axes(const Handle& handle, float level) {
     return b;
 }
 
-// The answer in the way that is asked for. The root is asked in both ways, and gets the intersection.
+// The answer in the requested way. The root is queried in both ways, and gets the intersection.
 template <class Handle>
 Bounds BoundsQuery::answer(const Handle& handle, float level) {
     if (way_ == Way::by_boxes) return by_boxes(handle, level);

@@ -30,7 +30,7 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
     s.depth = std::max(s.depth, handle.node()->depth);
     std::visit(
         [&](const auto& n) {
-            // A node counts as large as its own struct, although the variant has room for the largest one. The two
+            // A node counts with the size of its own struct, although the variant has room for the largest one. The two
             // pointers of the handle that refers to it are added.
             s.nodes += 1;
             s.bytes += sizeof(n) + 2 * sizeof(void*);
@@ -39,7 +39,7 @@ void count(const Handle& handle, std::unordered_set<const void*>& seen, TreeStat
                 if constexpr (requires { value.content; })
                     if (value.content) s.bytes += value.content->bytes();
             });
-            // What nodes derive from their parameters and keep counts, too.
+            // Data that nodes derive from their parameters and keep count, too.
             if constexpr (requires { n.derived_bytes(); })
                 s.bytes += n.derived_bytes();
             else if constexpr (requires { n.data(); })

@@ -16,7 +16,7 @@ concept IsLevelOfDetail = requires {
     Node::is_level_of_detail;
 };
 
-// A warp that keeps angles and puts its child in one place.
+// A warp that preserves angles and places its child exactly once.
 template <class Warp>
 concept KeepsAngles = std::is_same_v<Warp, Translate> || std::is_same_v<Warp, Rotate> || std::is_same_v<Warp, Scale>;
 
@@ -24,7 +24,7 @@ class Choice {
   public:
     explicit Choice(float angle) : angle_(angle) {}
 
-    // Subtrees that have no such node are kept, and shared subtrees stay shared where the view is the same.
+    // Subtrees without such a node are kept, and shared subtrees stay shared where the view is the same.
     template <class Handle>
     Handle chosen(const Handle& tree, const glm::vec3& view) {
         if (!tree || !has_levels(tree)) return tree;
@@ -40,7 +40,7 @@ class Choice {
   private:
     using Key = std::tuple<const void*, float, float, float>;
 
-    // The view of what is below a node; nothing if that is no single place.
+    // The view of the node's child; nothing if the child appears in several places.
     template <class Node>
     static std::optional<glm::vec3> view_below(const Node& node, const glm::vec3& view) {
         if constexpr (requires { node.warp; }) {

@@ -1,5 +1,4 @@
-// Nodes become handles here, for all types of the list: their parameters are checked, and what they derive from them is
-// prepared.
+// Turns nodes of all types in the list into handles: checks their parameters and prepares derived data.
 #include <fmt/format.h>
 #include <stdexcept>
 #include <typeindex>
@@ -29,7 +28,7 @@ void check(const glm::vec3& v, std::string_view node, const Parameter& p) {
 void check(const glm::vec2& v, std::string_view node, const Parameter& p) {
     for (int i = 0; i < 2; ++i) check(v[i], node, p);
 }
-// Texts are checked by the node itself.
+// Each node checks its own texts.
 void check(const std::string&, std::string_view, const Parameter&) {}
 void check(Phase v, std::string_view node, const Parameter& p) {
     require(v != vacuum && v.index < Phase::capacity, node, p, "must be a phase other than the vacuum");

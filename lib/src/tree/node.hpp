@@ -1,25 +1,25 @@
-// The variants that hold a node of a tree, and the functions that are derived from a node's list of parameters.
+// The variants that hold a node of a tree, and the functions derived from a node's list of parameters.
 #pragma once
 
 #include "phasetree/nodes/list.hpp"
 
 namespace phasetree {
 
-/// A node of a field's tree, as the handle Field holds it.
+/// A node of a field's tree, as held by the handle Field.
 struct FieldNode {
     detail::Variant<FieldNodes>::type node;
-    std::size_t depth = 1;  ///< of the tree below, this node included
+    std::size_t depth = 1;  ///< of the tree from this node down
 };
 
-/// A node of an object's tree, as the handle Phased holds it.
+/// A node of an object's tree, as held by the handle Phased.
 struct PhasedNode {
     detail::Variant<PhasedNodes>::type node;
     std::size_t depth = 1;
     PhaseSet phases;
 };
 
-/// The member of a node that an entry of its parameter list names. Warped nodes overload this, to reach the members of
-/// their warp.
+/// The member of a node that an entry of its parameter list refers to. Warped nodes overload this to reach the members
+/// of their warp.
 template <class Node, class T, class Class>
 decltype(auto) access(Node& node, T Class::*member) {
     return (node.*member);

@@ -9,7 +9,7 @@ namespace phasetree {
 
 namespace {
 
-// Makes each node again whose parameters change; a tree of one field is the same handle as before.
+// Recreates each node whose parameters change. Unchanged subtrees, such as pure fields, keep their handles.
 class Renumbering {
   public:
     Renumbering(std::span<const Phase> numbers, const NodeCopied& copied) : numbers_(numbers), copied_(copied) {
@@ -59,7 +59,7 @@ class Renumbering {
         return numbers_[p.index];
     }
 
-    // Whether the value is another than before.
+    // Applies the new number. Returns whether the value changed.
     bool change(Phase& p) const {
         const Phase before = p;
         p = number(p);

@@ -1,4 +1,4 @@
-// The number type that remembers from which primitive a value comes. Its values are those of `float`, bit for bit.
+// A number type that remembers which primitive a value comes from. Its values equal those of `float`, bit for bit.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace phasetree::tree {
 
-/// Which primitive, as its owner counts them. Numbers of an equation's own have none.
+/// A primitive, as counted by its owner. An equation's own numbers have none.
 struct Source {
     static constexpr std::int32_t none = -1;
     std::int32_t index = none;
@@ -30,13 +30,14 @@ class Sourced {
     Source source_{};
 };
 
-/// The source of what is made of both: of two that have one, that of the larger part.
+/// The source of a result computed from both: if both have one, the source of the larger number.
 inline Source source_of_both(const Sourced& a, const Sourced& b) {
     if (!a.has_source()) return b.source();
     if (!b.has_source()) return a.source();
     return std::fabs(b.value()) > std::fabs(a.value()) ? b.source() : a.source();
 }
-/// The source of what was chosen; a constant that was chosen was so because of the other.
+/// The source of a selected number. If that is a constant, use the other's source, because the other led to the
+/// selection.
 inline Source source_of_chosen(const Sourced& chosen, const Sourced& other) {
     return chosen.has_source() ? chosen.source() : other.source();
 }

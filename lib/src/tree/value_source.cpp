@@ -1,5 +1,5 @@
-// The walk that defines what a tree means (tree/walk.hpp), over numbers that remember their primitive. Of each
-// primitive that was met the nodes above it are kept, as a list that shares what paths have in common.
+// The walk that defines the meaning of a tree (tree/walk.hpp), with numbers that remember their primitive. For each
+// primitive met, the nodes above it are stored as a list whose common parts are shared between paths.
 #include "phasetree/tree/value_source.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using tree::Source;
 using tree::Sourced;
 
-// Some tenths of a second.
+// some tenths of a second
 constexpr std::size_t most_steps = 2'000'000;
 
 class SourceWalk {
@@ -65,7 +65,7 @@ class SourceWalk {
         std::int32_t above;
     };
 
-    // While it lives the walk is below a node.
+    // The walk is below a node as long as this object lives.
     struct Below {
         Below(SourceWalk& w, NodeOnPath node) : walk(w), above(w.here_) {
             if (w.steps_.size() == most_steps)

@@ -5,8 +5,8 @@
 
 namespace phasetree {
 
-/// Evaluates a tree by walking it, over any number type. This is the definition of what a tree means. Nodes are
-/// evaluated in a *domain* (EvaluationDomain), of which this is one.
+/// Evaluates a tree by walking it, for any number type. This defines the meaning of a tree. Nodes are evaluated in a
+/// *domain* (EvaluationDomain), of which this is one.
 template <class T>
 struct Walk {
     using Scalar = T;
