@@ -45,7 +45,7 @@ class PhotonMap {
     /// Calls use(photon, depth) for each photon in the phase whose line passes within the radius of a point in a
     /// medium, and whose own point on the line is near enough to count there (photon_placement.hpp). The depth is that
     /// of the closest point of the line, and is at least −h. The estimate of the fluence is the sum of
-    /// powers · transmittance(depth) / (expected() · coverage(depth)).
+    ///     powers · transmittance(depth) / (expected() · coverage(depth)).
     template <class Use>
     void near_in_medium(const glm::vec3& point, Phase phase, Use&& use) const {
         in_media_.near(point, [&](const MediumPhoton& medium, const glm::vec3& offset) {
