@@ -10,11 +10,9 @@
 //   - Hillaire: A Scalable and Production Ready Sky and Atmosphere Rendering Technique, EGSR 2020 (the model, Ψ);
 //   - Bruneton, Neyret: Precomputed Atmospheric Scattering, EGSR 2008 (parametrisation of the transmittance table);
 //   - Bruneton: A Qualitative and Quantitative Evaluation of 8 Clear Sky Models, TVCG 2017 (air and ozone at 680, 550
-//   and
-//     440 nm, which represent red, green and blue);
+//     and 440 nm, which represent red, green and blue);
 //   - Preetham, Shirley, Smits: A Practical Analytic Model for Daylight, 1999, appendix 1 (from turbidity to the
-//   optical
-//     depth of the aerosol, Ångström's formula).
+//     optical depth of the aerosol, Ångström's formula).
 //
 // Lengths are in kilometres. Radiances are per unit of the sun's irradiance E above the atmosphere, in all three
 // channels: the sun counts as white there.

@@ -41,8 +41,7 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
 /// * radiance(): the emitted radiance, the same from every point in every direction.
 /// * visible_to_camera(): whether camera rays meet the light; otherwise they pass through.
 /// * approximate_solid_angle(p): approximately the solid angle in steradians that the light subtends at p, precise
-/// enough
-///   for a choice among lights. It is 0 exactly where nothing of the light is seen.
+///   enough for a choice among lights. It is 0 exactly where nothing of the light is seen.
 /// * bounding_sphere(): a ball that contains it.
 /// * emission_bounds(): an upper bound on its emission, and its directions.
 /// * sample(p, u): a direction from p towards the light; called only where approximate_solid_angle(p) is not 0.

@@ -30,7 +30,7 @@ class Absorption {
         return absorption;
     }
     /// By wavelength, per unit length; not negative. The colour coefficients are chosen such that colours agree with it
-    /// at a distance of one over its mean, or less, where at least a third of white light is transmitted.
+    /// at a distance of one over its mean, where at least a third of white light is transmitted.
     static Absorption of(SharedSpectrum spectrum);
 
     /// The absorption of a medium with `factor` times the density.

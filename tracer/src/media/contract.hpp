@@ -40,8 +40,7 @@ struct Passage {
 };
 
 /// * transmittance(way, sampler): an estimate of the transmittance of the segment for each colour channel. It is 1 for
-/// a
-///   segment of length 0, and always in [0, 1].
+///   a segment of length 0, and always in [0, 1].
 template <class M>
 concept MediumKind = std::copyable<M> && requires(const M& medium, const Way& way, Sampler& sampler) {
     { medium.transmittance(way, sampler) } -> std::same_as<glm::vec3>;
@@ -49,8 +48,7 @@ concept MediumKind = std::copyable<M> && requires(const M& medium, const Way& wa
 
 /// A medium that scatters or emits also has
 /// * fly(way, throughput, sampler): a flight. Channels are sampled in proportion to the path's throughput, which must
-/// be
-///   positive in at least one channel. The weights of a flight never increase the sum of the throughput's channels.
+///   be positive in at least one channel. The weights of a flight never increase the sum of the throughput's channels.
 /// * pass(way, sampler): a passage. Its `left` is a transmittance.
 /// * coefficients(): the coefficients where the medium is densest.
 /// * phase_function(): the phase function, the same everywhere in the medium.

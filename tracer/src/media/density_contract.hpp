@@ -32,8 +32,7 @@ struct PointBatch {
 /// * at(points, count): ρ at the first `count` points. The other points must be numbers; their results are undefined.
 /// * bounds(): a box outside of which ρ is 0.
 /// * stretches(way): an object whose next() returns the stretches of the segment in order, and then nullopt. Outside of
-/// all
-///   stretches, ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
+///   all stretches, ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
 template <class D>
 concept DensityKind = std::copyable<D> && requires(const D& density, const PointBatch& points, const Way& way) {
     { density.at(points, D::together) } -> std::same_as<BatchOfFloats>;

@@ -20,8 +20,7 @@ namespace phasetree::tracer {
 
 struct Bump {
     Texture texture = ConstantTexture{};
-    float height =
-        0.0f;  ///< in the unit of length; by which white is higher than black; if it is negative, white is lower
+    float height = 0.0f;  ///< height of white above black, in the unit of length; negative: white is lower
 
     /// The bumped normal at a place, of unit length, in the space of textures; place.normal is the surface's own.
     glm::vec3 normal_at(const TexturePoint& place) const;

@@ -1,4 +1,4 @@
-// How much of a mesh is there at each place, as leaves and fences are cut out of rectangles by an image.
+// Partial coverage of a mesh, such as leaves and fences cut out of rectangles by an image.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 namespace phasetree::tracer {
 
 struct Opacity {
-    Number number = 1.0f;           ///< the part of the rays that are stopped, 0 to 1
-    std::optional<float> cutoff{};  ///< below it no ray is stopped, and else all are
-    /// The part of the rays that are stopped at a place.
+    Number number = 1.0f;           ///< share of rays that are stopped, 0 to 1
+    std::optional<float> cutoff{};  ///< if set, opacity is 0 below it and 1 from it on
+    /// The share of rays that are stopped at a point.
     float at(const TexturePoint& place) const {
         const float found = number_at(number, place);
         return cutoff ? static_cast<float>(found >= *cutoff) : found;

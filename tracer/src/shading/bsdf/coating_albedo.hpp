@@ -51,9 +51,8 @@ class CoatingAlbedo {
         const CoatingAlbedo* albedo_;
         float roughness_, thickness_;
         const Wavelengths* wavelengths_;
-        std::size_t below_ =
-            0;  ///< the table of the next lower roughness; part_ is the way to the one above, in [0, 1]
-        float part_ = 0.0f;
+        std::size_t below_ = 0;  ///< the table of the next lower roughness
+        float part_ = 0.0f;      ///< interpolation weight of the next table, in [0, 1]
         glm::vec3 average_{0.0f};
     };
     /// Without wavelengths for red, green and blue. With a film, wavelengths have what its three colours have.

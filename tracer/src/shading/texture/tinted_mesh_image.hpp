@@ -1,8 +1,8 @@
-// The colour that glTF gives to a place of a mesh: a factor, times an image by the mesh's texture coordinates, times
-// the colours of its vertices. Scene files do not name it; meshes from glTF files have it.
+// The base colour of a glTF mesh: a factor, times an image by the mesh's texture coordinates, times the colours of its
+// vertices. Only meshes from glTF files have it; scene files cannot use it.
 //
-// glTF's colour c is that which is seen under a clear coat. The base of a coat that reflects the part F of diffuse
-// light back inside is seen as c = ρ (1 − F) / (1 − ρ F) (bsdf/coated_diffuse.hpp), so it has ρ = c / (1 − F + c F).
+// glTF's colour c is the colour seen under a clear coat. Under a coat that reflects the part F of diffuse light back
+// inside, the base is seen as c = ρ (1 − F) / (1 − ρ F) (bsdf/coated_diffuse.hpp), so ρ = c / (1 − F + c F).
 #pragma once
 
 #include <glm/common.hpp>
@@ -16,8 +16,8 @@ namespace phasetree::tracer {
 
 struct TintedMeshImage {
     glm::vec3 factor{1.0f};
-    bool by_vertices = false;                     ///< whether the colours of the vertices count
-    std::shared_ptr<const TextureImage> image{};  ///< none is white
+    bool by_vertices = false;                     ///< whether vertex colours are used
+    std::shared_ptr<const TextureImage> image{};  ///< null means white
 
     float internal_reflectance = 0;  ///< F; 0 without a coat
 
