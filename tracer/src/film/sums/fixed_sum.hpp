@@ -40,7 +40,7 @@ class FixedSum {
             return;
         }
         if (exponent == 0) return;  // 0, or below 2^−1022
-        // value| = mantissa · 2^(exponent − 1075), which is mantissa · 2^shift units.
+        // |value| = mantissa · 2^(exponent − 1075), which is mantissa · 2^shift units.
         const std::uint64_t mantissa = (bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52);
         const int shift = exponent - 1075 + Fraction;
         FixedSum term;
