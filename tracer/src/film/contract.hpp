@@ -41,12 +41,12 @@ struct PlaneSubjects {
 
 /// A sum is what a plane keeps of the samples. Each kind of sum has its own way of adding a sample's value:
 ///
-///     ValueSum, SquareSum, WeightSum   sums/fixed_sum.hpp          exact sums of real numbers
-///     MeanAndVariance                  sums/mean_and_variance.hpp  the mean, and the variance of that mean
-///     WeightedMean<N>                  sums/weighted_mean.hpp      one exact sum divided by another
-///     Count                            sums/count.hpp              the number of events
-///     FirstValue<N>                    sums/first_value.hpp        the value of the sample with the lowest number
-///     WeightsById                      sums/weights_by_id.hpp      exact weights by 32-bit numbers
+/// * ValueSum, SquareSum, WeightSum (sums/fixed_sum.hpp): exact sums of real numbers
+/// * MeanAndVariance (sums/mean_and_variance.hpp): the mean, and the variance of that mean
+/// * WeightedMean<N> (sums/weighted_mean.hpp): one exact sum divided by another
+/// * Count (sums/count.hpp): the number of events
+/// * FirstValue<N> (sums/first_value.hpp): the value of the sample with the lowest number
+/// * WeightsById (sums/weights_by_id.hpp): exact weights by 32-bit numbers
 ///
 /// A kind of sum guarantees:
 ///

@@ -37,9 +37,9 @@ struct PathHelp {
 /// same integral over ω,
 ///     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
 /// combined by the power heuristic of their pdfs *of ω*: that of light sampling, and that of the BSDF. A path keeps
-/// these two pdfs through the chain. No light is counted twice, whatever it is seen through. The only light lost is
-/// that of paths that reach max_depth within the chain, which no weight accounts for. light_proposal.hpp determines the
-/// directions in which shadow rays start.
+/// these two pdfs through the chain. No light is counted twice, regardless of what it is seen through. The only light
+/// lost is that of paths that reach max_depth within the chain, which no weight accounts for. light_proposal.hpp
+/// determines the directions in which shadow rays start.
 ///
 /// Scattering media. A path may be scattered in a medium. Such a point is treated like a surface point: it does
 /// next-event estimation and samples a direction, with the phase function instead of the BSDF. E then includes the

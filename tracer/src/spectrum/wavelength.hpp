@@ -1,7 +1,6 @@
 // A randomly chosen wavelength of light, and its contribution to red, green and blue.
 //
-// If the wavelength λ is chosen with the pdf p, and the light L(λ) is found there, a path contributes to each of the
-// three
+// If the wavelength λ is chosen with the pdf p, and the light L(λ) is found there, a path contributes to each component
 //     L(λ) w(λ)/p(λ),   ∫ w dλ = 1,
 // where w is the weight of a wavelength for red, green or blue: the CIE colour matching functions, converted to
 // Rec.709, times its white, the CIE illuminant D65. So L is relative to D65.

@@ -30,8 +30,8 @@ namespace phasetree::tracer {
 class RoughDielectricBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range.
-    /// The reflectance for spectral light is derived from that for red, green and blue, which differs only with a film:
-    /// so single and multiple scattering together conserve energy.
+    /// The reflectance for spectral light is derived from that for red, green and blue, so that single and multiple
+    /// scattering together conserve energy. This makes a difference only with a film.
     RoughDielectricBsdf(const DielectricSurface& surface, float roughness, const Wavelengths* wavelengths = nullptr);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
