@@ -12,8 +12,7 @@
 // A is its area, θ the angle at its surface, and q the pdf per steradian of the line's direction as seen from there
 // (aim.hpp). A photon carries the radiance seen along its line, whichever light proposed it. If that is a lamp inside
 // the sphere around the object, p(line) is that of the lamp alone, because photons of what is behind it end at it. The
-// other light of an environment emits no photons. Lines that no source proposes are left to the other techniques of
-// path.hpp.
+// rest of an environment emits no photons. Lines that no source proposes are left to the other techniques of path.hpp.
 //
 // *Balls around parts of emissive surfaces:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
 // would start a photon on this line at this same point (glowing_lines.hpp).

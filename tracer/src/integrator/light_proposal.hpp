@@ -57,7 +57,7 @@ class LightProposal {
     /// Adds the flat boundaries through which a light above them reaches the point.
     template <class LampAbove>
     void add_flat_boundaries(const World& world, LampAbove&& lamp_above);
-    /// As above, for a direction whose pdf straight to the lights is known.
+    /// As pdf() above, for a direction whose pdf straight to the lights is known.
     float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
     LightReceiver at_;

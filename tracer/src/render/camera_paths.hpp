@@ -28,7 +28,7 @@ class CameraPaths {
   private:
     const TracedGeometry& geometry_;
     MovingCamera camera_;
-    // The phase of a camera whose rays all start at one point, computed once.
+    // What contains a camera whose rays all start at one point, computed once.
     std::optional<TracedGeometry::Inside> single_;
 };
 

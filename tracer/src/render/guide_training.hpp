@@ -4,8 +4,8 @@
 // and the whole picture, so that an image does not depend on how it was divided.
 //
 // The number of paths is between two and four per pixel of the whole picture, but at least a quarter of a million and
-// at most a million. Each has at most 16 findings of 32 bytes, so the findings of the last round take less than 300 MB,
-// including copies while they are gathered.
+// at most a million. Each has at most 16 findings of 32 bytes, so the findings of the last round take less than 300 MB.
+// While they are gathered, some of them exist twice.
 //
 // With caustics, round i uses the photons of pass i, and so a single time if anything moves: the guide then describes
 // moving lamps at one moment. Those passes weight their photons by a guide that was trained with the same photons. This

@@ -32,7 +32,7 @@ struct Inverse {
 inline Inverse invert(std::span<const float> cumulative, float u) {
     constexpr float below_one = 0x1.fffffep-1f;
     const float inside = std::clamp(u, 0.0f, below_one);
-    // The last boundary that is not above u, excluding the final 1.
+    // The last boundary that is not above u. The final boundary, 1, always is.
     const float* first = cumulative.data();
     for (std::size_t length = cumulative.size(); length > 1;) {
         const std::size_t half = length / 2;

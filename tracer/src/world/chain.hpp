@@ -54,8 +54,8 @@ inline LightReceiver receiver_of_passed_light(const Surface& surface, const Surf
 /// is rarely worth a ray. Below this share, it continues with a probability proportional to what is left.
 inline constexpr float least_share_of_chain = 0.1f;
 
-/// Russian roulette by the greatest component of the share. For a photon, it is the transmittance of the last medium;
-/// for a shadow ray, that of its whole way. Survivors are scaled up accordingly.
+/// Russian roulette by the greatest component of the share. For a photon, the share is the transmittance of the last
+/// medium; for a shadow ray, it is the throughput of its whole way. Survivors are scaled up accordingly.
 inline bool chain_survives(glm::vec3& share, Sampler& sampler) {
     const float survival = std::max({share.x, share.y, share.z}) / least_share_of_chain;
     if (survival >= 1.0f) return true;
