@@ -24,7 +24,8 @@ Aperture::Aperture(const ApertureParameters& p)
 
 glm::dvec2 Aperture::sample(const glm::vec2& u) const {
     if (blades_ == 0) return radius_ * glm::dvec2(square_to_uniform_disk(u));
-    // u.x chooses one of the triangles between the centre and a side; what is left of it and u.y, a point in that.
+    // u.x chooses one of the triangles between the centre and a side. Its remainder and u.y choose a point in the
+    // triangle.
     const double scaled = static_cast<double>(u.x) * blades_;
     const int side = std::min(static_cast<int>(scaled), blades_ - 1);
     const double outward = std::sqrt(std::clamp(scaled - side, 0.0, 1.0));

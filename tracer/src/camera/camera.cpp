@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The parameters and the kinds stand in the same order, so the one that is given has the number of its kind.
+// The parameters and the kinds are in the same order, so their indices agree.
 template <std::size_t... I>
 Cameras::Any made_of(const AnyCameraParameters& any, const glm::ivec2& resolution, std::index_sequence<I...>) {
     std::optional<Cameras::Any> made;

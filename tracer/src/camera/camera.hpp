@@ -12,8 +12,8 @@
 
 namespace phasetree::tracer {
 
-/// A kind of camera, once its contract has been asked of it. If it does not meet that, the message names the kind and
-/// the member.
+/// Checks a kind of camera against its concept. If the check fails, the compiler's message names the kind and the
+/// member.
 template <class Kind>
 struct CheckedCamera {
     static_assert(CameraKind<Kind>);
@@ -29,13 +29,13 @@ struct CameraList {
 /// Every kind of camera.
 using Cameras = CameraList<ThinLens, Orthographic, TiltShift, Panorama, Dome>;
 
-/// What a scene says of its camera.
+/// The description of a camera in a scene.
 using AnyCameraParameters = Cameras::AnyParameters;
 
 glm::vec3 position_of(const AnyCameraParameters& parameters);
 glm::vec3 look_at_of(const AnyCameraParameters& parameters);
 
-/// The members mean what CameraKind says.
+/// See CameraKind for the members.
 class Camera {
   public:
     Camera(const AnyCameraParameters& parameters, const glm::ivec2& resolution);

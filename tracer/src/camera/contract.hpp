@@ -1,4 +1,4 @@
-// What a camera must provide: the ray that reaches a point of the film. camera.hpp has the list of all kinds.
+// Requirements on a camera, which generates the ray that reaches a point of the film. camera.hpp lists all kinds.
 #pragma once
 
 #include <concepts>
@@ -10,15 +10,15 @@ namespace phasetree::tracer {
 
 struct CameraRay {
     glm::vec3 origin;
-    glm::vec3 direction;  ///< of unit length
+    glm::vec3 direction;  ///< unit length
 };
 
-/// * Parameters: what a scene says of the camera, as plain values; `position` and `look_at` among them.
-/// * C(parameters, resolution): for a whole picture of this many pixels, which are square. Throws std::invalid_argument
-///   with a text for people when the parameters describe no camera.
+/// * Parameters: the description in a scene, as plain values; includes `position` and `look_at`.
+/// * C(parameters, resolution): for a whole picture of this many pixels, which are square. Throws
+///   std::invalid_argument, with a message for users, if the parameters are invalid.
 /// * generate(film, lens): the ray that reaches a point of the film, in pixels from the top left corner of the whole
-///   picture; points outside of the picture continue it. `lens` in [0, 1)² chooses the point of a lens. Every ray
-///   counts the same: the film's value is the mean radiance of the rays.
+///   picture; points outside of the picture continue it. `lens` in [0, 1)² chooses the point of a lens. All rays have
+///   the same weight: the value of the film is the mean radiance of the rays.
 /// * single_origin(): the point from which all rays start, if there is one.
 template <class C>
 concept CameraKind = std::copyable<C> && std::copyable<typename C::Parameters> &&

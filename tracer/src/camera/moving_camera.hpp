@@ -8,17 +8,18 @@
 
 namespace phasetree::tracer {
 
-/// What a scene says of its camera at a share of the time in which the shutter is open.
+/// The parameters of a camera at a share of the shutter interval.
 struct CameraMoment {
     double time = 0;
     AnyCameraParameters camera{};
 };
 
-/// Between two moments a ray goes from the origin and in the direction that lie between those of the two rays for the
-/// same point of the film and of the lens. The moments are near enough to each other for that (scene/shutter.hpp).
+/// Between two moments, origin and direction of a ray are interpolated between those of the two rays for the same point
+/// of the film and of the lens. Moments are close enough to each other for that (scene/shutter.hpp).
 class MovingCamera {
   public:
-    /// `moments` are none, for a camera that stands still, or two or more, at rising times from 0 to 1.
+    /// `moments` is empty for a camera that does not move. Otherwise it has at least two, at increasing times from 0 to
+    /// 1.
     MovingCamera(const AnyCameraParameters& still, std::span<const CameraMoment> moments, const glm::ivec2& resolution);
 
     CameraRay generate(const glm::dvec2& film, const glm::vec2& lens, double time = 0) const {

@@ -12,7 +12,7 @@ Panorama::Panorama(const PanoramaParameters& p, const glm::ivec2& resolution)
 }
 
 CameraRay Panorama::generate(const glm::dvec2& film, const glm::vec2&) const {
-    // Beyond an edge the angles go on around the sphere.
+    // Beyond an edge, the angles continue around the sphere.
     const double azimuth = 2.0 * std::numbers::pi * (film.x / resolution_.x - 0.5);
     const double elevation = std::numbers::pi * (0.5 - film.y / resolution_.y);
     const glm::dvec3 level = std::sin(azimuth) * frame_.right + std::cos(azimuth) * frame_.forward;

@@ -1,8 +1,8 @@
-// A camera that sees all around: the whole sphere of directions on a picture twice as wide as high.
+// A panoramic camera: the whole sphere of directions in a picture twice as wide as high.
 //
-// Columns are azimuths, rows angles from straight up, both in equal steps (the equirectangular or lat-long projection).
-// The middle of the picture is the axis, which need not be level: the picture's poles are then turned with the camera.
-// The left edge and the right one are behind the camera.
+// Columns are azimuths, and rows are angles from straight up, both in equal steps (the equirectangular or lat-long
+// projection). The centre of the picture is the axis, which need not be level: the poles of the picture are rotated
+// with the camera. The left and right edges are behind the camera.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,18 +16,18 @@ namespace phasetree::tracer {
 
 struct PanoramaParameters {
     glm::vec3 position{0.0f};
-    glm::vec3 look_at{0.0f, 1.0f, 0.0f};  ///< in the middle of the picture
-    glm::vec3 up{0.0f, 0.0f, 1.0f};       ///< as ViewFrame has it
+    glm::vec3 look_at{0.0f, 1.0f, 0.0f};  ///< at the centre of the picture
+    glm::vec3 up{0.0f, 0.0f, 1.0f};       ///< see ViewFrame
 };
 
 class Panorama {
   public:
     using Parameters = PanoramaParameters;
 
-    /// Throws std::invalid_argument when the parameters describe no camera.
+    /// Throws std::invalid_argument if the parameters are invalid.
     Panorama(const PanoramaParameters& parameters, const glm::ivec2& resolution);
 
-    /// As CameraKind has it; there is no lens.
+    /// See CameraKind; there is no lens.
     CameraRay generate(const glm::dvec2& film, const glm::vec2& lens) const;
     std::optional<glm::vec3> single_origin() const { return glm::vec3(frame_.position); }
 

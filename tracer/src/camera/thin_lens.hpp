@@ -1,8 +1,8 @@
 // A thin-lens camera (Cook, Porter, Carpenter: Distributed Ray Tracing, SIGGRAPH 1984).
 //
-// A pixel's ray goes from a point of the lens's opening (aperture.hpp) around the position to where the ray through the
-// lens's centre meets the plane of focus; that plane is perpendicular to the axis. Radius 0 is a pinhole. Up is +z,
-// pixel (0, 0) is the top left one, pixels are square.
+// A pixel's ray goes from a point of the lens opening (aperture.hpp) around the position to where the ray through the
+// lens's centre meets the plane of focus, which is perpendicular to the axis. Radius 0 is a pinhole. Up is +z, pixel
+// (0, 0) is the top left one, and pixels are square.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 struct ThinLensParameters : ApertureParameters {
     glm::vec3 position{0.0f, -5.0f, 0.0f};
     glm::vec3 look_at{0.0f};
-    glm::vec3 up{0.0f, 0.0f, 1.0f};  ///< as ViewFrame has it
+    glm::vec3 up{0.0f, 0.0f, 1.0f};  ///< see ViewFrame
     float vertical_fov_degrees = 40.0f;
     std::optional<float> focus_distance;  ///< along the axis; otherwise to look_at
 };
@@ -31,12 +31,12 @@ class ThinLens {
   public:
     using Parameters = ThinLensParameters;
 
-    /// Throws std::invalid_argument when the parameters describe no camera.
+    /// Throws std::invalid_argument if the parameters are invalid.
     ThinLens(const ThinLensParameters& parameters, const glm::ivec2& resolution);
 
-    /// As CameraKind has it.
+    /// See CameraKind.
     CameraRay generate(const glm::dvec2& film, const glm::vec2& lens) const;
-    /// The pinhole's.
+    /// nullopt unless it is a pinhole camera.
     std::optional<glm::vec3> single_origin() const;
 
     float focus_distance() const { return static_cast<float>(focus_distance_); }

@@ -1,4 +1,4 @@
-// Where a camera stands and how it is turned: what all kinds of cameras have in common.
+// The position and orientation shared by all kinds of cameras.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -7,17 +7,17 @@
 namespace phasetree::tracer {
 
 struct ViewFrame {
-    /// `up` need not be perpendicular to the axis; it is replaced by +y, or +x, when the camera looks along it. Throws
-    /// std::invalid_argument for numbers that are not finite, and when the camera looks at the point where it is.
+    /// `up` need not be perpendicular to the axis. It is replaced by +y, or +x, if the camera looks along it. Throws
+    /// std::invalid_argument if numbers are not finite, or if `look_at` is the position.
     ViewFrame(const glm::vec3& position, const glm::vec3& look_at, const glm::vec3& up);
 
     glm::dvec3 position;
     glm::dvec3 right, up, forward;  ///< orthonormal
-    double distance;                ///< to the point that is examined
+    double distance;                ///< from the position to `look_at`
 };
 
-/// Half of a vertical field of view in degrees, in radians. Throws std::invalid_argument unless it is above 0 and below
-/// 180 degrees.
+/// Half of a vertical field of view given in degrees, in radians. Throws std::invalid_argument unless it is in (0,
+/// 180).
 double half_fov(float vertical_fov_degrees);
 
 /// Throws std::invalid_argument unless there is at least one pixel.

@@ -4,8 +4,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A lamp that is nearer than this many radii of the object to its middle is close by. From a point so far away all
-// lines that meet the object's sphere pass a plane through its middle within 1.6/√(1.6² − 1) = 1.28 radii.
+// A lamp is close by if its distance to the centre of the object is less than this many radii of the object. From a
+// point at least that far away, all lines that meet the object's sphere pass a plane through its centre within
+// 1.6/√(1.6² − 1) = 1.28 radii.
 constexpr float near_in_radii = 1.6f;
 constexpr float target_in_radii = 1.3f;
 // A lamp is small if its radius is less than this share of the object's.

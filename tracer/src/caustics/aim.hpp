@@ -1,7 +1,8 @@
-// This chooses the direction of a photon of a lamp, that is of a light with a place. If the lamp is small and within
-// the object or close to it the photon flies in any direction; else to a cell of a square through the object. Of a lamp
-// close by no square is met by all lines that lead to the object. Of a large lamp some lines miss the square, and are
-// left to the other techniques of path.hpp: the direction alone says little of where a large lamp's line leads.
+// Chooses the directions of photons from a lamp, that is, a light with a position. If the lamp is small and inside the
+// object or close to it, photons are emitted in any direction. Otherwise they are aimed at a cell of a square through
+// the object. A square cannot serve a lamp close by because lines to the object may miss it. Some lines of a large lamp
+// miss the square and are left to the other techniques of path.hpp. Large lamps do not choose directions freely because
+// the direction alone says little about where a line from them leads.
 #pragma once
 
 #include <optional>
@@ -16,22 +17,22 @@ namespace phasetree::tracer {
 
 class PhotonAim {
   public:
-    /// For an object within a sphere.
+    /// For an object inside a sphere.
     PhotonAim(const BoundingSphere& lamp, const BoundingSphere& object);
 
     std::size_t cells() const;
-    /// As CellChoice has it.
+    /// See CellChoice.
     void set_weights(std::span<const double> weights);
 
     struct Aimed {
         glm::vec3 direction;  ///< of unit length
-        float distance;       ///< to a point on the line that is beyond the lamp, in the square if there is one
+        float distance;       ///< to a point on the line in front of the lamp; in the square if there is one
         std::size_t cell;
     };
-    /// A direction from a point of the lamp: u_cell in [0, 1) chooses the cell, u in [0, 1)² the place in it. Nothing
-    /// if rounding leaves none.
+    /// Samples a direction from a point of the lamp: u_cell in [0, 1) chooses the cell, u in [0, 1)² the position in
+    /// it. nullopt if rounding leaves no direction.
     std::optional<Aimed> sample(const glm::vec3& from, float u_cell, const glm::vec2& u) const;
-    /// The density of sample() per steradian.
+    /// The pdf of sample() per steradian.
     float density(const glm::vec3& from, const glm::vec3& direction) const;
 
   private:

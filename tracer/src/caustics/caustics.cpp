@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::size_t photons_a_task = 4096;
 
-// What is learnt before the first pass is of this many photons for each source, and of this many in all at most.
+// Number of photons per source, and in total, that are traced for learning before the first pass.
 constexpr std::size_t learnt_a_source = 1 << 15, most_learnt = 1 << 18;
 
-// Photons have pixels of their own, so that their random numbers are not those of the picture's.
+// Photons have pixel coordinates of their own, so that their random numbers differ from those of the picture.
 constexpr std::uint32_t column_of_passes = 0x80000000u, column_of_learning = 0x80000001u;
 
-// The size of a pixel at a distance from the camera, in the middle of the picture.
+// The size of a pixel at a distance from the camera, at the centre of the picture.
 float pixel_size(const Scene& scene, float distance) {
     const Camera camera(scene.camera, scene.film.resolution());
     const glm::dvec2 middle = 0.5 * glm::dvec2(scene.film.resolution());
@@ -35,7 +35,7 @@ float pixel_size(const Scene& scene, float distance) {
     return glm::length((a.origin + distance * a.direction) - (b.origin + distance * b.direction));
 }
 
-// With which wavelengths photons start.
+// The wavelengths with which photons are emitted.
 const Wavelengths* spectral(const std::optional<Wavelengths>& wavelengths) {
     return wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr;
 }
@@ -72,9 +72,9 @@ std::optional<Wavelengths> Caustics::wavelengths(int pass) const {
     return world_.wavelengths(sampler.next_evenly());
 }
 
-// What a photon is worth is its power times the weight that it has in the first pass against the other techniques: on a
-// white diffuse surface, or in a medium that scatters alike in all directions. `expected` is N π r² cos θ, and `pdf`
-// the density with which a path would go on in its direction.
+// The worth of a photon is its power times its MIS weight in the first pass, on a white diffuse surface or in a medium
+// that scatters isotropically. `expected` is N π r² cos θ, and `pdf` that with which a path would continue in the
+// photon's direction.
 double Caustics::worth_of(const Photon& photon, float expected, float pdf) const {
     const float ior = clear_at(scene_, photon.phase).ior;
     const float by_photons = expected * photon.line_density * ior * ior;
@@ -96,7 +96,7 @@ void Caustics::learn() {
         PathCounters uncounted;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             Sampler sampler(column_of_learning, 0, static_cast<std::uint32_t>(i), scene_.settings.seed);
-            // What is learnt is of all times.
+            // Learning covers the whole shutter interval.
             const float time = scene_.moves() ? shutter_time(column_of_learning, 0, static_cast<std::uint32_t>(i),
                                                              scene_.settings.seed)
                                               : 0.0f;
@@ -116,7 +116,7 @@ void Caustics::learn() {
             found[i] = {emitted->source, emitted->cell, worth};
         }
     });
-    // Added up in their order, whatever thread found them.
+    // Summed in order of the photons, independently of the threads that traced them.
     std::vector<std::vector<double>> worth;
     for (std::size_t i = 0; i < emission_.sources(); ++i) worth.emplace_back(emission_.cells(i), 0.0);
     for (const Worth& w : found) worth[w.source][w.cell] += w.worth;

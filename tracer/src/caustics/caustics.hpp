@@ -1,10 +1,10 @@
-// Caustics: light that lamps throw through clear interfaces, curved or rough, found by photons.
+// Caustics: light that reaches surfaces and media through clear interfaces, curved or rough, found by photons.
 //
-// Each pass over the picture has photons of its own. How many there are, and in what radius a surface gathers them,
-// follows from the number of the pass and from the whole picture, so that an image does not depend on how it was
-// divided among threads, crops or machines. The radius shrinks as the passes go on, r = r₀ (1 + pass)^(−1/6), so that
-// the blur that photons bring vanishes in the limit (Hachisuka, Ogaki & Jensen: Progressive Photon Mapping, SIGGRAPH
-// Asia 2008; Knaus & Zwicker, TOG 30(3), 2011, with α = 2/3).
+// Each pass over the picture has photons of its own. Their number, and the gathering radius, depend only on the number
+// of the pass and on the whole picture, so that an image does not depend on how it was divided among threads, crops or
+// machines. The radius shrinks from pass to pass, r = r₀ (1 + pass)^(−1/6), so that the blur of the photons vanishes in
+// the limit (Hachisuka, Ogaki & Jensen: Progressive Photon Mapping, SIGGRAPH Asia 2008; Knaus & Zwicker, TOG 30(3),
+// 2011, with α = 2/3).
 #pragma once
 
 #include <functional>
@@ -17,20 +17,20 @@ namespace phasetree::tracer {
 
 class Caustics {
   public:
-    /// Traces photons to learn where they are worth something. Refers to the world and the scene.
+    /// Traces photons to learn which sources and cells contribute. Refers to the world and the scene.
     Caustics(const World& world, const Scene& scene);
 
-    /// The photons of the pass that adds the sample of this number to each pixel. Uses all threads of the arena that it
-    /// is called in. Nothing if `cancelled` says so; it may be asked from any thread.
+    /// Traces the photons of the pass that adds the sample with this number to each pixel. Uses all threads of the
+    /// calling arena. Returns nullopt if `cancelled` returns true; it may be called from any thread.
     std::optional<PhotonMap> photons(int pass, PathCounters& counters, const std::function<bool()>& cancelled) const;
     const PhotonEmission& emission() const { return emission_; }
     float radius(int pass) const;
-    /// When all photons of a pass fly, as a share of the time in which the shutter is open: a photon lights what is
-    /// there at its own time, so the paths that gather those of a pass must be of that time, too. Passes are spread
-    /// evenly over the time.
+    /// The time of all photons of a pass, as a share of the shutter interval. A photon lights what is there at its own
+    /// time, so the paths that gather the photons of a pass must have the same time. The times of the passes are spread
+    /// evenly.
     float time(int pass) const;
-    /// Those of all light of a pass, so that paths find photons of their own wavelengths: of passes that follow each
-    /// other they are spread evenly. None if the scene needs none.
+    /// The wavelengths of all light of a pass. Photons and the paths that gather them must have the same ones. Those of
+    /// consecutive passes are spread evenly. nullopt if the scene needs none.
     std::optional<Wavelengths> wavelengths(int pass) const;
 
   private:

@@ -1,4 +1,4 @@
-// Cells of which one is chosen with a probability each, which may be learnt.
+// Random choice among cells with given or learned probabilities.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@ namespace phasetree::tracer {
 
 class CellChoice {
   public:
-    /// This many cells, all of which are equally likely.
+    /// Makes this many cells, all equally likely.
     explicit CellChoice(std::size_t cells);
 
     std::size_t size() const { return cumulative_.size() - 1; }
-    /// From now on cells are chosen in proportion to these numbers, one for each, not negative, not all 0.
+    /// Makes the probabilities proportional to these weights, one per cell. They must not be negative, nor all 0.
     void set_weights(std::span<const double> weights);
-    /// The cell that a number in [0, 1) chooses.
+    /// The cell chosen by a random number in [0, 1).
     std::size_t sample(double u) const;
     double probability(std::size_t cell) const { return cumulative_[cell + 1] - cumulative_[cell]; }
 
   private:
-    std::vector<double> cumulative_;  ///< the probability of all cells before a cell, and 1 at the end
+    std::vector<double> cumulative_;  ///< probability of all cells before each cell, and 1 at the end
 };
 
 }  // namespace phasetree::tracer

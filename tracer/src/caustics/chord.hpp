@@ -1,4 +1,4 @@
-// The part of a straight line that is in a ball.
+// The part of a straight line inside a ball.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Chord {
     float enters, leaves;
 };
 
-/// The direction is of unit length. Nothing if the line misses the ball.
+/// The direction has unit length. nullopt if the line misses the ball.
 inline std::optional<Chord> chord(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction) {
     const float along = glm::dot(ball.centre - origin, direction);
     const glm::vec3 across = ball.centre - origin - along * direction;

@@ -22,20 +22,20 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// With more parts of what glows or shines than this, none sends photons, because the cells of each take memory and must
-// be learnt.
+// If there are more emissive parts of surfaces and media than this, none emits photons, because the cells of each take
+// memory and must be learned.
 constexpr std::size_t most_glowing = 4096;
-// Photons of one direction start all over the ball around such a part, so fine cells of directions gain little; those
-// of a medium least of all.
+// Photons of one direction start anywhere in the ball around such a part, so fine cells of directions gain little,
+// least of all for media.
 constexpr int direction_cells_a_side_of_glowing = 16, direction_cells_a_side_of_shining = 8;
-// This many places are asked at most how bright media are there, in all balls together.
+// At most this many points, over all balls, are evaluated for the brightness of media.
 constexpr std::size_t most_places_asked = 1 << 20;
 
-// This share of the photons, and of places in a medium, is spread evenly, because what was learnt, or is known of a
-// medium's brightness, is an estimate.
+// This share of the photons, and of points in a medium, is spread evenly, because learned weights and the known
+// brightness of a medium are estimates.
 constexpr double even_part = 0.1;
 
-// Whether photons go on where they meet it.
+// Whether photons continue after meeting this material.
 bool sends_light_on(const Material& material) {
     if (const Clear* clear = std::get_if<Clear>(&material)) return clear->ior != 1.0f;
     return has_metal(material);
@@ -45,7 +45,7 @@ double sum_of(const std::vector<double>& cells) {
     return std::accumulate(cells.begin(), cells.end(), 0.0);
 }
 
-// Raises all weights by the same amount, so that even_part of the choices is even.
+// Raises all weights by the same amount, such that even_part of the choices is uniform.
 void add_even_part(std::vector<double>& cells) {
     const double even = even_part / (1 - even_part) * sum_of(cells) / static_cast<double>(cells.size());
     for (double& cell : cells) cell += even;
@@ -104,8 +104,8 @@ void PhotonEmission::prefer_bright_places(PhotonPlaces& places, std::size_t aske
     for (std::size_t cell = 0; cell < places.cells(); ++cell) {
         if (!places.meets_ball(cell)) continue;
         for (std::size_t k = 0; k < asked; ++k) {
-            // The middles of the cell's eighths, or one of them, which is another in each cell. Of what moves, they are
-            // asked at different times.
+            // The centres of the cell's octants, or of one octant that differs from cell to cell. Moving media are
+            // evaluated at several times.
             const std::size_t eighth = (cell + k) % 8;
             const glm::vec3 in_cell(eighth & 1 ? 0.75f : 0.25f, eighth & 2 ? 0.75f : 0.25f, eighth & 4 ? 0.75f : 0.25f);
             const double time =
@@ -122,7 +122,7 @@ double PhotonEmission::brightness_at(const glm::vec3& place, float time) const {
     const TracedGeometry::Inside inside = world_.geometry().inside(place, time);
     const Clear* clear = std::get_if<Clear>(&scene_.materials[inside.phase.index]);
     if (!clear || !shines(clear->interior)) return 0;
-    // A ray without length leads the place into the medium's own space. Its direction does not matter.
+    // A ray of length 0 transforms the point into the medium's own space. Its direction does not matter.
     const Ray ray{place, {0, 0, 1}, inside.phase, {}, inside.in};
     const float share = share_of_emission(clear->interior, world_.geometry().way_through_medium(ray, 0.0f).origin);
     return static_cast<double>(share * luminance(emission(clear->interior)));
@@ -184,8 +184,8 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfArea& s
 }
 
 std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfPoint& source, Sampler& sampler) const {
-    // The two numbers that choose a place on other lights are drawn here, too, so that the next ones are of the same
-    // dimensions for all lights; media that shine draw more.
+    // Draw the two numbers that choose a point on other lights, so that the next ones have the same dimensions for all
+    // lights. Emissive media draw more.
     sampler.next2();
     const float u_cell = sampler.next();
     const glm::vec3 from = position_of(scene_.lights.points()[source.number]);
@@ -240,7 +240,7 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
         last_surface_in(glowing.ball, world_, scene_, line.through, line.direction, start.time);
     const auto emitted = surface ? surface->emitted(start.wavelengths) : std::nullopt;
     if (!emitted) return std::nullopt;
-    // Known but for rounding, so that the ball that sends the photon counts.
+    // The distance is known except for rounding; enlarge it slightly so that the ball that sends the photon counts.
     const float density = line_density(*surface, -line.direction, free * (1 + 1e-5f));
     if (!(density > 0.0f)) return std::nullopt;
     const Ray ray = surface->reflected(line.direction);
@@ -265,7 +265,7 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
     const Way way = world_.geometry().way_through_medium(from_boundary, piece->length, start.wavelengths);
     const glm::vec3 radiance = pass(clear->interior, way, start.sampler).emitted;
     if (radiance == glm::vec3(0.0f)) return std::nullopt;
-    // What a medium sends is of no lamp, and goes with the background, as in paths.
+    // Emission of a medium belongs to no lamp and is recorded with the background, as for paths.
     return EmittedPhoton{.ray = ray,
                          .emission = {0.0f, radiance, Background{}},
                          .power = radiance / (density * squared_ior(scene_, ray.phase)),
@@ -277,7 +277,7 @@ std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const O
 
 std::optional<Ray> PhotonEmission::ray_on(const Line& line, float time) const {
     glm::vec3 origin = outside_of_object(line.through, line.direction);
-    // If the light is within the sphere about the object the photon starts just in front of the light.
+    // If the light is inside the sphere around the object, the photon starts just in front of the light.
     if (glm::dot(line.through - origin, line.direction) > line.back)
         origin = line.through - line.direction * (line.back * (1 - 1e-5f));
     const TracedGeometry::Inside inside = world_.geometry().inside(origin, time);
@@ -304,7 +304,8 @@ float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& tow
                 of_nearest = share(i) * density;
             }
         });
-    // The photons of a lamp within the sphere about the object start there, and those of what is behind it end there.
+    // Photons of a lamp inside the sphere around the object start there, and photons of what is behind the lamp end
+    // there.
     if (nearest < infinity) {
         const glm::vec3 lamp = origin + nearest * towards_light;
         if (glm::dot(outside_of_object(lamp, -towards_light) - lamp, towards_light) > 0.0f)
@@ -319,7 +320,7 @@ float PhotonEmission::line_density(const Surface& glowing, const glm::vec3& towa
     if (first_glowing_ == sources_.size()) return 0.0f;
     const glm::vec3& origin = glowing.near_side.origin;
     const glm::vec3 direction = -towards_light;
-    // The free distance is searched only if a ball reaches beyond what is known.
+    // The free distance is searched only if a ball reaches beyond the known part.
     float free = known_free;
     bool is_searched = false;
     float sum = 0;

@@ -1,33 +1,32 @@
-// How photons leave the lights: from which light, where and in which direction, and how densely.
+// Photon emission: from which light, point and direction photons start, and with which density.
 //
 // A photon starts on a line. Lines are measured by area and solid angle, dG = dA cos θ dω, which is the same at every
-// point of the line; where light is refracted n² dG is kept (the étendue). The densities of infinite
-// lights and area lights together are one mixture, with the share cᵢ of each source; those of each other kind of source
-// are a mixture by themselves.
+// point of the line. Refraction preserves n² dG (the étendue). The densities of infinite lights and area lights
+// together form one mixture, with the share cᵢ of each source. Each other kind of source has a mixture of its own.
 //
 // *Infinite lights and area lights:*
 //     p(line) = Σᵢ cᵢ pᵢ(line),   pᵢ = t/Ω  of an infinite light,   pᵢ = q/(A cos θ)  of an area light.
-// Of an infinite light lines come evenly from a cap of directions of the solid angle Ω: the sun's disk, or a bright
-// part of an image (lights/bright_parts.hpp), each of which is a source. t is the density, per area across, with which
-// the light's target chooses the line among parallel ones (target.hpp). Of an area light, A is its area, θ the angle at
-// its surface, and q the density per steradian of the line's direction as seen from there (aim.hpp). A photon carries
-// what is seen along its line, whichever light proposed it. If that is a lamp within the sphere about the object,
-// p(line) is of that lamp alone, because the photons of what is behind it end at it. The rest of a light that comes
-// from all around sends no photons. Lines that nothing proposes are left to the other techniques of path.hpp.
+// Lines of an infinite light are sampled uniformly from a cap of directions with the solid angle Ω. Such a cap is the
+// sun's disk, or a bright part of an image (lights/bright_parts.hpp), and each is a source. t is the density, per area
+// across the line, with which the light's target chooses the line among parallel ones (target.hpp). For an area light,
+// A is its area, θ the angle at its surface, and q the pdf per steradian of the line's direction as seen from there
+// (aim.hpp). A photon carries the radiance seen along its line, whichever light proposed it. If that is a lamp inside
+// the sphere around the object, p(line) is that of the lamp alone, because photons of what is behind it end at it. The
+// rest of an environment emits no photons. Lines that no source proposes are left to the other techniques of path.hpp.
 //
-// *Balls around parts of surfaces that glow:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
-// would start a photon on this line at this same place (glowing_lines.hpp).
+// *Balls around parts of emissive surfaces:* pᵢ = q/(π r²), with the ball's radius r. The sum is over those balls that
+// would start a photon on this line at this same point (glowing_lines.hpp).
 //
-// *Balls around parts of media that shine:* a place in the ball (places.hpp) and a direction choose a line, and the
-// place chooses the straight piece of it that is in the medium. The piece ends where the light leaves the medium. It
+// *Balls around parts of emissive media:* a point in the ball (places.hpp) and a direction choose a line, and the point
+// chooses the straight segment of it that is in the medium. The segment ends where the light leaves the medium. It
 // begins where the line enters the medium, or at the opaque surface or lamp that hides the rest. The photon carries all
-// that the medium sends along the piece. Any place on the piece would have chosen it, so pᵢ = q ∫ v, with the density q
-// of the direction per steradian (directions.hpp), the density v of places per volume, and the integral along the part
-// of the piece that is in the ball. The sum is over all balls that the piece meets.
+// emission along the segment. Any point on the segment would have chosen it, so pᵢ = q ∫ v, with the pdf q of the
+// direction per steradian (directions.hpp), the density v of points per volume, and the integral along the part of the
+// segment inside the ball. The sum is over all balls that the segment meets.
 //
-// *Point lights:* all lines of one pass through it, and have no density by area. They have one of directions, cᵢ q, and
-// a photon carries the light's intensity over that. No other technique finds light of it that smooth interfaces bent
-// before anything scattered it.
+// *Point lights:* all lines of a point light pass through it, so they have no density by area. They have the density of
+// directions cᵢ q, and a photon carries the light's intensity over that. No other technique finds light of a point
+// light that was refracted by smooth interfaces before its first scattering.
 #pragma once
 
 #include <cstddef>
@@ -45,59 +44,58 @@
 
 namespace phasetree::tracer {
 
-/// A photon that is about to start.
+/// An emitted photon.
 struct EmittedPhoton {
-    /// It starts where its line enters the sphere about the object, or at its light if that is farther along the line,
-    /// or on the surface that glows, or in the medium that shines.
+    /// Starts where its line enters the sphere around the object, or at its light if that is farther along the line, or
+    /// on the emissive surface, or in the emissive medium.
     Ray ray;
-    /// What is seen from the origin backwards if nothing is in the way; of a medium that shines, from where the photon
-    /// leaves it.
+    /// What is seen from the origin backwards without occlusion; for an emissive medium, from where the photon leaves
+    /// it.
     Lights::Emission emission;
-    glm::vec3 power;     ///< radiance of the light over p(line); of a point light, intensity over cᵢ q
-    float line_density;  ///< p(line) over the square of the refractive index at the origin; of a point, cᵢ q
-    std::size_t source;  ///< the number of the source that proposed it: less than PhotonEmission::sources()
-    std::size_t cell;    ///< that cell of the source in which it is aimed
-    /// Whether a medium that shines sends it. Then the power already includes what that medium takes away up to the
+    glm::vec3 power;     ///< radiance of the light over p(line); for a point light, intensity over cᵢ q
+    float line_density;  ///< p(line) over the squared refractive index at the origin; for a point light, cᵢ q
+    std::size_t source;  ///< number of the source that proposed it, less than PhotonEmission::sources()
+    std::size_t cell;    ///< the cell of the source that chose its direction
+    /// Whether an emissive medium sends it. The power then already includes the attenuation by that medium up to the
     /// photon's first boundary, and nothing can hide the light from the origin.
     bool is_of_medium = false;
 };
 
 class PhotonEmission {
   public:
-    /// Refers to the world and the scene, which must outlive it. All sources have equal shares at first.
+    /// Refers to the world and the scene, which must outlive it. Initially all sources have equal shares.
     PhotonEmission(const World& world, const Scene& scene);
 
-    /// How many sources send photons: lights, bright parts of lights, and parts of surfaces that glow and of media that
-    /// shine. There are none if no clear phase bends light and nothing is of metal, or if the object has no
-    /// finite bounds.
+    /// The number of sources that emit photons: lights, bright parts of lights, and parts of emissive surfaces and
+    /// media. It is 0 if no clear phase refracts light and nothing is of metal, or if the object has no finite bounds.
     std::size_t sources() const { return sources_.size(); }
-    /// In how many cells a source aims its photons.
+    /// The number of cells in which a source aims its photons.
     std::size_t cells(std::size_t source) const;
-    /// Samples a photon that flies at a share of the time in which the shutter is open, of light of wavelengths or,
-    /// without any, of red, green and blue. Nothing if its line leads nowhere.
+    /// Samples a photon at a time given as a share of the shutter interval, in wavelengths or, if they are null, in
+    /// red, green and blue. nullopt if its line leads nowhere.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time, const Wavelengths* wavelengths = nullptr) const;
-    /// As EmittedPhoton::line_density, for a line that leads from a point in this phase towards a light.
+    /// See EmittedPhoton::line_density; for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
-    /// The same of a line that leads to a surface that glows. `known_free` is the distance from the surface, against
+    /// As above, for a line that leads to an emissive surface. `known_free` is the distance from the surface, against
     /// towards_light, over which the line is known to be free.
     float line_density(const Surface& glowing, const glm::vec3& towards_light, float known_free) const;
-    /// The same of a straight piece of a line in a medium that shines, from the boundary where its light comes out,
-    /// back against that light over `length`, which may be infinite. The phase is the medium's.
+    /// As above, for a straight segment of a line in an emissive medium: from the boundary where its light leaves, back
+    /// against that light over `length`, which may be infinite. The phase is the medium's.
     float line_density_in_medium(const glm::vec3& boundary, const glm::vec3& against_light, Phase phase,
                                  float length) const;
-    /// The same of a point light, by its number in Lights::points(), for a direction from it: per steradian.
+    /// As above, for a point light, by its number in Lights::points(), and a direction from it: per steradian.
     float direction_density(std::size_t point_light, const glm::vec3& from_light) const;
 
-    /// From now on sources and cells are chosen nearly in proportion to these numbers, worth[source][cell]; a tenth of
-    /// the photons stays spread evenly. If all are 0 nothing changes.
+    /// Makes the probabilities of sources and cells nearly proportional to worth[source][cell]; a tenth of the photons
+    /// stays spread evenly. Does nothing if all are 0.
     void learn(std::vector<std::vector<double>> worth);
 
   private:
     struct OfCap {
-        Cap cap;  ///< of an infinite light
+        Cap cap;  ///< part of an infinite light
         PhotonTarget aim;
     };
-    /// Of lights with a place, by the light's number among those of its sort.
+    /// A light with a position, by its number among the lights of its kind.
     struct OfArea {
         std::size_t number;
         PhotonAim aim;
@@ -106,24 +104,24 @@ class PhotonEmission {
         std::size_t number;
         PhotonAim aim;
     };
-    /// Of a part of a surface that glows.
+    /// A part of an emissive surface.
     struct OfGlowing {
         BoundingSphere ball;
         PhotonDirections aim;
     };
-    /// Of a part of a medium that shines: `places` chooses a point of the line, and `aim` its direction. Only the cells
-    /// of `aim` are learnt.
+    /// A part of an emissive medium: `places` chooses a point of the line, and `aim` its direction. Only the cells of
+    /// `aim` are learned.
     struct OfShining {
         PhotonPlaces places;
         PhotonDirections aim;
     };
     using Source = std::variant<OfCap, OfArea, OfPoint, OfGlowing, OfShining>;
 
-    /// Where photons fly, before it is known what sends them.
+    /// The line of a photon, before its light is known.
     struct Line {
         glm::vec3 through;  ///< a point of the line
         glm::vec3 direction;
-        float back;  ///< from that point to the light; infinity of an infinite light
+        float back;  ///< from that point to the light; infinity for an infinite light
         std::size_t cell;
     };
     std::optional<Line> sampled_line(const OfCap&, Sampler&) const;
@@ -131,14 +129,14 @@ class PhotonEmission {
     std::optional<Line> sampled_line(const OfPoint&, Sampler&) const;
     std::optional<Line> sampled_line(const OfGlowing&, Sampler&) const;
     std::optional<Line> sampled_line(const OfShining&, Sampler&) const;
-    /// What a photon is that starts on a line: the number of the source that proposed the line, and as sample() has it.
+    /// The number of the source that proposed the line, and the arguments of sample().
     struct Start {
         std::size_t source;
         float time;
         const Wavelengths* wavelengths;
         Sampler& sampler;
     };
-    /// The photon that starts on a line. Nothing if no photon can start there.
+    /// The photon that starts on a line. nullopt if no photon can start there.
     std::optional<EmittedPhoton> photon_on(const Line& line, const OfCap&, const Start& start) const {
         return photon_of_seen(line, start);
     }
@@ -148,22 +146,22 @@ class PhotonEmission {
     std::optional<EmittedPhoton> photon_on(const Line&, const OfPoint&, const Start&) const;
     std::optional<EmittedPhoton> photon_on(const Line&, const OfGlowing&, const Start&) const;
     std::optional<EmittedPhoton> photon_on(const Line&, const OfShining&, const Start&) const;
-    /// The same, of whatever light is seen along the line.
+    /// As above, with whatever light is seen along the line.
     std::optional<EmittedPhoton> photon_of_seen(const Line&, const Start&) const;
 
-    /// From now on places of a ball are chosen in proportion to how brightly media shine there, but for a tenth, which
-    /// stays even. This many places of each cell are asked, at most 8.
+    /// Makes the probabilities of points of a ball proportional to the brightness of media there, except for a tenth,
+    /// which stays uniform. Evaluates this many points per cell, at most 8.
     void prefer_bright_places(PhotonPlaces& places, std::size_t asked_a_cell) const;
-    /// The luminance per unit of length that a medium sends at a place.
+    /// The luminance per unit length that a medium emits at a point.
     double brightness_at(const glm::vec3& place, float time) const;
-    /// A point of a line that is sure to be before everything that it meets of the object.
+    /// A point of a line that is certain to be in front of everything that the line meets of the object.
     glm::vec3 outside_of_object(const glm::vec3& point, const glm::vec3& direction) const;
-    /// Where a photon starts on a line; none in an opaque phase.
+    /// Where a photon starts on a line; nullopt in an opaque phase.
     std::optional<Ray> ray_on(const Line&, float time) const;
 
     float share(std::size_t source) const { return static_cast<float>(choice_.probability(source)); }
     float density(const OfCap&, const glm::vec3& origin, const glm::vec3& towards_light) const;
-    /// How densely a lamp's lines are on this one, and how far it is; infinity if it is not there.
+    /// The density of a lamp's lines at this one, and the distance of the lamp; infinity if the line misses it.
     struct LampOnLine {
         float density, distance;
     };
@@ -172,9 +170,9 @@ class PhotonEmission {
     const World& world_;
     const Scene& scene_;
     glm::vec3 centre_{0};
-    float radius_ = 0;  ///< of the sphere about the object
-    /// First those of infinite lights, then area lights in their order, then point lights, then parts of what glows or
-    /// shines, in the order of Lights::glowing().
+    float radius_ = 0;  ///< of the sphere around the object
+    /// First those of infinite lights, then area lights in their order, then point lights, then parts of emissive
+    /// surfaces and media, in the order of Lights::glowing().
     std::vector<Source> sources_;
     std::size_t first_area_ = 0, first_point_ = 0, first_glowing_ = 0;
     CellChoice choice_{1};  ///< of a source: cᵢ

@@ -10,8 +10,8 @@ namespace {
 
 enum class Heading { towards_the_light, with_the_light };
 
-// Follows a straight line through clear boundaries to the first opaque surface before the distance `far`, if no lamp is
-// before it. A rectangle hides from one side alone, so it matters which way the light goes.
+// Follows a straight line through clear boundaries to the first opaque surface before the distance `far`, unless a lamp
+// is in front of it. A rectangle occludes from one side only, so the direction of the light matters.
 FreeLine followed(Ray ray, float far, Heading heading, const World& world, const Scene& scene) {
     const glm::vec3 direction = ray.direction;
     PathCounters uncounted;

@@ -1,9 +1,9 @@
-// Where a line through a ball around a glowing part (lights/glowing_part.hpp) leaves a glowing surface.
+// Finds where a line through a ball around an emissive part (lights/glowing_part.hpp) leaves an emissive surface.
 //
-// A photon that such a ball sends flies on a line through the ball, and starts where that line leaves a surface. Where
-// it leaves several, the photon starts at the last of them. So a surface sends it only if neither an opaque surface nor
-// a lamp is between there and the end of the line in the ball. Clear boundaries may be there. They will bend the
-// photon, but the line that it is sampled on goes straight through them.
+// A photon from such a ball travels on a line through the ball and starts where that line leaves a surface. If the line
+// leaves several surfaces, the photon starts at the last one. So a surface emits it only if neither an opaque surface
+// nor a lamp is between there and the end of the line in the ball. Clear boundaries are allowed. They will refract the
+// photon, but the line on which it is sampled goes straight through them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,24 +15,25 @@
 
 namespace phasetree::tracer {
 
-/// What a straight line meets that goes through clear boundaries.
+/// What a straight line through clear boundaries meets.
 struct FreeLine {
-    std::optional<Surface> opaque{};  ///< the first opaque surface, if no lamp is before it
-    float free = 0;                   ///< the distance to there, or to the lamp
+    std::optional<Surface> opaque{};  ///< the first opaque surface, unless a lamp is in front of it
+    float free = 0;                   ///< distance to that surface or lamp
 };
 
-/// The surface from which a ball sends a photon on the line through a point in a direction of unit length, at a share
-/// of the time in which the shutter is open, and how far it is from the end of the line in the ball. The surface may be
-/// one that does not glow. There is none if nothing opaque is on the line in the ball, if a lamp is before it, or if
-/// the line leaves the ball in an opaque phase.
+/// Returns the surface from which a ball emits a photon on the line through a point, and its distance from the end of
+/// the line in the ball. The direction has unit length; the time is a share of the shutter interval. The surface may be
+/// one that does not emit. There is none if the line meets nothing opaque in the ball, if a lamp is in front of the
+/// surface, or if the line leaves the ball in an opaque phase.
 FreeLine last_surface_in(const BoundingSphere& ball, const World& world, const Scene& scene, const glm::vec3& point,
                          const glm::vec3& direction, float time);
 
-/// How far the line that leaves a surface in a direction, of unit length and on the side from which the surface was
-/// met, is free of lamps and of all that is opaque; infinity if it is all free.
+/// The distance over which the line that leaves a surface is free of lamps and opaque surfaces; infinity if all of it
+/// is free. The direction has unit length and is on the side from which the surface was met.
 float free_distance(const Surface& from, const glm::vec3& direction, const World& world, const Scene& scene);
 
-/// The distance along a line to where it leaves a ball that its origin is in; nothing if it is not in it.
+/// The distance along a line from its origin inside a ball to where it leaves the ball; nullopt if the origin is
+/// outside.
 std::optional<float> distance_to_leave(const BoundingSphere& ball, const glm::vec3& origin, const glm::vec3& direction);
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,6 @@
-// A photon: light that came from a lamp, or what glows or shines, through at least one interface of clear phases,
-// smooth or rough, and fell on an opaque surface that is not a mirror, on a rough interface, or into a medium that
-// scatters. It stands for the whole chain of interfaces behind it.
+// A photon: light from a lamp or an emissive surface or medium that passed at least one interface of clear phases,
+// smooth or rough. It landed on an opaque surface that is not a mirror, on a rough interface, or in a scattering
+// medium. It represents the whole chain of interfaces behind it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,24 +14,24 @@
 namespace phasetree::tracer {
 
 struct Photon {
-    glm::vec3 position;   ///< where it fell
-    glm::vec3 direction;  ///< of unit length, from there to where it came from
-    /// The radiance of the light over p(line), or of a point light its intensity over the density of directions
-    /// (emission.hpp), times what the media and interfaces on the way left of it.
+    glm::vec3 position;   ///< where it landed
+    glm::vec3 direction;  ///< unit length, from there back along its last segment
+    /// The radiance of the light over p(line), times the attenuation by media and interfaces on the way. For a point
+    /// light, the intensity over the density of directions (emission.hpp) replaces the former.
     glm::vec3 power;
-    /// p(line)/m²: how densely the photon's line was sampled at the light, p(line), per area perpendicular to it and
-    /// steradian, over the square of the refractive index m around the light. Of a point light, per steradian alone.
+    /// p(line)/m²: the density p(line) of the photon's line at the light, per area perpendicular to it and steradian,
+    /// over the square of the refractive index m around the light. For a point light, per steradian only.
     float line_density;
-    Phase phase;                   ///< in which it travelled when it fell
-    LightSource source;            ///< the light that is seen from where the photon started
-    glm::vec3 towards_light;       ///< the direction in which it is seen from there
-    DensityQuotients quotients{};  ///< of a chain in which rough interfaces are
-    /// It was dispersed: every component of `power` is that at the hero of the wavelengths of the photon's map.
+    Phase phase;                   ///< of the last segment
+    LightSource source;            ///< the light seen from where the photon started
+    glm::vec3 towards_light;       ///< direction of that light from there
+    DensityQuotients quotients{};  ///< of a chain with rough interfaces
+    /// Whether it was dispersed. If so, every component of `power` is that at the hero wavelength of the photon's map.
     bool of_one_wavelength = false;
 
-    /// The weight of what the photon brings, by the power heuristic: photons find its direction with the density
-    /// `by_photons`, and the path itself would go on in it with the density `pdf`. shadow_rays() is the density with
-    /// which shadow rays start in it; it is asked for only if they would get to the light.
+    /// The MIS weight of the photon's contribution, by the power heuristic. `by_photons` is the density with which
+    /// photons find its direction, and `pdf` that with which the path itself would continue in it. shadow_rays()
+    /// returns the pdf with which shadow rays start in it; it is called only if they would reach the light.
     template <class ShadowRays>
     float weight(float by_photons, float pdf, ShadowRays&& shadow_rays) const {
         return power_heuristic(by_photons, pdf * quotients.by_directions,
@@ -39,14 +39,14 @@ struct Photon {
     }
 };
 
-/// A photon in a medium: a place that stands for all of the photon's line through it (photon_placement.hpp).
+/// A photon in a medium: one point that represents the photon's whole line through it (photon_placement.hpp).
 struct MediumPhoton {
-    Photon photon;  ///< its power is that with which it came into the medium
-    float depth;    ///< how far the place is behind the boundary, along the line; down to −h before it
+    Photon photon;  ///< its power is that on entering the medium
+    float depth;    ///< distance of the point behind the boundary, along the line; down to −h before it
 };
 
-/// What becomes of photons: one falls on an opaque surface, and is kept at each rough interface, and at one place in
-/// each scattering medium, that it meets on its way there, after its first interface.
+/// The results of tracing photons. After its first interface, a photon is stored where it lands on an opaque surface,
+/// at each rough interface on its way there, and at one point in each scattering medium.
 struct TracedPhotons {
     std::vector<Photon> on_surfaces{};
     std::vector<Photon> on_interfaces{};

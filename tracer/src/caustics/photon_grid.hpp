@@ -1,5 +1,5 @@
-// A grid of cubes in which photons near a point are found. Cubes are as wide as the sphere that is searched, so that no
-// more than two are examined along each axis, or three where rounding makes the sphere wider.
+// A hash grid of cubes for finding photons near a point. Cubes are as wide as the sphere that is searched, so that at
+// most two are examined along each axis, or three where rounding makes the sphere wider.
 #pragma once
 
 #include <bit>
@@ -10,15 +10,15 @@
 
 namespace phasetree::tracer {
 
-/// `position` is given a photon, of whatever sort, and says where it is.
+/// `position` is a callable that returns the position of a photon of type Kept.
 template <class Kept, class Position>
 class PhotonGrid {
   public:
-    /// For searches within the radius. The order of the photons is that in which near() gives those of a cube.
+    /// For searches within the radius. near() visits the photons of a cube in the given order.
     PhotonGrid(const std::vector<Kept>& photons, float radius, Position position = {})
         : radius_(radius), position_(position) {
         if (photons.empty()) return;
-        // A counting sort, which keeps the order of photons within a bucket.
+        // Counting sort, which keeps the order of photons within a bucket.
         starts_.assign(std::bit_ceil(photons.size()) + 1, 0);
         for (const Kept& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
         for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
@@ -27,7 +27,7 @@ class PhotonGrid {
         for (const Kept& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
     }
 
-    /// Calls use(photon, offset) for each photon within the radius of a point; the offset leads from the point to the
+    /// Calls use(photon, offset) for each photon within the radius of a point. The offset leads from the point to the
     /// photon's position.
     template <class Use>
     void near(const glm::vec3& point, Use&& use) const {
@@ -41,14 +41,14 @@ class PhotonGrid {
                         const Kept& photon = photons_[i];
                         const glm::vec3 offset = position_(photon) - point;
                         if (glm::dot(offset, offset) > radius_ * radius_) continue;
-                        // Different cubes may share a bucket; each photon counts in its own cube alone.
+                        // Different cubes may share a bucket; each photon counts in its own cube only.
                         if (cube_of(position_(photon)) == glm::ivec3(x, y, z)) use(photon, offset);
                     }
                 }
     }
 
   private:
-    // What is very far away lies in the outermost cubes.
+    // Positions very far away are clamped to the outermost cubes.
     glm::ivec3 cube_of(const glm::vec3& p) const {
         constexpr float outermost = 1e9f;
         return glm::ivec3(glm::clamp(glm::floor(p / (2.0f * radius_)), -outermost, outermost));

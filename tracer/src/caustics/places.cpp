@@ -15,7 +15,7 @@ PhotonPlaces::PhotonPlaces(const BoundingSphere& ball)
 }
 
 bool PhotonPlaces::meets_ball(std::size_t cell) const {
-    // In sides of cells, from the ball's centre, which is a corner of cells, to the nearest corner of this one.
+    // In units of cells: from the ball's centre, which is a corner of cells, to the nearest corner of this cell.
     constexpr int middle = cells_a_side / 2;
     const glm::ivec3 at = coordinates(cell) - middle;
     const glm::ivec3 nearest = glm::max(glm::max(at, -1 - at), glm::ivec3(0));
@@ -50,7 +50,7 @@ float PhotonPlaces::density_along(const glm::vec3& origin, const glm::vec3& dire
     const float end = std::min(within->leaves, length);
     float t = std::max(within->enters, 0.0f);
     if (!(t < end && end < Bounds::infinity)) return 0.0f;
-    // From cell to cell, by the next plane between cells that the line comes to along each axis.
+    // Walks from cell to cell, to the next plane between cells along each axis.
     const glm::vec3 in_cells = (origin + t * direction - corner()) / cell_side();
     glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(in_cells)), 0, cells_a_side - 1);
     glm::vec3 next(Bounds::infinity), step(Bounds::infinity);

@@ -1,6 +1,6 @@
-// A photon of a medium that shines flies on a line through a place that is chosen in a ball around a part of the
-// medium. The cube around the ball is divided into cells with a probability each, and places are spread evenly in a
-// cell; one outside of the ball sends no photon. So places have the density P(cell)/(volume of a cell) per volume.
+// A photon of an emissive medium travels on a line through a point that is sampled in a ball around a part of the
+// medium. The cube around the ball is divided into cells, each with a probability, and points are uniform within a
+// cell. A point outside of the ball emits no photon. So points have the density P(cell)/(volume of a cell) per volume.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,17 +18,18 @@ class PhotonPlaces {
     explicit PhotonPlaces(const BoundingSphere& ball);
 
     std::size_t cells() const { return choice_.size(); }
-    /// Whether some of a cell is in the ball.
+    /// Whether a cell overlaps the ball.
     bool meets_ball(std::size_t cell) const;
-    /// The place in a cell at these shares, in [0, 1]³, of its sides.
+    /// The point in a cell at these shares, in [0, 1]³, of its sides.
     glm::vec3 place(std::size_t cell, const glm::vec3& share) const;
-    /// As CellChoice has it, but that cells outside of the ball are never chosen.
+    /// See CellChoice; cells outside of the ball are never chosen.
     void set_weights(std::span<const double> weights);
 
-    /// A place: u_cell in [0, 1) chooses the cell, u in [0, 1)³ the place in it. Nothing if it is outside of the ball.
+    /// Samples a point: u_cell in [0, 1) chooses the cell, u in [0, 1)³ the position in it. nullopt outside of the
+    /// ball.
     std::optional<glm::vec3> sample(float u_cell, const glm::vec3& u) const;
-    /// The integral of the density of places along a line, from its origin to the distance `length`, which may be
-    /// infinite. It is per area across the line. The direction is of unit length.
+    /// The integral of the density of points along a line, from its origin to the distance `length`, which may be
+    /// infinite. It is per area across the line. The direction has unit length.
     float density_along(const glm::vec3& origin, const glm::vec3& direction, float length) const;
 
   private:

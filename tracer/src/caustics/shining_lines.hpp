@@ -1,4 +1,4 @@
-// Straight pieces of lines through media that shine, on which photons start.
+// Straight segments of lines through emissive media, on which photons start.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace phasetree::tracer {
 
-/// A straight piece of a line within one clear phase.
+/// A straight segment of a line within one clear phase.
 struct ShiningPiece {
-    glm::vec3 boundary;  ///< where light that goes in the line's direction leaves the phase
-    float length;        ///< from there back to where the piece begins; infinity if it begins nowhere
+    glm::vec3 boundary;  ///< where light that travels in the line's direction leaves the phase
+    float length;        ///< from there back to the start of the segment; infinity if it has none
 };
 
-/// The piece that the ray's origin is on; light goes in the ray's direction. The piece begins at the nearest surface or
-/// lamp behind the origin, and ends at the first surface ahead. Nothing if a lamp is before that surface, if there is
-/// none, or if no photon goes on from it. The phase need not shine.
+/// The segment that contains the ray's origin; light travels in the ray's direction. The segment begins at the nearest
+/// surface or lamp behind the origin, and ends at the first surface ahead. nullopt if there is no such surface, if a
+/// lamp is in front of it, or if no photon continues from it. The phase need not be emissive.
 std::optional<ShiningPiece> shining_piece(const Ray& ray, const World& world, const Scene& scene);
 
 }  // namespace phasetree::tracer

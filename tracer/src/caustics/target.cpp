@@ -6,7 +6,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Lines that run along the plane have no useful density in it.
+// Lines almost parallel to the plane have no useful density in it.
 constexpr float least_cosine = 0.05f;
 
 }  // namespace

@@ -1,8 +1,8 @@
-// Where the photons of a light far away are aimed: a square in a plane through the middle of the object, divided into
-// cells with a probability each. Photons pass through it on straight lines, and what counts of a line is how densely it
-// was chosen among parallel ones: per area perpendicular to it,
+// The target of photons from a distant light: a square in a plane through the centre of the object, divided into cells
+// with a probability each. Photons pass through it on straight lines. The density of a line among parallel ones, per
+// area perpendicular to it, is
 //     p = p(cell)/(area of a cell · |cos θ|),   θ between the line and the plane's normal.
-// Lines that do not pass through the square have the density 0: no photon goes there.
+// Lines that miss the square have the density 0 because no photon travels on them.
 #pragma once
 
 #include <cstddef>
@@ -18,24 +18,24 @@ class PhotonTarget {
   public:
     static constexpr int cells_a_side = 32;
 
-    /// A square of this half side, all of whose cells are equally likely. The normal is of unit length.
+    /// Makes a square of this half side, with equally likely cells. The normal has unit length.
     PhotonTarget(const glm::vec3& centre, const glm::vec3& normal, float half_side);
 
     std::size_t cells() const { return choice_.size(); }
-    /// As CellChoice has it.
+    /// See CellChoice.
     void set_weights(std::span<const double> weights) { choice_.set_weights(weights); }
 
     struct Aim {
         glm::vec3 point;
         std::size_t cell;
     };
-    /// A point of the square: u_cell in [0, 1) chooses the cell, u in [0, 1)² the place in it.
+    /// Samples a point of the square: u_cell in [0, 1) chooses the cell, u in [0, 1)² the position in it.
     Aim sample(float u_cell, const glm::vec2& u) const;
     struct Crossing {
         float density;   ///< of the line among parallel ones, per area perpendicular to it
         float distance;  ///< along the line, from its origin to the plane; negative behind it
     };
-    /// Where a line passes through the plane. The direction is of unit length.
+    /// Where a line crosses the plane. The direction has unit length.
     Crossing crossing(const glm::vec3& origin, const glm::vec3& direction) const;
 
   private:

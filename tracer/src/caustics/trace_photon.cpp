@@ -13,10 +13,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Cosines that divide are raised to this, so that no grazing photon has a power without bounds.
+// Cosines in denominators are clamped to at least this, so that the power of grazing photons is bounded.
 constexpr float least_divisor = 1e-4f;
 
-// Follows one photon until it ends.
+// The state of one photon.
 class PhotonFlight {
   public:
     PhotonFlight(const World& world, const Scene& scene, const EmittedPhoton& emitted, float radius, Sampler& sampler,
@@ -31,11 +31,11 @@ class PhotonFlight {
           ray_(emitted.ray),
           carried_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
           power_(emitted.power) {
-        // A photon of a glowing surface starts on it, and one of a medium in it, so nothing can be in between.
+        // A photon of an emissive surface or medium starts on or in it, so nothing can be in between.
         if (emitted.is_of_medium || std::holds_alternative<OfGlowingSurface>(emitted.emission.source))
             start_sees_light_ = true;
         // No sampled direction meets a point. A shadow ray meets it only if the photon's first interface is rough;
-        // multiply_quotients() then has the quotient instead of this 0.
+        // multiply_quotients() then replaces this 0.
         if (emitted.emission.is_of_point_light()) quotients_ = {.by_directions = 0, .by_shadow_rays = 0.0f};
     }
 
@@ -44,15 +44,15 @@ class PhotonFlight {
             const Hit hit = world_.geometry().intersect(ray_, counters_);
             const Surface* surface = std::get_if<Surface>(&hit);
             float distance = surface ? surface->distance : std::numeric_limits<float>::infinity();
-            // A lamp with an area stops the photon. The photon's own lamp is left out until something has bent the
-            // photon's way, because until then the photon only leaves it.
+            // A lamp with an area stops the photon. The photon's own lamp is ignored until something has changed the
+            // photon's direction, because until then the photon is only leaving it.
             const LightSource own = interfaces_ == 0 ? emitted_.emission.source : LightSource{};
             if (const auto lamp = scene_.lights.area_light_in_the_way(ray_.origin, ray_.direction, distance, own)) {
                 surface = nullptr;
                 distance = *lamp;
             }
-            // A photon is kept with the power with which it came into the medium. The point that gathers it knows how
-            // much of that is left there.
+            // A photon is stored with its power on entering the medium. The point that gathers it applies the
+            // transmittance.
             if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
             if (!(is_first && emitted_.is_of_medium) && !pass_medium(distance)) return;
@@ -62,7 +62,7 @@ class PhotonFlight {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            // Paths gather where they meet a mixture's other material, too.
+            // Paths also gather where they meet a mixture's other material.
             const bool is_gathered = !bsdf.is_delta() || surface->is_partly_rough;
             if (photons_follow(interfaces_) && is_gathered && start_sees_light()) {
                 auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
@@ -79,7 +79,7 @@ class PhotonFlight {
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
 
-    // Multiplies the power by what the medium leaves of it. Returns false if the photon ends there.
+    // Multiplies the power by the transmittance of the medium. Returns false if the photon ends there.
     bool pass_medium(float distance) {
         glm::vec3 left =
             transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, carried_), sampler_);
@@ -100,8 +100,8 @@ class PhotonFlight {
                 is_dispersed_};
     }
 
-    // From here on the photon carries the power of the hero wavelength alone, in all three numbers. Of three
-    // wavelengths it drops the other two.
+    // From here on, the photon carries the power of the hero wavelength only, in all three components. The other two
+    // wavelengths of a spectral photon are dropped.
     void disperse() {
         const Wavelengths& wavelengths = of_pass_.value();
         power_ = wavelengths.is_spectral ? glm::vec3(power_.x) : for_light(power_, &wavelengths);
@@ -113,14 +113,14 @@ class PhotonFlight {
         const std::optional<PhotonPlacement> placement = PhotonPlacement::in(medium(), half_length_);
         if (!placement) return;
         const float depth = placement->sample(sampler_.next());
-        // The place may lie up to h (half_length_) beyond the end of the photon's line, because it lights points within
-        // h around it, of which some are before the end.
+        // The point may lie up to h (half_length_) beyond the end of the photon's line, because it counts for points
+        // within h, some of which are before the end.
         if (depth < distance + half_length_ && start_sees_light())
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
 
-    // Whether nothing hides the light from the place where the photon starts. Only for photons that are kept is a ray
-    // traced to find out, and only once.
+    // Whether nothing occludes the light from the photon's start. The ray is traced only for photons that are stored,
+    // and only once.
     bool start_sees_light() {
         if (!start_sees_light_) {
             const Ray back{emitted_.ray.origin, -emitted_.ray.direction, emitted_.ray.phase, {}, emitted_.ray.in};
@@ -130,16 +130,16 @@ class PhotonFlight {
         return *start_sees_light_;
     }
 
-    // Sends the photon on from an interface, into one of its directions. Returns false if it ends there.
+    // Samples the photon's next direction at an interface. Returns false if it ends there.
     bool scatter(const Surface& surface, const Bsdf& bsdf) {
         const Frame frame = surface.frame();
         const glm::vec3 wo = frame.to_local(-ray_.direction);
         const float u_lobe = sampler_.next();
-        // A smooth interface has no density of directions, so it needs no more than the number that chooses the lobe.
+        // A smooth interface has no continuous pdf of directions, so it needs only the number that chooses the lobe.
         const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
-        // No shadow ray passes a mirror. If the photon met no rough surface before the mirror, at which a shadow ray
-        // can start, shadow rays find nothing of its light.
+        // No shadow ray passes a mirror. If the photon met no rough surface before the mirror at which a shadow ray
+        // could start, shadow rays find none of its light.
         if (!next->delta)
             multiply_quotients(surface, bsdf, ray_, wo, *next);
         else if (!surface.far_side && !quotients_.by_shadow_rays)
@@ -149,9 +149,9 @@ class PhotonFlight {
         ray_ = continued(surface, frame, *next);
         if (surface.normal != surface.geometric_normal && !correct_for_shading_normal(surface, direction_before))
             return false;
-        // The BSDF is sampled as if the photon were a path that comes from the camera, so its weight is of radiance
-        // that arrives from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not
-        // scaled. What does not disperse, a rough interface or one with a film, bends all light as that of the d line.
+        // The BSDF is sampled as if the photon were a path from the camera, so its weight is for radiance that arrives
+        // from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not scaled.
+        // Interfaces that do not disperse, rough ones or those with a film, refract all light like that of the d line.
         const Wavelengths* bent_as = surface.optics.get().disperses() ? carried_ : nullptr;
         const float before = clear_at(scene_, from).ior_for(bent_as);
         const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
@@ -159,12 +159,12 @@ class PhotonFlight {
         return true;
     }
 
-    // A path's radiance is scattered by the shading normal, and power is spread over the surface by the geometric one.
+    // A path's radiance is scattered by the shading normal, but power is spread over the surface by the geometric one.
     // The quotient of the cosines for power over those for radiance is (Veach, Robust Monte Carlo Methods for Light
     // Transport Simulation, 5.3.2)
     //     |ωo·n_s| |ωi·n_g| / (|ωo·n_g| |ωi·n_s|)
-    // with ωo to where the photon comes from. Returns false if the photon would go on into the surface: its light is
-    // left to paths. Only what is opaque has a shading normal of its own, so the photon is a reflected one.
+    // with ωo towards where the photon comes from. Returns false if the photon would continue into the surface; its
+    // light is left to paths. Only opaque surfaces have a separate shading normal, so the photon was reflected.
     bool correct_for_shading_normal(const Surface& surface, const glm::vec3& direction_before) {
         const glm::vec3 &shading = surface.normal, &geometric = surface.geometric_normal;
         const float cosine_out = glm::dot(ray_.direction, geometric);
@@ -175,8 +175,8 @@ class PhotonFlight {
         return true;
     }
 
-    // Multiplies the quotients (caustics/rough_chain.hpp) by that of the densities at a rough surface, on which the
-    // photon arrives by the ray `arriving`. Cosines are those to the shading normal; paths take the same, so the
+    // Multiplies the quotients (caustics/rough_chain.hpp) by that of the densities at a rough surface, where the photon
+    // arrives by the ray `arriving`. Cosines are relative to the shading normal; paths use the same ones, so the
     // weights still sum to 1.
     void multiply_quotients(const Surface& surface, const Bsdf& bsdf, const Ray& arriving, const glm::vec3& wo,
                             const BsdfSample& next) {
@@ -184,11 +184,12 @@ class PhotonFlight {
         const LightReceiver receiver = receiver_of_passed_light(surface, path_side);
         const float lamp_ior = clear_at(scene_, arriving.phase).ior;
         const float rough = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
-        // This is p_y/R: the density with which a camera path that arrives from next.wi goes on to wo, over R.
+        // p_y/R: the pdf with which a camera path that arrives from next.wi continues to wo, over R.
         const float path_quotient = bsdf.reverse_pdf(wo, next.wi) / rough;
         const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source);
         if (point && interfaces_ == 1) {
-            // A shadow ray reaches a point light on a straight line alone, so only from the photon's first interface.
+            // A shadow ray reaches a point light only on a straight line, and so only from the photon's first
+            // interface.
             const float distance =
                 emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
             quotients_.by_shadow_rays = scene_.lights.point_light_probability(receiver, point->index) *
@@ -207,17 +208,16 @@ class PhotonFlight {
     float half_length_;
     Sampler& sampler_;
     PathCounters& counters_;
-    // The wavelengths of all photons of the pass, if it has any.
+    // The wavelengths of all photons of the pass, if any.
     const std::optional<Wavelengths>& of_pass_;
     Ray ray_;
-    // The wavelengths of which the photon carries the power; null as long as it carries red, green and blue.
+    // The wavelengths of the photon's power; null while it carries red, green and blue.
     const Wavelengths* carried_;
     glm::vec3 power_;
     bool is_dispersed_ = false;
-    // This counts the interfaces that the photon has met, the present one included. Those that it passes straight do
-    // not count.
+    // Counts the interfaces met so far, including the current one, except those passed without a change of direction.
     int interfaces_ = 0;
-    // How likely the other techniques are to find the photon's light, relative to the photon itself.
+    // The densities with which the other techniques find the photon's light, relative to that of the photon.
     DensityQuotients quotients_{};
     std::optional<bool> start_sees_light_{};
 };

@@ -1,5 +1,4 @@
-// Denoising as people ask for it, on the command line and in Python: by a name, of a picture with the planes that they
-// want.
+// Denoising for the command line and Python: by name, and for a picture with selected planes.
 #pragma once
 
 #include <string>
@@ -10,17 +9,17 @@
 
 namespace phasetree::tracer {
 
-/// "best", "regression" or "oidn". Throws DenoiseError if there is no such denoiser, or it is not built in.
+/// "best", "regression" or "oidn". Throws DenoiseError if there is no such denoiser, or if it is not built in.
 Denoiser denoiser_named(const std::string& name);
 
-/// Throws DenoiseError if a picture of this many samples a pixel has too few.
+/// Throws DenoiseError if this number of samples per pixel is too small.
 void check_samples_to_denoise(int samples);
 
-/// Puts the denoised picture instead of the image's, which becomes the further channels noisy.R, .G and .B. Returns
-/// whether it is done; if it was cancelled the image is as it was. Throws DenoiseError as denoise() does.
+/// Replaces the image's picture by the denoised one, and adds the original as the further channels noisy.R, .G and .B.
+/// Returns false if it was cancelled, in which case the image is unchanged. Throws DenoiseError as denoise() does.
 bool denoise_in_place(Image& image, const DenoiseJob& job);
 
-/// Takes out the further channels that the planes of `kept` have and those of `wanted` do not.
+/// Removes the further channels that belong to planes in `kept` but not in `wanted`.
 void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const PlaneSubjects& subjects);
 
 }  // namespace phasetree::tracer

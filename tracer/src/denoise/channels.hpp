@@ -1,4 +1,4 @@
-// What denoising takes from an image.
+// Access to the channels of an image for denoising.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 namespace phasetree::tracer {
 
-/// The values of one of the further channels. Throws DenoiseError if it is missing.
+/// The values of a further channel. Throws DenoiseError if it is missing.
 inline std::span<const float> channel_of(const Image& image, std::string_view name) {
     const auto found = std::ranges::find(image.further, name, &Channel::name);
     if (found == image.further.end())

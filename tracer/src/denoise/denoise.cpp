@@ -24,21 +24,21 @@ constexpr int window_radius = 5;
 constexpr int window_side = 2 * window_radius + 1;
 constexpr std::size_t window_size = window_side * window_side;
 static_assert(window_radius + patch_radius <= grid_margin);
-// The k of similarity.hpp. Of 0.25, 0.35, 0.5 and 1 it left the least error in a crop of scenes/hourglass.json.
+// The k of similarity.hpp. Of 0.25, 0.35, 0.5 and 1, it had the smallest error in a crop of scenes/hourglass.json.
 constexpr float k = 0.35f;
-// What is weighed less adds nothing that can be seen, and takes time.
+// Smaller weights have no visible effect, but take time.
 constexpr float least_weight = 1e-4f;
 
-// Each pixel's model predicts the radiance of all pixels of its window. Here are the predictions of one pixel by the
-// models around it, times their weights, and the sum of the weights, by which their mean is taken.
+// Each pixel's model predicts the radiance of all pixels of its window. This is the weighted sum of the predictions for
+// one pixel by the models around it, and the sum of their weights, which give their mean.
 struct Prediction {
     std::array<float, 3> sum{};
     float weight = 0;
 };
 
-// The tiles of a picture, in four colours as those of a map: two of the same colour are so far from each other that no
-// pixel is in windows of both. So tiles of one colour are written at the same time without a race, and the colours come
-// one after the other, which makes each pixel's sum the same for any number of threads.
+// The tiles of a picture, in four colours as on a map: two tiles of the same colour are so far apart that no pixel is
+// in windows of both. So tiles of one colour are written concurrently without a race. The colours are processed one
+// after the other, which makes each pixel's sum independent of the number of threads.
 class Tiles {
   public:
     static constexpr int side = 32, colours = 4;
@@ -61,12 +61,12 @@ class Tiles {
     std::array<std::vector<PixelRange>, colours> of_colour_;
 };
 
-// Counts what has been done, and says when to stop.
+// Tracks progress and cancellation.
 class Work {
   public:
     Work(const DenoiseJob& job, std::size_t total) : job_(job), total_(total) {}
 
-    // Does something for each tile, those of one colour at the same time.
+    // Calls a function for each tile; tiles of one colour are processed concurrently.
     template <class F>
     void for_each(const Tiles& tiles, F&& f) {
         for (int colour = 0; colour < Tiles::colours; ++colour) {
@@ -92,7 +92,7 @@ class Work {
     std::atomic<bool> stopped_ = false;
 };
 
-// The weights of a tile's pixels with all of their windows: window_size of each pixel.
+// The weights of a tile's pixels over their windows: window_size weights per pixel.
 std::vector<float> weights_of(const Grid<Estimate<3>>& guide, const PixelRange& tile) {
     std::vector<float> of_offset(tile.size()), all(tile.size() * window_size);
     std::size_t o = 0;
@@ -104,8 +104,7 @@ std::vector<float> weights_of(const Grid<Estimate<3>>& guide, const PixelRange& 
     return all;
 }
 
-// Fits a model around each pixel of a tile, and adds what it says of the pixels of its window. Glints have no part in
-// it.
+// Fits a model around each pixel of a tile, and adds its predictions for the pixels of its window. Glints are excluded.
 void predict(const Grid<Estimate<3>>& radiance, const Grid<std::uint8_t>& glints, const Grid<Estimate<3>>& guide,
              const Grid<Features>& features, const PixelRange& tile, Grid<Prediction>& predictions) {
     const std::vector<float> weights = weights_of(guide, tile);
@@ -150,7 +149,7 @@ std::optional<std::vector<glm::vec3>> filtered(const Image& image, const Denoise
         const Grid<std::uint8_t> glints = glints_of(radiance);
         Grid<Prediction> predictions(image.width, image.height);
         work.for_each(tiles, [&](const PixelRange& tile) {
-            // The weights come from the other half, whose noise is independent of what is filtered.
+            // The weights come from the other half, whose noise is independent of the filtered one.
             predict(radiance, glints, halves.pictures[1 - half], features, tile, predictions);
         });
         if (work.stopped()) return std::nullopt;
@@ -159,7 +158,7 @@ std::optional<std::vector<glm::vec3>> filtered(const Image& image, const Denoise
             for (int x = 0; x < image.width; ++x, ++i) {
                 const Prediction& p = predictions.at(x, y);
                 const float share = half == 0 ? halves.shares.at(x, y) : 1 - halves.shares.at(x, y);
-                // A model's slope can lead below 0, where no radiance is.
+                // A model's slope can lead to negative values, which radiance cannot have.
                 for (std::size_t c = 0; c < 3; ++c)
                     pixels[i][static_cast<int>(c)] +=
                         share * (glints.at(x, y) ? radiance.at(x, y).mean[c] : std::max(p.sum[c] / p.weight, 0.0f));

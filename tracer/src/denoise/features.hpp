@@ -1,5 +1,5 @@
-// The features without their own noise, which depth of field and rough glass give them: each group of three channels,
-// such as the albedo, by non-local means that the group itself guides (similarity.hpp). Source: Rousselle, Manzi &
+// Removes the features' own noise, which depth of field and rough glass cause. Each group of three channels, such as
+// the albedo, is filtered by non-local means guided by the group itself (similarity.hpp). Source: Rousselle, Manzi &
 // Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics Forum 32(7), 2013, section 4.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer {
 
-/// An area, row by row.
+/// The features of an area, row by row.
 std::vector<Features> without_noise(const Grid<Estimate<feature_count>>& features, const PixelRange& area);
 
 }  // namespace phasetree::tracer

@@ -1,5 +1,5 @@
-// Values at the pixels of a picture and of a margin around it, in which the picture is mirrored. So whatever looks at
-// the surroundings of a pixel need not ask where the picture ends.
+// Values at the pixels of a picture and of a margin around it, into which the picture is mirrored. So code that
+// accesses the neighbourhood of a pixel need not check the picture's bounds.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-/// How far the surroundings of a pixel reach that denoising looks at: the radius of the widest window and of a patch.
+/// The radius of the neighbourhood of a pixel used by denoising: that of the widest window plus that of a patch.
 inline constexpr int grid_margin = 7;
 
 template <class T>
@@ -23,11 +23,11 @@ class Grid {
     int height() const { return height_; }
     bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
-    /// From −grid_margin to width or height + grid_margin, the last excluded.
+    /// From −grid_margin to width or height + grid_margin, exclusive.
     T& at(int x, int y) { return values_[index(x, y)]; }
     const T& at(int x, int y) const { return values_[index(x, y)]; }
 
-    /// Mirrors the picture into the margin. In a picture that is smaller than the margin it goes back and forth.
+    /// Mirrors the picture into the margin, repeatedly if the picture is smaller than the margin.
     void fill_margin() {
         for (int y = -grid_margin; y < height_ + grid_margin; ++y)
             for (int x = -grid_margin; x < width_ + grid_margin; ++x)

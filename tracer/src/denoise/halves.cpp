@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A feature's channel of all samples is called like that of the half, but for "half_" before it.
+// The channel of a feature over all samples has the name of that of the half without "half_".
 std::string_view name_by_all(std::string_view of_half) {
     return of_half.substr(std::string_view("half_").size());
 }
@@ -29,13 +29,13 @@ Split split(float mean, float first, double samples, double in_first) {
     return {first, static_cast<float>(second)};
 }
 
-// The variance of the mean of all samples, by the two halves: (a − b)² is σ² (1/m + 1/(n − m)) on average.
+// The variance of the mean of all samples, from the two halves: (a − b)² is σ² (1/m + 1/(n − m)) on average.
 float variance_of_mean(const Split& halves, double share) {
     const double difference = static_cast<double>(halves.first) - static_cast<double>(halves.second);
     return static_cast<float>(difference * difference * share * (1 - share));
 }
 
-// The variances' means over 3×3 pixels: each alone is known very badly.
+// Averages variances over 3×3 pixels, because each of them is a very noisy estimate.
 template <std::size_t N>
 void smooth_variances(Grid<Estimate<N>>& grid) {
     Grid<std::array<float, N>> sums(grid.width(), grid.height());
@@ -49,7 +49,7 @@ void smooth_variances(Grid<Estimate<N>>& grid) {
     grid.fill_margin();
 }
 
-// It is added to the features' variances, because features without noise differ by their rounding.
+// Added to the features' variances, because features without noise differ by rounding.
 constexpr float least_variance_of_features = 1e-8f;
 
 void check_halves(std::span<const float> samples, std::span<const float> in_first) {

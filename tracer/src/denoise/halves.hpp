@@ -1,5 +1,4 @@
-// A picture as denoising sees it: in two halves of its samples, which are independent, with what is known of the
-// surfaces that it shows.
+// The input of denoising: a picture in two independent halves of its samples, and features of the visible surfaces.
 #pragma once
 
 #include <array>
@@ -13,10 +12,11 @@ namespace phasetree::tracer {
 template <std::size_t N>
 struct Estimate {
     std::array<float, N> mean{};
-    std::array<float, N> variance{};  ///< of that mean
+    std::array<float, N> variance{};  ///< of the mean
 };
 
-/// What guides the filter: albedo and normal of the first surface, and of the first that is not perfectly smooth.
+/// The features that guide the filter: albedo and normal of the first surface, and of the first that is not perfectly
+/// smooth.
 inline constexpr std::size_t feature_count = 12;
 
 struct Halves {
@@ -25,16 +25,16 @@ struct Halves {
           shares(width, height),
           features(width, height) {}
 
-    /// The radiance by each half. The variances are as the difference of the halves tells, averaged over 3×3 pixels.
+    /// The radiance of each half. Variances are estimated from the difference of the halves, averaged over 3×3 pixels.
     std::array<Grid<Estimate<3>>, 2> pictures;
-    /// Which part of a pixel's samples is in the first half.
+    /// The share of a pixel's samples in the first half.
     Grid<float> shares;
-    /// By all samples.
+    /// From all samples.
     Grid<Estimate<feature_count>> features;
 };
 
-/// Takes them from the channels of the planes that denoising_planes() lists (denoise.hpp). Throws DenoiseError if one
-/// is missing, or if a pixel lacks samples in one of the halves.
+/// Reads them from the channels of the planes in denoising_planes() (denoise.hpp). Throws DenoiseError if one is
+/// missing, or if a pixel lacks samples in one of the halves.
 Halves halves_of(const Image& image);
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// Instead of open_image_denoise.cpp where the library is not there.
+// Replaces open_image_denoise.cpp if the library is not available.
 #include "denoise/open_image_denoise.hpp"
 
 namespace phasetree::tracer {

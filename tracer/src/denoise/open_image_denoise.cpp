@@ -20,7 +20,7 @@ std::vector<glm::vec3> joined(const Image& image, const std::array<const char*, 
     return values;
 }
 
-// Called by the library from C: nothing may be thrown.
+// Called by the library from C, so it must not throw.
 bool goes_on(void* job, double done) noexcept {
     try {
         const auto& of = *static_cast<const DenoiseJob*>(job);
@@ -45,7 +45,7 @@ std::optional<std::vector<glm::vec3>> denoise_by_network(const Image& image, con
     std::vector<glm::vec3> color = image.pixels, clean(image.pixels.size());
     std::vector<glm::vec3> albedo = joined(image, {"albedo_behind.R", "albedo_behind.G", "albedo_behind.B"});
     std::vector<glm::vec3> normal = joined(image, {"normal_behind.X", "normal_behind.Y", "normal_behind.Z"});
-    // A device of the processor, which reads our memory as it is.
+    // A CPU device, which accesses memory of the application directly.
     oidn::DeviceRef device = oidn::newDevice(oidn::DeviceType::CPU);
     if (job.threads > 0) device.set("numThreads", job.threads);
     device.commit();

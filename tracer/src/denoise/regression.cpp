@@ -6,7 +6,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What a slope costs, as a part of the sum of all weights: features are of the order of 1.
+// The regularisation of slopes, relative to the sum of all weights: features are of the order of 1.
 constexpr double cost_of_slopes = 1e-3;
 
 }  // namespace
@@ -22,7 +22,7 @@ void LocalModel::add(float weight, const Features& features, const std::array<fl
     }
 }
 
-// Cholesky's decomposition of the normal equations, which the cost makes positive definite.
+// Cholesky decomposition of the normal equations, which the regularisation makes positive definite.
 void LocalModel::solve() {
     std::array<std::array<double, unknowns>, unknowns> lower{};
     for (std::size_t i = 0; i < unknowns; ++i)

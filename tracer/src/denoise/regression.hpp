@@ -2,8 +2,8 @@
 //
 //     c(q) ≈ β₀ + Σᵢ βᵢ (fᵢ(q) − fᵢ(p)),
 //
-// where f are the features, such as the albedo. The coefficients are those of least squares, in which pixels count by
-// weights, and slopes βᵢ cost a little, so that features that do not change around p are no trouble. Sources: Bitterli,
+// where f are the features, such as the albedo. The coefficients are those of weighted least squares, with a small
+// regularisation of the slopes βᵢ, so that features that are constant around p cause no problems. Sources: Bitterli,
 // Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz & Novák, Nonlinearly Weighted First-order Regression for
 // Denoising Monte Carlo Renderings, Computer Graphics Forum 35(4), 2016; Moon, Carr & Yoon, Adaptive Rendering Based on
 // Weighted Local Regression, ACM Transactions on Graphics 33(5), 2014.
@@ -21,18 +21,18 @@ using Features = std::array<float, feature_count>;
 
 class LocalModel {
   public:
-    /// A model around a pixel with these features.
+    /// Makes a model around a pixel with these features.
     explicit LocalModel(const Features& at) : centre_(at) {}
 
     /// Adds a pixel.
     void add(float weight, const Features& features, const std::array<float, 3>& radiance);
-    /// Once all pixels are there, of which at least one has a weight above 0.
+    /// Call this after adding all pixels, of which at least one has a positive weight.
     void solve();
-    /// The radiance of a pixel of these features. After solve().
+    /// The radiance of a pixel with these features. Requires solve().
     std::array<float, 3> at(const Features& features) const;
 
   private:
-    // Of an equation: one, the features, the radiance.
+    // Columns of an equation: one, the features, the radiance.
     static constexpr std::size_t unknowns = 1 + feature_count, columns = unknowns + 3;
 
     Features centre_;

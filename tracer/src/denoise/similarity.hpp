@@ -1,5 +1,5 @@
-// How much alike the surroundings of two pixels are, as non-local means has it: the mean square difference of their
-// patches, from which what noise alone brings is taken off, in units of that noise,
+// The similarity of the neighbourhoods of two pixels, as in non-local means: the mean square difference of their
+// patches, minus what noise alone contributes, in units of that noise,
 //
 //     d(p, q) = mean over patches and channels of ((u_p − u_q)² − (v_p + min(v_p, v_q))) / (ε + k² (v_p + v_q)),
 //     w(p, q) = exp(−max(d, 0)),
@@ -18,18 +18,18 @@
 
 namespace phasetree::tracer {
 
-/// Of the patches, in pixels.
+/// Radius of patches, in pixels.
 inline constexpr int patch_radius = 2;
 
-/// The weights w of the pixels of an area, row by row, with those that lie (dx, dy) from them. Uses the channels
-/// [first, first + Channels) of the guide. A smaller `k` tells more things apart.
+/// The weights w of the pixels of an area, row by row, with those at the offset (dx, dy) from them. Uses the channels
+/// [first, first + Channels) of the guide. A smaller `k` distinguishes more.
 template <std::size_t Channels, std::size_t N>
 void weigh(const Grid<Estimate<N>>& guide, std::size_t first, const PixelRange& area, int dx, int dy, float k,
            std::span<float> weights) {
     constexpr float nothing = 1e-10f;
     constexpr int side = 2 * patch_radius + 1;
     const int width = area.width(), wide = width + 2 * patch_radius, high = area.height() + 2 * patch_radius;
-    // Differences of pixels, then their sums over the patches' rows.
+    // Differences of pixels, then their sums over the rows of patches.
     std::vector<float> differences(static_cast<std::size_t>(wide)), rows(static_cast<std::size_t>(width * high));
     for (int j = 0; j < high; ++j) {
         const int y = area.y0 + j - patch_radius;

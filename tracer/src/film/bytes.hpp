@@ -1,4 +1,4 @@
-// Numbers as bytes, the lowest first, and back: what films are kept as in files, and triangles.
+// Little-endian serialisation of numbers, for films in files and for triangles.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace phasetree::tracer {
 
-/// Bytes that are not what a film writes. The message is half a sentence that says what is wrong.
+/// Thrown for bytes that are not a valid film. The message completes a sentence about them.
 class BytesError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -33,7 +33,7 @@ class ByteWriter {
     std::vector<std::byte> bytes_;
 };
 
-/// Reads what a ByteWriter wrote. Throws BytesError where the bytes end too early.
+/// Reads the output of a ByteWriter. Throws BytesError if the bytes end early.
 class ByteReader {
   public:
     explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}

@@ -1,4 +1,4 @@
-// Names of a scene's things as parts of channels' names, in which a point separates layer and channel.
+// Names of a scene's objects as parts of channel names, in which a point separates layer and channel.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace phasetree::tracer {
 
-/// `prefix` + name + `suffix` for each name, with _ for all but ASCII letters, digits, - and _. Names that would be
-/// equal then get a number behind them.
+/// Returns `prefix` + name + `suffix` for each name. All characters except ASCII letters, digits, - and _ become _.
+/// Names that would be equal get a number appended.
 inline std::vector<std::string> channel_names(const std::string& prefix, const std::vector<std::string>& names,
                                               const std::string& suffix) {
     const auto is_plain = [](char c) {

@@ -1,4 +1,4 @@
-// Planes as people choose them, by their names.
+// Selection of planes by name.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace phasetree::tracer {
 
-/// The planes of every film and those of these names; or all of them, of the one name "all". Throws
-/// std::invalid_argument, whose message is for people, if there is no such plane.
+/// Returns the default planes plus those with these names, or all planes for the single name "all". Throws
+/// std::invalid_argument, with a message for users, if there is no such plane.
 Planes::Choice chosen_planes(const std::vector<std::string>& names);
 
 }  // namespace phasetree::tracer

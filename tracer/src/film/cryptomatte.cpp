@@ -49,7 +49,7 @@ std::vector<std::pair<std::string, std::string>> cryptomatte_attributes(const st
     return {{key + "name", layer},
             {key + "hash", "MurmurHash3_32"},
             {key + "conversion", "uint32_to_float32"},
-            // Names come from scenes, which are UTF-8, or from parts, which may be anything.
+            // Names come from scenes, which are UTF-8, or from parts, which may contain any bytes.
             {key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)}};
 }
 

@@ -1,6 +1,5 @@
-// Cryptomatte layers (cryptomatte.hpp): which of several named things a pixel shows, and how much of it each covers.
-// What is covered is by the samples, so edges are as soft as the pixel filter makes them. Glass covers what is behind
-// it.
+// Cryptomatte layers (cryptomatte.hpp): the named things that are visible in a pixel, and the coverage of each.
+// Coverage is measured by samples, so edges are as soft as the pixel filter makes them. Glass covers what is behind it.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +13,14 @@
 
 namespace phasetree::tracer {
 
-/// `What` says which names there are, and which of them a surface has in a scene of this many phases.
+/// `What` provides the names, and the name of a surface in a scene with this many phases.
 template <class What>
 class CryptomattePlane {
   public:
     using Sum = WeightsById;
     static constexpr std::string_view name = What::name;
     static constexpr bool by_default = false;
-    /// How many things of a pixel are told of at most, the ones that cover most of it; two to a layer of four channels.
+    /// The maximum number of things stored per pixel, those with the greatest coverage; two per layer of four channels.
     static constexpr std::size_t ranks = 6;
 
     explicit CryptomattePlane(const PlaneSubjects& subjects)
@@ -46,7 +45,7 @@ class CryptomattePlane {
         if (shown) sums[0].add(ids_[*shown], 1.0f, faults);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
-        auto entries = sums[0].entries();  // by rising numbers, which decides between equal weights
+        auto entries = sums[0].entries();  // by increasing IDs, which breaks ties between equal weights
         std::ranges::stable_sort(entries, std::greater<>(), [](const auto& e) { return e.weight.value(); });
         for (std::size_t i = 0; i < std::min(entries.size(), ranks); ++i) {
             values[2 * i] = std::bit_cast<float>(entries[i].id);
@@ -60,7 +59,7 @@ class CryptomattePlane {
     std::size_t phases_;
 };
 
-/// The phase entered; meshes are none.
+/// The phase entered; meshes have none.
 struct MattePhase {
     static constexpr std::string_view name = "crypto_phase";
     static constexpr std::string_view layer = "CryptoPhase";
@@ -76,7 +75,7 @@ struct MatteObject {
     static const std::vector<std::string>& names(const PlaneSubjects& s) { return s.objects; }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) { return r.object; }
 };
-/// A material has the name of the phase or the mesh that it is given to.
+/// A material is named after the phase or mesh that has it.
 struct MatteMaterial {
     static constexpr std::string_view name = "crypto_material";
     static constexpr std::string_view layer = "CryptoMaterial";

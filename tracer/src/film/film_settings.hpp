@@ -1,4 +1,4 @@
-// What is kept of a picture: its size, its pixel filter and its planes.
+// The settings of a picture: its size, its pixel filter and its planes.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-/// The whole picture, whatever part of it is rendered.
+/// Settings of the whole picture, whatever part of it is rendered.
 struct FilmSettings {
     int width = 1024;  ///< in pixels, at least 1
     int height = 768;  ///< in pixels, at least 1

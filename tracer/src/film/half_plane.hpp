@@ -1,10 +1,10 @@
-// About half of a pixel's samples by themselves: the picture, and what denoising goes by (denoise/denoise.hpp).
-// Together with the mean of all samples it tells the other half as well. The difference of the two says how noisy both
-// are, and one can be filtered by weights that are independent of its own noise.
+// The picture, and the features for denoising (denoise/denoise.hpp), from about half of a pixel's samples. Subtracting
+// them from the mean of all samples gives the other half. The difference of the halves measures the noise of both, and
+// each can be filtered with weights that are independent of its own noise.
 //
-// The samples are halved by blocks of four, because each aligned block of Sobol' samples is spread evenly over the
-// pixel (sampling/sobol.hpp), and so are both halves. Every other sample would not do: two that follow each other
-// complement one another, which makes halves of them differ by more than their noise.
+// Samples are divided by blocks of four, because each aligned block of Sobol' samples is spread evenly over the pixel
+// (sampling/sobol.hpp), and so both halves are, too. Alternating samples would not work: consecutive samples complement
+// one another, so the halves would differ by more than their noise.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 
 struct HalfPlane {
     static constexpr std::size_t values = 15;
-    /// Of a block of this many samples all are in the same half.
+    /// All samples of a block of this size are in the same half.
     static constexpr std::uint32_t block = 4;
 
     using Sum = WeightedMean<values>;
@@ -49,7 +49,7 @@ struct HalfPlane {
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
         if (!has(sample.number)) return;
-        FilmFaults again;  // the picture has counted them
+        FilmFaults again;  // already counted by the picture
         sums[0].add(values_of(sample), 1.0f, again);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> resolved) const {

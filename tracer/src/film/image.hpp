@@ -1,4 +1,4 @@
-// An image as the film gives it and as files hold it: a picture, and further channels beside it.
+// An image, as made by the film and stored in files: a picture and further channels.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace phasetree::tracer {
 
-/// Where a cropped image lies inside the whole picture, in pixels from the picture's top left corner. EXR calls the
-/// crop the data window and the whole picture the display window.
+/// The position of a cropped image inside the whole picture, in pixels from the picture's top left corner. In EXR, the
+/// crop is the data window and the whole picture the display window.
 struct Crop {
     int x0 = 0;
     int y0 = 0;
@@ -19,10 +19,10 @@ struct Crop {
     int display_height = 0;
 };
 
-/// A value for each pixel, under a name as EXR has it: "depth.Z".
+/// A value for each pixel, with an EXR channel name such as "depth.Z".
 struct Channel {
     std::string name;
-    std::vector<float> values;  ///< row by row as the pixels are
+    std::vector<float> values;  ///< row by row, like the pixels
 };
 
 struct Image {
@@ -30,12 +30,12 @@ struct Image {
     int height = 0;
     std::vector<glm::vec3> pixels;  ///< linear Rec.709 radiance, row by row, the top row first
     std::optional<Crop> crop = std::nullopt;
-    std::vector<Channel> further{};  ///< which only EXR files keep
-    /// What the header of an EXR file says beside all else: names and texts.
+    std::vector<Channel> further{};  ///< stored only in EXR files
+    /// Additional attributes of an EXR header: names and texts.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
-/// A part of an image, of pixels from its own top left corner.
+/// A part of an image, in pixels from its own top left corner.
 Image part_of(const Image& image, int x0, int y0, int width, int height);
 
 /// The number of pixels with a NaN or an infinity in any channel.

@@ -1,5 +1,5 @@
-// How far the camera ray travels in each phase, up to the first surface that is not perfectly smooth: the mean over the
-// samples, as if each were reflected or refracted by Fresnel's odds (path_record.hpp).
+// The distance that camera rays travel in each phase, up to the first surface that is not perfectly smooth: the mean
+// over the samples, weighted as if each were reflected or refracted with Fresnel's odds (path_record.hpp).
 #pragma once
 
 #include "film/channel_name.hpp"
@@ -7,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-/// A channel length_PHASE.X for each phase, the vacuum among them.
+/// A channel length_PHASE.X for each phase, including the vacuum.
 class LengthPlane {
   public:
     using Sum = ValueSum;

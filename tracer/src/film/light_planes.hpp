@@ -1,5 +1,5 @@
-// Parts of the picture by where its light came from (path_record.hpp): direct and indirect light, which add up to the
-// picture, and one part for each group of lights, which do, too, each but for rounding.
+// Parts of the picture by the origin of their light (path_record.hpp): direct and indirect light, and one part per
+// group of lights. Direct plus indirect light, and also the sum over all groups, is the picture, up to rounding.
 #pragma once
 
 #include <array>

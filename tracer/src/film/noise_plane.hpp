@@ -1,5 +1,5 @@
-// How much a pixel may still be off: the standard error of its mean luminance, as its samples themselves estimate it.
-// Where a render may stop early is decided by it (render/noise_limit.hpp).
+// The noise of a pixel: the standard error of its mean luminance, estimated from its samples. It decides where a render
+// may stop early (render/noise_limit.hpp).
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer {
 
-/// The sampler stratifies a pixel's samples, so the true error is smaller than that of independent ones, which this is.
+/// The estimate is for independent samples. The sampler stratifies a pixel's samples, so the true error is smaller.
 struct NoisePlane {
     using Sum = MeanAndVariance;
     static constexpr std::string_view name = "noise";
@@ -20,7 +20,7 @@ struct NoisePlane {
     std::vector<std::string> channels() const { return {"noise.Y"}; }
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
-        FilmFaults again;  // the picture has counted them
+        FilmFaults again;  // already counted by the picture
         sums[0].add(luminance(sample.radiance), again);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {

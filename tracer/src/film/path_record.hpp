@@ -1,11 +1,11 @@
-// What one path tells of itself beside its radiance, for the planes that ask for it.
+// Data of a path, besides its radiance, for the planes that need it.
 //
-// A camera ray is followed from the camera, by the path's own choices at each interface, through what is smooth, to the
-// first surface that is not: that is what one sees of the scene, in a mirror or behind glass. Paths have weights, with
-// which they count as if interfaces reflected by Fresnel's odds. So means over the samples of a pixel are blends of
-// what is reflected and what is refracted, as much of each as one sees. So the documentation of Open Image Denoise
-// recommends it for its albedo and normal, and so Rousselle, Manzi & Zwicker (Robust Denoising using Feature and Color
-// Information, Computer Graphics Forum 32(7), 2013) have it for the features of a filter.
+// A camera ray is followed from the camera, with the path's own choices at each interface, through smooth surfaces to
+// the first one that is not smooth: that is what one sees of the scene, in a mirror or behind glass. Paths have
+// weights, which make them count as if interfaces reflected with Fresnel's odds. So means over the samples of a pixel
+// blend reflection and refraction in the proportions in which one sees them. The documentation of Open Image Denoise
+// recommends this for its albedo and normal. Rousselle, Manzi & Zwicker (Robust Denoising using Feature and Color
+// Information, Computer Graphics Forum 32(7), 2013) use it for the features of a filter.
 #pragma once
 
 #include <cstdint>
@@ -18,43 +18,44 @@
 namespace phasetree::tracer {
 
 /// A surface that was met: an interface of two phases, or a mesh. Interfaces between equal refractive indices, where
-/// nothing scatters, are none.
+/// nothing scatters, do not count.
 struct RecordedSurface {
     glm::vec3 position;  ///< in the scene
-    glm::vec3 normal;    ///< of unit length, on the side from which it was met
-    float distance;      ///< the length of the path from its start to here
-    /// What the path's next direction weighs, f |cos θ| / pdf, without the change of radiance that refraction makes by
-    /// (η/η')²: the mean over paths is the share of light that is scattered on. It is the colour of what is diffuse
-    /// and 1 of smooth glass.
+    glm::vec3 normal;    ///< unit length, on the side from which it was met
+    float distance;      ///< length of the path up to here
+    /// The weight of the path's next direction, f |cos θ| / pdf, without the factor (η/η')² of radiance from
+    /// refraction. Its mean over paths is the share of light that is scattered: the colour of a diffuse surface, and 1
+    /// for smooth glass.
     glm::vec3 albedo;
-    std::uint32_t object;          ///< the objects of phases come first, then the meshes
-    std::uint32_t instance;        ///< the number of the copy of an object; 0 of one that is there once
-    Phase left;                    ///< the phase on the side from which it was met
-    std::optional<Phase> entered;  ///< the one behind; none behind a mesh
+    std::uint32_t object;          ///< the objects of phases first, then the meshes
+    std::uint32_t instance;        ///< number of the copy of an object; 0 for an object that exists once
+    Phase left;                    ///< phase on the side from which it was met
+    std::optional<Phase> entered;  ///< phase behind; nullopt for a mesh
 };
 
 struct PathRecord {
-    /// The part of the radiance that was scattered once at most, where smooth clear interfaces, which only reflect and
-    /// refract, do not count; what a mirror shows has been scattered by it.
+    /// The part of the radiance that was scattered at most once. Smooth clear interfaces, which only reflect and
+    /// refract, do not count as scattering; mirrors do.
     glm::vec3 direct{0};
     /// Everything else: the radiance without the direct part.
     glm::vec3 indirect{0};
-    /// The part of each group of lights (Lights::groups). They add up to the radiance, but for the rounding of sums.
+    /// The part of each group of lights (Lights::groups). They add up to the radiance, up to rounding.
     std::vector<glm::vec3> groups;
-    /// Whether the camera ray left the scene and saw the lights at infinity, or the background in their place.
+    /// Whether the camera ray left the scene and saw the infinite lights, or the background instead.
     bool shows_background = false;
-    /// How often the path would go where it does if each interface reflected by Fresnel's odds, over how often it does
-    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth; at most weight_limit,
-    /// but for rounding. `behind->albedo` has it in it already, nothing else here has. Roulette is no part of it.
+    /// The probability of the path's choices with Fresnel's odds, over that of its actual choices
+    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth. It is at most
+    /// weight_limit, up to rounding. `behind->albedo` already includes it; no other member does. Roulette is not
+    /// included.
     float weight = 1;
     static constexpr float weight_limit = 16;
     /// The first surface.
     std::optional<RecordedSurface> first;
-    /// The first surface that is not perfectly smooth. Its albedo is what is left of white light on the way there and
-    /// by its own scattering.
+    /// The first surface that is not perfectly smooth. Its albedo includes the throughput of white light up to there
+    /// and its own scattering.
     std::optional<RecordedSurface> behind;
-    /// How far the path has travelled in each phase up to there; what it travels when it then leaves the scene does
-    /// not count.
+    /// The distance that the path has travelled in each phase up to there. A segment that leaves the scene does not
+    /// count.
     std::vector<float> lengths;
 };
 

@@ -1,6 +1,6 @@
-// Pixel reconstruction filters, sampled instead of weighted: a sample is displaced from the pixel's centre with the
-// filter as its density, and every sample then counts the same (Ernst, Stamminger, Greiner: Filter Importance Sampling,
-// IEEE Symposium on Interactive Ray Tracing 2006).
+// Pixel reconstruction filters, by filter importance sampling: a sample is displaced from the pixel's centre with the
+// filter as its pdf, and every sample has the same weight (Ernst, Stamminger, Greiner: Filter Importance Sampling, IEEE
+// Symposium on Interactive Ray Tracing 2006).
 //
 // Filters are separable. Along one axis, over x in [−r, r] pixels:
 //     box              f = 1/(2r)
@@ -18,14 +18,14 @@ class PixelFilter {
   public:
     enum class Shape { box, blackman_harris };
 
-    /// Blackman–Harris of radius 1.5 pixels.
+    /// Blackman–Harris with a radius of 1.5 pixels.
     PixelFilter() : PixelFilter(Shape::blackman_harris, 1.5f) {}
     PixelFilter(Shape shape, float radius);
 
     /// The displacement from the pixel's centre, in pixels, for u in [0, 1)².
     glm::vec2 sample(const glm::vec2& u) const { return {sample(u.x), sample(u.y)}; }
     float sample(float u) const;
-    /// The density of either component of sample().
+    /// The pdf of either component of sample().
     float pdf(float x) const;
 
     Shape shape() const { return shape_; }

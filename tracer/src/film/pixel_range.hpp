@@ -12,7 +12,7 @@ struct PixelRange {
     int width() const { return x1 - x0; }
     int height() const { return y1 - y0; }
     std::size_t size() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
-    /// The number of a pixel of the rectangle, row by row from the top left.
+    /// The index of a pixel of the rectangle, row by row from the top left.
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x - x0);
     }

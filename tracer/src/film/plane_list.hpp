@@ -1,4 +1,4 @@
-// Several planes as one: what they keep of the pixels of a rectangle, and the image that is made of that.
+// Several planes as one: the sums of the pixels of a rectangle, and the image made from them.
 #pragma once
 
 #include <algorithm>
@@ -17,22 +17,21 @@
 
 namespace phasetree::tracer {
 
-/// A plane, once its contract has been asked of it. If it does not meet that, the message names the kind and the
-/// member.
+/// Checks a plane against its concept. If the check fails, the compiler's message names the kind and the member.
 template <class Kind>
 struct CheckedPlane {
     static_assert(PlaneKind<Kind>);
     using Type = Kind;
 };
 
-/// The first plane is the picture, which has three channels, which all formats can hold, and which every film keeps;
-/// the others become further channels of the image.
+/// The first plane is the picture. It has three channels, which all formats support, and every film keeps it. The
+/// others become further channels of the image.
 template <class Picture, class... Others>
 struct PlaneList {
     static constexpr std::size_t size = 1 + sizeof...(Others);
     static constexpr std::array<std::string_view, size> names{Picture::name, Others::name...};
 
-    /// Which planes a film keeps, in the order of the list.
+    /// The planes that a film keeps, in the order of the list.
     using Choice = std::bitset<size>;
     static Choice by_default() {
         Choice choice;
@@ -42,7 +41,7 @@ struct PlaneList {
         return choice;
     }
     static Choice all() { return Choice().set(); }
-    /// The place of a plane in the list.
+    /// The index of a plane in the list.
     template <class Plane>
     static constexpr std::size_t place() {
         return static_cast<std::size_t>(std::ranges::find(names, Plane::name) - names.begin());
@@ -51,7 +50,7 @@ struct PlaneList {
     class Sums;
 
   private:
-    // What one plane keeps.
+    // The sums of one plane.
     template <class Plane>
     struct Kept {
         using Sum = typename CheckedPlane<Plane>::Type::Sum;
@@ -63,12 +62,12 @@ struct PlaneList {
 
         Plane plane;
         std::size_t channels;
-        std::size_t width;      // of a pixel, in sums
+        std::size_t width;      // sums per pixel
         std::vector<Sum> sums;  // pixel by pixel
     };
 };
 
-/// What the chosen planes keep of this many pixels.
+/// The sums of the chosen planes for this many pixels.
 template <class Picture, class... Others>
 class PlaneList<Picture, Others...>::Sums {
   public:
@@ -86,7 +85,7 @@ class PlaneList<Picture, Others...>::Sums {
             if (kept) kept->plane.add(kept->at(pixel), sample, faults);
         });
     }
-    /// Joins what others have of a pixel of theirs; they keep the same planes.
+    /// Joins the sums of a pixel of another film, which must have the same planes.
     void join(std::size_t pixel, const Sums& others, std::size_t theirs) {
         each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
             if (!kept) return;
@@ -96,13 +95,13 @@ class PlaneList<Picture, Others...>::Sums {
         });
     }
 
-    /// What a plane keeps of one pixel, which must be one of those that are kept.
+    /// The sums of a plane at one pixel. The plane must be a chosen one.
     template <class Plane>
     std::span<const typename Plane::Sum> of(std::size_t pixel) const {
         return std::get<std::optional<Kept<Plane>>>(kept_).value().at(pixel);
     }
 
-    /// Of one pixel, plane after plane.
+    /// Writes the sums of one pixel, plane after plane.
     void write(std::size_t pixel, ByteWriter& out) const {
         each([&](const auto& kept) {
             if (!kept) return;
@@ -127,7 +126,7 @@ class PlaneList<Picture, Others...>::Sums {
         });
         return names;
     }
-    /// What the header of a file says of the planes.
+    /// The planes' attributes for the header of a file.
     std::vector<std::pair<std::string, std::string>> attributes() const {
         std::vector<std::pair<std::string, std::string>> all;
         each([&](const auto& kept) {
@@ -138,7 +137,7 @@ class PlaneList<Picture, Others...>::Sums {
         });
         return all;
     }
-    /// Writes the values of pixel `pixel` to place `place` of an image that has the further channels of channels().
+    /// Writes the values of pixel `pixel` to position `place` of an image that has the further channels of channels().
     /// `samples` is at least 1.
     void resolve(std::size_t pixel, std::uint32_t samples, Image& image, std::size_t place) const {
         std::size_t channel = 0;
@@ -157,7 +156,7 @@ class PlaneList<Picture, Others...>::Sums {
         });
     }
 
-    /// Of one pixel at least, in memory: sums that grow (WeightsById) take more.
+    /// The minimum memory of one pixel: sums that grow (WeightsById) take more.
     std::size_t bytes_of_pixel() const {
         std::size_t bytes = 0;
         each([&]<class Plane>(const std::optional<Kept<Plane>>& kept) {

@@ -14,8 +14,8 @@
 
 namespace phasetree::tracer {
 
-/// Every plane, the picture first. Of its order depend only the order of channels in files, and of bytes in those that
-/// films are kept in.
+/// Every plane, the picture first. The order determines only the order of channels in image files, and of bytes in film
+/// files.
 using Planes =
     PlaneList<RadiancePlane, AlphaPlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane,
               PositionBehindPlane, NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane,

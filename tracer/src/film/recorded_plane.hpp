@@ -1,5 +1,5 @@
-// Planes of what a path records (path_record.hpp), by how a pixel's samples become one value. `What` says what is taken
-// of a sample: its name, its channels, and of(sample), which is nothing where the sample has nothing to tell.
+// Planes of the data in a PathRecord (path_record.hpp), by how a pixel's samples become one value. `What` has a name,
+// channels, and of(sample), which returns nullopt if the sample has no value.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ struct RecordedPlane {
     std::vector<std::string> channels() const { return {What::channels.begin(), What::channels.end()}; }
 };
 
-/// The mean of all samples, in which those that have nothing to tell count as 0: smooth along edges, as filters and
-/// denoisers want it.
+/// The mean over all samples, in which samples without a value count as 0: smooth along edges, as filters and denoisers
+/// require.
 template <class What>
 struct MeanPlane : RecordedPlane<What> {
     using Sum = ValueSum;
@@ -43,8 +43,7 @@ struct MeanPlane : RecordedPlane<What> {
     }
 };
 
-/// The mean of the samples that have something to tell, each with What::weight(sample), and What::otherwise where none
-/// has.
+/// The mean over the samples with a value, weighted by What::weight(sample); What::otherwise if there are none.
 template <class What>
 struct MeanOfMetPlane : RecordedPlane<What> {
     using Sum = WeightedMean<What::channels.size()>;
@@ -60,8 +59,8 @@ struct MeanOfMetPlane : RecordedPlane<What> {
     }
 };
 
-/// What the first sample has to tell, of those that have something: for what has no mean, such as numbers that name
-/// something. These planes have hard edges; mattes with soft ones are those of Cryptomatte.
+/// The value of the first sample that has one: for values that have no mean, such as IDs. These planes have hard edges;
+/// use Cryptomatte for mattes with soft ones.
 template <class What>
 struct FirstSamplePlane : RecordedPlane<What> {
     using Sum = FirstValue<What::channels.size()>;

@@ -1,4 +1,4 @@
-// The numbers of some of a pixel's samples.
+// A range of sample numbers of a pixel.
 #pragma once
 
 namespace phasetree::tracer {

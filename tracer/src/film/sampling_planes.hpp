@@ -1,4 +1,4 @@
-// How well a pixel is known: the variance of its mean, as its samples themselves estimate it, and their number.
+// The precision of a pixel: the variance of its mean, estimated from its samples, and their number.
 #pragma once
 
 #include "film/contract.hpp"
@@ -7,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-/// Of the mean radiance of independent samples. The sampler stratifies them, so the true variance is smaller.
+/// Assumes independent samples. The sampler stratifies them, so the true variance is smaller.
 struct VariancePlane {
     using Sum = MeanAndVariance;
     static constexpr std::string_view name = "variance";
@@ -17,7 +17,7 @@ struct VariancePlane {
     std::vector<std::string> channels() const { return {"variance.R", "variance.G", "variance.B"}; }
     std::size_t sums() const { return 3; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
-        FilmFaults again;  // the picture has counted them
+        FilmFaults again;  // already counted by the picture
         for (std::size_t c = 0; c < 3; ++c) sums[c].add(sample.radiance[static_cast<int>(c)], again);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
@@ -25,7 +25,7 @@ struct VariancePlane {
     }
 };
 
-/// It keeps nothing: the film counts the samples of a pixel anyway.
+/// It stores nothing: the film counts the samples of a pixel anyway.
 struct SamplesPlane {
     using Sum = Count;
     static constexpr std::string_view name = "samples";

@@ -9,10 +9,10 @@
 
 namespace phasetree::tracer {
 
-/// The depth where nothing is met, as Blender writes it.
+/// The depth of samples that meet nothing, as written by Blender.
 inline constexpr float no_depth = 1e10f;
 
-/// Takes something of the first surface.
+/// A property of the first surface.
 template <class What>
 struct OfFirst : What {
     static auto of(const FilmSample& s) -> decltype(std::optional(What::of_surface(s, *s.record->first))) {
@@ -21,10 +21,10 @@ struct OfFirst : What {
     }
 };
 
-/// The same of the first surface that is not perfectly smooth.
+/// A property of the first surface that is not perfectly smooth.
 template <class What>
 struct OfBehind : What {
-    /// Divided by the limit, because sums of weights take numbers from 0 to 1.
+    /// Divided by the limit because sums of weights accept numbers from 0 to 1.
     static float weight(const FilmSample& s) { return std::min(s.record->weight / PathRecord::weight_limit, 1.0f); }
     static auto of(const FilmSample& s) -> decltype(std::optional(What::of_surface(s, *s.record->behind))) {
         if (!s.record || !s.record->behind) return std::nullopt;
@@ -73,12 +73,12 @@ struct NormalBehind : Normal {
         return components(s.record->weight * r.normal);
     }
 };
-struct AlbedoBehind : Albedo {  // the weight is in what is left of the light
+struct AlbedoBehind : Albedo {  // the throughput includes the weight
     static constexpr std::string_view name = "albedo_behind";
     static constexpr std::array<std::string_view, 3> channels{"albedo_behind.R", "albedo_behind.G", "albedo_behind.B"};
 };
 
-/// Numbers that name something, −1 where there is nothing.
+/// IDs, or −1 if there is none.
 struct PhaseLeft {
     static constexpr std::string_view name = "phase_left";
     static constexpr std::array<std::string_view, 1> channels{"phase_left.X"};
@@ -112,7 +112,7 @@ struct InstanceNumber {
     }
 };
 
-/// Depth along the camera's axis, of the first sample that meets anything.
+/// Depth along the camera's axis, of the first sample that meets a surface.
 using DepthPlane = FirstSamplePlane<OfFirst<Depth>>;
 using PositionPlane = FirstSamplePlane<OfFirst<Position>>;
 using NormalPlane = MeanPlane<OfFirst<Normal>>;

@@ -11,13 +11,14 @@ namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
 
-// A square is divided if it has more than this share of all light, and enough lights to tell where in it they come
-// from: with 16 of them a room behind a door had 1.6 × the variance that it has with 64 (benchmarks/experiments.md).
+// A square is divided if it contains more than this share of all light, and at least this many lights, which are needed
+// to locate the light within it. With 16 instead of 64, a room behind a door had 1.6 × the variance
+// (benchmarks/experiments.md).
 constexpr double divided_share = 0.01;
 constexpr std::size_t divided_lights = 64;
-// Each level takes bits from numbers of 24.
+// Each level takes bits from numbers of 24 bits.
 constexpr int most_depth = 12;
-// Smaller shares count as 0, because sample() divides by shares.
+// Smaller shares count as 0 because sample() divides by shares.
 constexpr float least_share = 1e-6f;
 
 }  // namespace
@@ -41,7 +42,7 @@ DirectionTree::DirectionTree(std::span<Light> lights) {
     divide(amount, lights, {0.0f, 0.0f}, 0);
 }
 
-// Makes the node of the square of side 2^−depth whose low corner is given. Returns its number.
+// Makes the node of the square with side 2^−depth and the given low corner. Returns its index.
 std::uint32_t DirectionTree::divide(double amount_of_all, std::span<Light> lights, glm::vec2 corner, int depth) {
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
@@ -72,8 +73,8 @@ std::uint32_t DirectionTree::divide(double amount_of_all, std::span<Light> light
 DirectionTree::Sample DirectionTree::sample(glm::vec2 u) const {
     glm::vec2 corner(0.0f);
     float half = 0.5f, density = 1.0f / (4.0f * pi);
-    // Chooses the low or the high half by what is in them, and stretches the rest of the number. A half without light
-    // is never chosen: the quotient is exactly 0 or 1 then.
+    // Chooses the low or the high half by their light, and rescales the rest of the number. A half without light is
+    // never chosen: the quotient is exactly 0 or 1 then.
     const auto is_high = [](float& number, float in_low, float in_high) {
         const float low = in_low / (in_low + in_high);
         const bool high = number >= low;

@@ -19,11 +19,11 @@ namespace {
 
 // A region with more findings than this is divided.
 constexpr std::size_t findings_a_region = 2048;
-// Of a region with fewer than this nothing is known, because a handful of findings is luck.
+// A region with fewer findings than this has no pdf, because so few are due to chance.
 constexpr std::size_t fewest_findings = 64;
-// A finding is clamped to this many times the mean of its region, the mean being taken after clamping. Few paths find
-// very much light, by luck, and would send all others after it: without this a room behind a door had 1.2 × the
-// variance.
+// A finding is clamped to this many times the mean of its region, where the mean is taken after clamping. Otherwise the
+// few paths that happen to find very much light would attract all others: without clamping, a room behind a door had
+// 1.2 × the variance.
 constexpr double clamp_over_mean = 4;
 
 // 0, 1 or 2.
@@ -44,7 +44,7 @@ struct Guide::Builder {
     std::vector<Node>& nodes;
     std::vector<Numbers>& findings_of_trees;
 
-    // Makes the node of the region that has the findings of these numbers. Returns its number.
+    // Makes the node of the region with the findings of these indices. Returns its index.
     std::size_t divide(Numbers numbers) {
         const std::size_t node = nodes.size();
         nodes.emplace_back();
@@ -72,7 +72,7 @@ struct Guide::Builder {
 
 namespace {
 
-// Clamping lowers the mean that it is taken from, so this is repeated until it settles.
+// Clamping lowers the mean from which the limit is derived, so this is iterated until it converges.
 float clamp_of(const std::vector<Finding>& findings, std::span<const std::uint32_t> region) {
     float clamp = std::numeric_limits<float>::max();
     for (int round = 0; round < 16; ++round) {

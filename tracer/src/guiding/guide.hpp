@@ -1,14 +1,14 @@
-// Where the light on surfaces comes from, all over the scene, as far as paths have found out: what a path asks before
-// it goes on.
+// The distribution of incident light on surfaces all over the scene, learned from earlier paths, with which paths
+// choose directions.
 //
-// Space is divided into regions, smaller ones where paths found more light, and each region has a density of directions
-// (direction_tree.hpp). Surfaces are told apart by where they face, because light falls on the two sides of a thin wall
-// from different directions: space is divided six times, for normals near each direction of the axes. What is learnt is
-// the light times the cosine at the surface, because surfaces that face alike have nearly the same cosines; Müller,
-// Gross & Novák (direction_tree.hpp) learn the light alone.
+// Space is divided into regions, which are smaller where paths found more light, and each region has a pdf of
+// directions (direction_tree.hpp). Space is divided six times, for surfaces with normals near each direction of the
+// axes, because the two sides of a thin wall receive light from different directions. The learned quantity is the light
+// times the cosine at the surface, because surfaces with the same facing have nearly the same cosines; Müller, Gross &
+// Novák (direction_tree.hpp) learn the light alone.
 //
-// Only light that the paths' own directions find is learnt, times its weight against shadow rays and photons. Where a
-// lamp is in plain sight shadow rays find it, and a guide need not.
+// Guides learn only from light found by the paths' own directions, times its MIS weight against shadow rays and
+// photons. Shadow rays find lamps that are directly visible, so a guide need not.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace phasetree::tracer {
 
-/// Where a surface faces: the direction of the axes that is nearest to its normal, +x, −x, +y, −y, +z or −z.
+/// The facing of a surface: the direction of the axes nearest to its normal, +x, −x, +y, −y, +z or −z.
 using Facing = std::uint8_t;
 inline constexpr std::size_t facings = 6;
 Facing facing_of(const glm::vec3& normal);
@@ -32,31 +32,30 @@ struct Finding {
     glm::vec3 point;
     Facing facing = 0;
     glm::vec3 direction;  ///< towards the light
-    /// An estimate of the irradiance from all directions, by this one: the radiance times the cosine at the surface,
-    /// over the density with which the direction was chosen. Greater than 0, and in any unit.
+    /// An estimate of the irradiance from this direction alone: the radiance times the cosine at the surface, over the
+    /// pdf of the direction. Positive, and in any unit.
     float light = 0;
 };
 
 class Guide {
   public:
-    /// Knows nothing.
+    /// A guide without any information.
     Guide() = default;
-    /// What the findings tell. It depends on their order, and on nothing else. The densities are made by all threads of
-    /// the arena that it is called in.
+    /// Learns from findings. The result depends only on them and their order. Uses all threads of the calling arena.
     explicit Guide(const std::vector<Finding>& findings);
 
-    /// The density of directions for a point of a surface; null where nothing is known. It is good as long as the guide
-    /// lives.
+    /// The pdf of directions for a point of a surface; null where nothing is known. Valid during the lifetime of the
+    /// guide.
     const DirectionTree* at(const glm::vec3& point, Facing facing) const;
 
   private:
-    // A region of space: one that is divided into two, each with a node of its own, or one that has a tree of
-    // directions, or one of which nothing is known.
+    // A region of space: divided into two, each with a node of its own, or with a tree of directions, or without
+    // information.
     struct Node {
-        int axis = undivided;  // 0, 1 or 2: it is divided across that axis
-        float at = 0;          // where
+        int axis = undivided;  // 0, 1 or 2: the axis across which it is divided
+        float at = 0;          // position of the division
         std::size_t low = 0, high = 0;
-        std::optional<std::size_t> tree{};  // the number of a region's tree
+        std::optional<std::size_t> tree{};  // index of a region's tree
     };
     static constexpr int undivided = 3;
     struct Builder;

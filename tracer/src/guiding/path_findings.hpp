@@ -1,4 +1,4 @@
-// Collects what one path finds, as it is traced, for the next guide.
+// Collects the findings of one path while it is traced, to train the next guide.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@ namespace phasetree::tracer {
 
 class PathFindings {
   public:
-    /// The path leaves a point of a surface in a direction that no delta lobe gave. `cosine_over_pdf` is the cosine
-    /// there over the density of the direction, and `throughput` the luminance of the path's throughput with that
-    /// direction. It is to be called before roulette: what roulette multiplies survivors by is part of the light that
-    /// they find.
+    /// Reports that the path leaves a point of a surface in a direction that was not sampled from a delta lobe.
+    /// `cosine_over_pdf` is the cosine there over the pdf of the direction, and `throughput` the luminance of the
+    /// path's throughput including that direction. Call it before roulette: the factor for survivors is part of the
+    /// light that they find.
     void leave(const glm::vec3& point, Facing facing, const glm::vec3& direction, float cosine_over_pdf,
                float throughput) {
         if (count_ == points_.size() || !(throughput > 0.0f)) return;
         points_[count_++] = {{point, facing, direction, 0.0f}, cosine_over_pdf / throughput};
     }
-    /// The path brings light of this luminance to the camera. It came by way of all points that the path has left.
+    /// Reports light of this luminance at the camera. It came through all points that the path has left.
     void add_light(float luminance) {
         for (std::size_t i = 0; i < count_; ++i) points_[i].finding.light += luminance * points_[i].per_luminance;
     }
-    /// The path has ended. Appends what it found, and starts again.
+    /// Ends the path: appends its findings, and resets this object.
     void take(std::vector<Finding>& findings) {
         for (std::size_t i = 0; i < count_; ++i)
             if (points_[i].finding.light > 0.0f && points_[i].finding.light < most_light)
@@ -34,14 +34,14 @@ class PathFindings {
     }
 
   private:
-    // More light than this is infinite, or will be when it is added up.
+    // More light than this is infinite, or will be when summed.
     static constexpr float most_light = 1e30f;
 
     struct Point {
         Finding finding;
         float per_luminance = 0;
     };
-    std::array<Point, 16> points_{};  // Later points of a longer path are left out.
+    std::array<Point, 16> points_{};  // further points of a longer path are ignored
     std::size_t count_ = 0;
 };
 

@@ -1,8 +1,9 @@
-// The directions in which a path goes on from a surface, chosen by its BSDF alone, or half by that and half by a guide
-// (guiding/guide.hpp). The two together have one density, the mean of theirs, which enters the weights of shadow rays,
-// photons and directions. So a bad guide costs noise and never shifts the mean.
+// Chooses the direction in which a path leaves a surface: by the BSDF alone, or with equal odds by the BSDF or a guide
+// (guiding/guide.hpp). The pdf of the mixture is the mean of both pdfs. It enters the MIS weights of shadow rays,
+// photons and sampled directions, so a bad guide adds noise but no bias.
 //
-// A guide knows nothing of smooth coats: where there is one, it leaves half as many directions for the coat's mirror.
+// Guides ignore smooth coats. On a coated surface, the guide's half of the choices never samples the coat's specular
+// reflection, which is therefore sampled half as often.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,8 @@ namespace phasetree::tracer {
 
 class GuidedBsdf {
   public:
-    /// For light that leaves in the direction `wo` of the frame. It refers to the BSDF, the frame and the guide;
-    /// without a guide (null) all is as the BSDF has it.
+    /// For light that leaves in the direction `wo`, in the frame. Refers to the BSDF, the frame and the guide. If the
+    /// guide is null, all members behave as those of the BSDF.
     GuidedBsdf(const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo, const DirectionTree* guide)
         : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide) {}
 
@@ -25,34 +26,34 @@ class GuidedBsdf {
     const glm::vec3& wo() const { return wo_; }
     const DirectionTree* guide() const { return guide_; }
 
-    /// As Bsdf has it, for a direction of the frame.
+    /// See Bsdf; `wi` is in the frame.
     glm::vec3 evaluate(const glm::vec3& wi) const { return bsdf_.evaluate(wo_, wi); }
-    /// The density of sample(), delta lobes left out. `world` is `wi` in world space.
+    /// The pdf of sample() without delta lobes. `world` is `wi` in world space.
     float pdf(const glm::vec3& wi, const glm::vec3& world) const { return mixed(bsdf_.pdf(wo_, wi), world); }
 
     struct Sample : BsdfSample {
-        /// The density of `wi` over that with which the BSDF alone would choose it. A guide changes it, and so do the
-        /// lights at smooth interfaces (interface_choice.hpp); it is never less than a half.
+        /// The pdf of `wi` over the pdf with which the BSDF alone would choose it. Guides change it, and so does the
+        /// choice by lights at smooth interfaces (interface_choice.hpp). It is never less than a half.
         float pdf_over_unguided = 1;
 
-        /// It was chosen so many times as often as the BSDF alone would have chosen it.
+        /// Accounts for choosing this sample `odds` times as often as the BSDF alone would have.
         void count_as_chosen(float odds) {
             weight /= odds;
             pdf *= odds;
             pdf_over_unguided *= odds;
         }
     };
-    /// Nothing if the path ends here.
+    /// nullopt if the path ends here.
     std::optional<Sample> sample(float u_lobe, const glm::vec2& u) const {
         if (guide_ && u_lobe < guided_share) return sampled_by_guide(u);
         const auto next = sampled_by_bsdf(u_lobe, u);
         if (!next) return std::nullopt;
         if (!guide_) return Sample{*next};
-        // A guide never chooses the one direction of a delta lobe.
+        // A guide never samples the direction of a delta lobe.
         return as_chosen_with(
             next->delta ? (1.0f - guided_share) * next->pdf : mixed(next->pdf, frame_.to_world(next->wi)), *next);
     }
-    /// What the BSDF alone would choose by the same numbers.
+    /// The sample that the BSDF alone would return for the same random numbers.
     std::optional<BsdfSample> unguided_sample(float u_lobe, const glm::vec2& u) const {
         return guide_ && u_lobe < guided_share ? bsdf_.sample(wo_, u_lobe / guided_share, u)
                                                : sampled_by_bsdf(u_lobe, u);

@@ -11,15 +11,15 @@ namespace phasetree::tracer {
 
 namespace {
 
-// How bright the lights are that a path would see after it has gone on so, and has left by a plane parallel to the
-// interface into vacuum, where lights are. Of a path of wavelengths the index is that of yellow light, so a small lamp
-// may be looked for a little beside where it is seen: that costs noise and shifts no mean.
+// The brightness of the lights that a path would see after continuing with `next` and leaving into vacuum, where the
+// lights are, through a plane parallel to the interface. For spectral paths the refractive index is that of the d line,
+// so a small lamp may be looked for slightly off its apparent position. That adds noise but no bias.
 float brightness(const Scene& scene, const Surface& surface, const Frame& frame, const BsdfSample& next) {
     const Phase phase = next.transmitted ? surface.far_side->phase : surface.near_side.phase;
     const float ior = clear_at(scene, phase).ior;
     const float x = ior * next.wi.x, y = ior * next.wi.y;
     const float cosine_squared = 1.0f - x * x - y * y;
-    if (!(cosine_squared > 0.0f)) return 0.0f;  // such a plane keeps the light inside
+    if (!(cosine_squared > 0.0f)) return 0.0f;  // total internal reflection at that plane
     const glm::vec3 outside(x, y, std::copysign(std::sqrt(cosine_squared), next.wi.z));
     const glm::vec3 direction = frame.to_world(outside);
     const auto light = scene.lights.seen(surface.near_side.origin, direction, Bounds::infinity, false);
@@ -42,7 +42,7 @@ InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, con
     const float q = 0.5f * (f + from_reflection / from_both);
     if (u < q) return {std::min(u / q * f, std::nextafter(f, 0.0f)), q / f};
     const float rest = (u - q) / (1.0f - q);
-    // 1 − q without the rounding of q, so that the quotient is a half at least also where F is nearly 1.
+    // 1 − q is computed without the rounding of q, so that the quotient stays at least a half even where F is nearly 1.
     const float refracted_odds = 0.5f * ((1.0f - f) + from_refraction / from_both);
     return {std::min(f + rest * (1.0f - f), greatest_below_one), refracted_odds / (1.0f - f)};
 }

@@ -10,10 +10,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Nearer to grazing next to no light comes in, and densities have no bound.
+// Next to no light enters closer to grazing, where the pdf is unbounded.
 constexpr float least_cosine = 1e-4f;
 
-// Refracts a direction outside into the medium. The normal is on the outer side.
+// Refracts a direction outside into the medium. The normal points outward.
 std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& normal, float eta) {
     const float cosine = glm::dot(normal, outside);
     const float squared = 1.0f - (1.0f - cosine * cosine) / (eta * eta);
@@ -21,7 +21,7 @@ std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& 
     return glm::normalize((outside - normal * cosine) / eta + normal * std::sqrt(squared));
 }
 
-// Refracts a direction inside out of the medium, and says dω'/dω.
+// Refracts a direction inside out of the medium. `widening` is dω'/dω.
 struct Outside {
     glm::vec3 direction;
     float widening;
@@ -34,14 +34,14 @@ std::optional<Outside> bent_outward(const glm::vec3& inside, const glm::vec3& no
     return Outside{glm::normalize((inside - normal * cosine) * eta + normal * after), eta * eta * cosine / after};
 }
 
-// The density of directions inside that are directions to lights outside.
+// The pdf of directions inside that correspond to directions sampled towards the lights outside.
 float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& inside, const glm::vec3& normal,
                float eta) {
     const std::optional<Outside> outside = bent_outward(inside, normal, eta);
     return outside ? lights.pdf(at, outside->direction) * outside->widening : 0.0f;
 }
 
-// The normal, on the outer side, of the first place along a line behind which the index is 1.
+// The outward normal of the first boundary along a line behind which the index is 1.
 std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& surface, const World& world,
                                         const Scene& scene, PathCounters& counters) {
     constexpr int max_interfaces = 8;
@@ -64,7 +64,7 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     const float eta = std::get<Clear>(scene.materials[surface.near_side.phase.index]).ior_for(wavelengths);
     const glm::vec3& normal = surface.geometric_normal;
     if (eta == 1.0f) return {{p, surface.normal}, normal, eta};
-    // The line to look along is bent as by a plane parallel to the surface.
+    // The search direction is refracted as by a plane parallel to the surface.
     const glm::vec3 lamp = scene.lights.towards_brightest(p, normal).value_or(normal);
     const std::optional<glm::vec3> line = bent_inward(lamp, normal, eta);
     const std::optional<glm::vec3> met = line ? boundary_along(*line, surface, world, scene, counters) : std::nullopt;
@@ -105,12 +105,13 @@ void LightProposal::add_plane(const glm::vec3& outward) {
 std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2 u,
                                                  const Wavelengths* wavelengths) const {
     const float scaled = u.x * static_cast<float>(1 + planes_);
-    const int by = std::min(static_cast<int>(scaled), planes_);  // straight, or by a plane
+    const int by = std::min(static_cast<int>(scaled), planes_);  // 0: straight; otherwise: through one of the planes
     u.x = std::min(scaled - static_cast<float>(by), 1 - 0x1p-24f);
     std::optional<LightSample> sample = lights.sample(at_, u, wavelengths);
     if (!sample) return std::nullopt;
     if (sample->is_of_point_light()) {
-        // A direction to a point light, bent by a plane, does not lead to it, so only the straight part proposes it.
+        // A direction to a point light that a plane refracts misses the light, so only the straight technique samples
+        // it.
         sample->pdf /= static_cast<float>(1 + planes_);
         return by == 0 ? sample : std::nullopt;
     }
@@ -121,8 +122,8 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     const glm::vec3& normal = outward_[static_cast<std::size_t>(by - 1)];
     const std::optional<glm::vec3> inside = bent_inward(sample->wi, normal, eta_);
     const std::optional<Outside> outside = inside ? bent_outward(*inside, normal, eta_) : std::nullopt;
-    // At the very rim of a light, bending the direction in and out again can put it just outside of the light, where
-    // the density is that of the sky: far less than what was sampled. Such a sample would count far too much.
+    // At the rim of a light, refracting the direction in and out again can move it just outside of the light, where the
+    // pdf is that of the sky and far below that of the sample. Such a sample would have far too high a weight.
     if (!outside || !(lights.pdf(at_, outside->direction) > 0.5f * sample->pdf)) return std::nullopt;
     const auto seen = lights.seen(at_.p, *inside, Bounds::infinity, false, wavelengths);
     if (!seen) return std::nullopt;

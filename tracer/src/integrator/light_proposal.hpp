@@ -1,19 +1,19 @@
-// Where a surface looks for light: the density of the directions that its shadow rays start in.
+// Light sampling at a surface or a point in a medium: the pdf of the directions in which shadow rays start.
 //
-// A surface that lies in a clear medium gets light that was bent on its way in, and straight towards the lamp is the
-// wrong direction. Where the medium ends in a plane of normal n (water over the ground of a lake, and whatever lies
-// between in parallel layers), light that comes from ω' outside arrives from
+// Light that reaches a surface inside a clear medium was refracted on its way in, so the straight direction to the lamp
+// is wrong. Where the medium ends in a plane of normal n (water over the ground of a lake, with any parallel layers in
+// between), light that comes from ω' outside arrives from
 //     ω = (ω' − n cos θ')/η + n cos θ,   sin θ' = η sin θ,   dω'/dω = η² cos θ / cos θ'.
-// So a part of the directions is bent by that, with the normal of the place where light from the brightest lamp would
-// come in. Two straight lines find that place nearly: the direction straight to the lamp is bent as by a plane parallel
-// to the surface, and followed, without being bent again, to where the index is 1 for the first time. A curved boundary
-// is near enough to that plane for lamps that are not small. And light can come in by several sides: more parts are
-// bent by the flat ones that lamps shine on (flat_boundaries.hpp). Where they are bad guesses the density knows, and
-// nothing is biased: with n planes
+// A share of the directions is therefore refracted in this way, with the normal of the point where light from the
+// brightest lamp would enter. That point is estimated with two straight lines: the straight direction to the lamp is
+// refracted as by a plane parallel to the surface, and then followed, without further refraction, to the first point
+// where the index is 1. For lamps that are not small, the tangent plane is a good enough approximation of a curved
+// boundary. Light can enter through several sides, so further shares are refracted by the flat boundaries that lamps
+// shine on (flat_boundaries.hpp). Bad guesses cause no bias because the pdf includes all shares: with n planes,
 //     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + n).
 //
-// Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the way to one point of a
-// lamp exactly, but have no density that other techniques could be weighted against.
+// Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the exact path to one
+// point of a lamp, but have no pdf for weighting them against other techniques.
 #pragma once
 
 #include <array>
@@ -28,37 +28,36 @@ class LightProposal {
     LightProposal() = default;
     /// All directions go straight towards the lights.
     explicit LightProposal(const LightReceiver& at) : at_(at) {}
-    /// For a place to which light comes in through a plane of this unit normal, which points outward. eta is the
-    /// refractive index there divided by that beyond the plane. If it is 1, all directions go straight towards the
-    /// lights.
+    /// For a point that light reaches through a plane with this outward unit normal. eta is the refractive index at the
+    /// point divided by that beyond the plane; if it is 1, all directions go straight towards the lights.
     LightProposal(const LightReceiver& at, const glm::vec3& outward, float eta)
         : at_(at), outward_{outward}, planes_(eta == 1.0f ? 0 : 1), eta_(eta) {}
-    /// Adds another plane through which light comes in.
+    /// Adds another plane through which light enters.
     void add_plane(const glm::vec3& outward);
-    /// For a surface without a far side. Lights are taken to be in vacuum. Where a medium disperses, directions are
-    /// bent as its index at the hero of the path's `wavelengths` bends them, even if the path is not dispersed yet: so
-    /// shadow rays that are dispersed on their way reach the light, whatever their hero is. All techniques of a path
-    /// have the same hero, and weigh by the same densities.
+    /// For a surface without a far side. Assumes that lights are in vacuum. In a dispersive medium, directions are
+    /// refracted with the index at the hero of the path's `wavelengths`, even before the path is dispersed. Shadow rays
+    /// that are dispersed on their way therefore reach the light, whatever their hero is. All techniques of a path have
+    /// the same hero and use the same pdfs in their weights.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,
                             const Wavelengths* wavelengths);
-    /// For a point in a medium. `entered` is the outward normal of the boundary that the path met last in this medium,
-    /// if any: near it light comes in where the path did, and far from it next to none comes in at all.
+    /// For a point in a medium. `entered` is the outward normal of the last boundary that the path met in this medium,
+    /// if any. Near that boundary, light enters where the path did; far from it, next to no light enters.
     static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
                             const Scene& scene, const Wavelengths* wavelengths);
 
-    /// A direction from p, and the light that is seen in it; `u` is in [0, 1)².
+    /// Samples a direction from p and the light seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u,
                                       const Wavelengths* wavelengths = nullptr) const;
-    /// The density of sample(), per steradian.
+    /// The pdf of sample() per steradian.
     float pdf(const Lights& lights, const glm::vec3& direction) const;
-    /// The density that sample() would have at another place nearby, through the same planes.
+    /// The pdf that sample() would have at a nearby point, with the same planes.
     float pdf_from(const Lights& lights, const glm::vec3& place, const glm::vec3& direction) const;
 
   private:
-    /// Adds the flat boundaries that a light above them shines through onto the place.
+    /// Adds the flat boundaries through which a light above them reaches the point.
     template <class LampAbove>
     void add_flat_boundaries(const World& world, LampAbove&& lamp_above);
-    /// The same of a direction whose density straight to the lights is known.
+    /// As pdf() above, for a direction whose pdf straight to the lights is known.
     float pdf(const Lights& lights, const glm::vec3& direction, float straight) const;
 
     LightReceiver at_;

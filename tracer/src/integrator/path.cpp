@@ -23,7 +23,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// One path, and what it needs at every step.
+// The state of one path.
 class Path {
   public:
     Path(const World& world, const Scene& scene, const Ray& ray, Sampler& sampler, PathCounters& counters,
@@ -37,7 +37,7 @@ class Path {
           ray_(ray),
           camera_ior_(clear_at(scene, ray.phase).ior),
           recorder_(record, scene) {
-        // Photons have wavelengths, and the paths that gather them have the same.
+        // Photons and the paths that gather them have the same wavelengths.
         if (!world.needs_wavelengths()) return;
         wavelengths_ = photons_ && photons_.map->wavelengths() ? *photons_.map->wavelengths()
                                                                : world.wavelengths(sampler.next_evenly());
@@ -80,7 +80,7 @@ class Path {
                           OfGlowingSurface{emitted->group}, ray_.direction, false);
             if (surface->optics.get().disperses()) disperse();
             const Bsdf bsdf = surface->bsdf(current_);
-            if (bsdf.passes_through()) {  // equal indices scatter nothing, but do count for max_depth
+            if (bsdf.passes_through()) {  // equal indices scatter nothing, but count towards max_depth
                 ray_ = surface->transmitted(ray_.direction);
                 entered_ = surface->normal;
                 continue;
@@ -93,9 +93,9 @@ class Path {
 
   private:
     const Medium& medium() const { return clear_at(scene_, ray_.phase).interior; }
-    // Those of PathWavelengths; null if the path is of colours.
+    // See PathWavelengths; null if the path carries colours.
     const Wavelengths* all_wavelengths() const { return wavelengths_ ? &*wavelengths_ : nullptr; }
-    // From here on the path is of its hero alone.
+    // From here on, the path carries its hero wavelength only.
     void disperse() {
         if (is_dispersed_) return;
         is_dispersed_ = true;
@@ -110,23 +110,23 @@ class Path {
         return fly(medium(), world_.geometry().way_through_medium(ray_, distance, current_), throughput_, sampler_);
     }
 
-    // The same as scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a
-    // next ray.
+    // Like scatter_and_continue() of a surface, in the medium at that distance along the ray. There is always a next
+    // ray.
     void scatter_in_medium(float distance) {
         const HenyeyGreenstein& phase = *phase_function(medium());
         scatter_and_continue(MediumPoint{ray_.origin + distance * ray_.direction, ray_.phase, phase, ray_.in});
     }
 
-    // What a medium shines by itself is of no lamp, and goes with the background. It is that of the ray's way to `end`,
-    // even if the path is scattered before.
+    // Emission of a medium belongs to no lamp and is recorded with the background. It is that of the whole segment up
+    // to `end`, even if the path is scattered before.
     void add_emission_of_medium(const glm::vec3& emitted, float end) {
         if (emitted == glm::vec3(0.0f)) return;
         const glm::vec3 radiance = throughput_ * chain_.weight_of_medium(scene_, photons_, ray_, end) * emitted;
         add_light(radiance, Background{}, ray_.direction, false);
     }
 
-    // Adds radiance that the path found, of a light that was seen in the direction. If the path has wavelengths it is
-    // that at these, and becomes a colour here.
+    // Adds radiance of a light that was seen in `direction`. The radiance of a spectral path is converted to a colour
+    // here.
     void add_light(const glm::vec3& found, const LightSource& source, const glm::vec3& direction,
                    bool is_to_be_scattered) {
         radiance_ += colour_of_found(found, current_);
@@ -134,26 +134,26 @@ class Path {
         recorder_.add_light(found, current_, source, direction, is_to_be_scattered);
     }
 
-    // Returns what a flight past `distance` leaves of red, green and blue. In a medium that scatters or varies that is
-    // one number for all three: the mean of the flight's weights by channel_choice(), because only that mean has a
-    // bound.
+    // Returns the weight of red, green and blue after a flight past `distance`. In a medium that scatters or varies,
+    // all three have the same weight: the mean of the flight's weights by channel_choice(), because only that mean is
+    // bounded.
     glm::vec3 weight_of_colours(const Flight& flight, float distance) {
         if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium()))
             return absorbing->transmittance({ray_.origin, ray_.direction, distance}, sampler_);
         return glm::vec3(glm::dot(channel_choice(throughput_), flight.weight));
     }
 
-    // Tells the recorder of a surface before the path's ray leaves it in the direction `next`, which was chosen with
+    // Reports a surface to the recorder before the path's ray leaves it in the direction `next`, which was chosen with
     // `odds` (InterfaceChoice).
     void record(const Surface& surface, const GuidedBsdf& bsdf, float lobe, float odds, const glm::vec2& u,
                 const std::optional<GuidedBsdf::Sample>& next) {
         if (!current_)
             return record(surface, bsdf.bsdf(),
                           bsdf.guide() ? bsdf.unguided_sample(lobe, u) : std::optional<BsdfSample>(next), throughput_);
-        // The albedo is in colours though the path has wavelengths, because it tells what a surface looks like. So the
-        // surface is asked once more, with the same numbers, and of a smooth interface for what the path does there:
-        // films and dispersion give it other odds in colours, and what is reflected must not weigh as if it were
-        // refracted into another index.
+        // The albedo is recorded in colours even for spectral paths because it describes what a surface looks like. The
+        // BSDF is therefore sampled again, in colours and with the same random numbers. At a smooth interface, it is
+        // sampled for the branch that the path took: with films and dispersion the odds differ in colours, and a
+        // reflection must not get the weight of a refraction.
         const Bsdf in_colours = surface.bsdf();
         if (next && is_link(in_colours, surface)) lobe = next->transmitted ? greatest_below_one : 0.0f;
         const auto seen = GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(lobe, u);
@@ -167,13 +167,13 @@ class Path {
         const glm::vec3 weight = next ? next->weight : glm::vec3(0.0f);
         const float bent = ior(after) / ior(ray_.phase), from_camera = ior(after) / camera_ior_;
         const bool is_of_chain = is_link(bsdf, surface);
-        // What a smooth interface reflects and what it refracts is all of the light.
+        // A smooth interface reflects and refracts all of the light.
         recorder_.scattered(surface, bsdf.is_delta(), is_of_chain,
                             is_of_chain ? glm::vec3(1.0f) : weight * (bent * bent),
                             throughput * weight * (from_camera * from_camera));
     }
 
-    // Adds direct light and what photons bring, and samples the path's next ray. Returns whether there is one.
+    // Adds direct light and photons, and samples the path's next ray. Returns whether there is one.
     bool scatter_and_continue(const Surface& surface, const Bsdf& unguided) {
         ++counters_.interactions;
         is_camera_ray_ = false;
@@ -187,7 +187,8 @@ class Path {
                        : per_line_density_at(photons_, scene_, surface, bsdf, wi);
         };
         if (!unguided.is_delta()) {
-            // Photons that go on from the surface weigh by the same density of shadow rays, and know of no bending.
+            // Photons that continue from the surface are weighted with the same pdf of shadow rays, which must not
+            // depend on refraction.
             proposal = surface.far_side || is_passed_by_photons(surface, unguided)
                            ? LightProposal(receiver_of_passed_light(surface, surface.near_side))
                            : LightProposal::at(surface, world_, scene_, counters_, all_wavelengths());
@@ -198,7 +199,7 @@ class Path {
         const glm::vec2 u = sampler_.next2();
         auto next = bsdf.sample(lobe, u);
         if (next) next->count_as_chosen(odds);
-        // The recorded albedo is without the guide, because the weights of guided directions are noisier.
+        // The recorded albedo ignores the guide because guided directions have noisier weights.
         if (recorder_.is_asked()) record(surface, bsdf, lobe, odds, u, next);
         if (!next) return false;
         throughput_ *= next->weight;
@@ -218,14 +219,14 @@ class Path {
             ++chain_.length;
             chain_.has_mirror = true;
         } else
-            // A delta lobe that neither shadow rays nor photons follow: that of a smooth coat, or of a mirror whose
-            // bump sends the path into the mirror once more.
+            // A delta lobe that neither shadow rays nor photons follow: a smooth coat, or a mirror whose bump sends the
+            // path into the mirror again.
             chain_ = {};
         return true;
     }
 
-    // Whether a smooth interface reflects or refracts the path. All other BSDFs, and those of a path whose weight has
-    // grown too much, choose by their own odds.
+    // Chooses between reflection and refraction at a smooth interface. All other BSDFs use their own odds, and so do
+    // paths whose weight has grown too large.
     InterfaceChoice choice_at(const Surface& surface, const Frame& frame, const Bsdf& bsdf, const glm::vec3& wo,
                               float u) const {
         if (!is_link(bsdf, surface) || !guiding_.may_differ()) return {u, 1.0f};
@@ -251,7 +252,7 @@ class Path {
         chain_ = {.pdf = pdf, .proposal = proposal, .direction = direction, .by_photons = by_photons};
     }
 
-    // Next-event estimation: what arrives from the lights by a shadow ray, and is scattered into the path.
+    // Next-event estimation: adds the light that arrives by a shadow ray and is scattered into the path.
     template <class PerLineDensity>
     void add_direct_light(const Surface& surface, const GuidedBsdf& bsdf, const LightProposal& proposal,
                           PerLineDensity&& per_line_density_of) {
@@ -270,15 +271,15 @@ class Path {
         return proposal.sample(scene_.lights, sampler_.next2(), current_);
     }
 
-    // f is what of the light is scattered into the path, the cosine included, and pdf the density with which the path
-    // itself would go on in that direction.
+    // `f` is the BSDF or phase function, including the cosine. `pdf` is that with which the path itself would continue
+    // in the light's direction.
     void add_direct_light(const LightSample& light, const glm::vec3& f, float pdf, PhotonDensity by_photons,
                           const Ray& shadow, int interfaces_before) {
         if (scene_.settings.techniques == Techniques::directions_alone) return;
         const Photons photons = by_photons.per_line_density > 0.0f ? photons_ : Photons{};
         const Arrival arrival = trace_shadow_ray({world_, scene_, photons, sampler_, counters_}, shadow, light,
                                                  {all_wavelengths(), is_dispersed_}, interfaces_before);
-        // No direction that the path takes by itself meets a point.
+        // No sampled direction of the path meets a point.
         const float by_directions = light.is_of_point_light() ? 0.0f : pdf;
         const auto weight = [&](float density_of_photons) {
             return technique_weight(scene_.settings.techniques, Technique::shadow_rays, light.pdf, by_directions,
@@ -286,8 +287,8 @@ class Path {
         };
         const auto add = [&](const glm::vec3& radiance, float line_density, const LightSource& source,
                              const glm::vec3& direction) {
-            // Photons that light a medium come by its boundary. A shadow ray that meets none has no line density, and
-            // the distance to the boundary is infinite, of which there is no coverage to be asked for.
+            // Photons reach a medium through its boundary. A shadow ray that meets no boundary has line density 0 and
+            // an infinite distance to the boundary, for which coverage is undefined.
             if (line_density > 0.0f) by_photons.reach_boundary(arrival.to_boundary);
             add_light(throughput_ * f * radiance * (weight(by_photons.per_line_density * line_density) / light.pdf),
                       source, direction, true);
@@ -298,7 +299,7 @@ class Path {
             add(arrival.light->radiance, arrival.light->line_density, arrival.light->source, arrival.light->direction);
     }
 
-    // Whether photons that go on from the surface count at an earlier place of the path, and not on the surface.
+    // Whether photons that continue from the surface count at an earlier vertex of the path, and not at the surface.
     bool is_passed_by_photons(const Surface& surface, const Bsdf& bsdf) const {
         return sends_photons_on(bsdf, surface) && chain_.photons_count_earlier();
     }
@@ -306,15 +307,15 @@ class Path {
     int interfaces_before(const Surface& surface, const Bsdf& bsdf) const {
         return is_passed_by_photons(surface, bsdf) ? chain_.interfaces() + 1 : 0;
     }
-    // Adds what one photon brings to the point `at`. `f` is the BSDF or the phase function for its direction, and
-    // `power` what is left there of the photon's power. Photons find the direction with the density `by_photons`, and
-    // the path itself would go on in it with the density `pdf`. It is called only if all techniques are used.
+    // Adds the contribution of one photon at the point `at`. `f` is the BSDF or the phase function for the photon's
+    // direction, and `power` the photon's power after attenuation up to the point. `by_photons` is the pdf of that
+    // direction for photons, and `pdf` that of the path itself. Called only if all techniques are used.
     void add_photon(const Photon& photon, const glm::vec3& power, const glm::vec3& f, float by_photons, float pdf,
                     const LightProposal& proposal, const glm::vec3& at) {
         const float weight = photon.weight(by_photons, pdf, [&] {
-            // A small lamp is seen in the photon's direction from the photon's line, and perhaps from nowhere else near
-            // the point. What shadow rays would propose is therefore asked at the place of that line which is nearest
-            // to the point: there their weight for the same light is what is left of this one.
+            // A small lamp may be visible in the photon's direction from the photon's line, but from nowhere else near
+            // the point. The pdf of shadow rays is therefore evaluated at the closest point of that line, where their
+            // weight for the same light complements this one.
             const float along = glm::dot(at - photon.position, photon.direction);
             return proposal.pdf_from(scene_.lights, photon.position + along * photon.direction, photon.direction);
         });
@@ -327,19 +328,19 @@ class Path {
         add_light(throughput_ * f * fluence * weight, photon.source, photon.towards_light, true);
     }
 
-    // Adds what photons bring that fell near the surface's point.
+    // Adds the photons that landed near the surface point.
     void add_caustics(const Surface& surface, const GuidedBsdf& bsdf, const LightProposal& proposal) {
         if (!photons_ || scene_.settings.techniques != Techniques::all) return;
         const Phase near = surface.near_side.phase;
         const auto add = [&](const Photon& photon) {
             const glm::vec3 wi = bsdf.frame().to_local(photon.direction);
-            // A photon of another surface close by may come from the wrong side.
+            // A photon on another surface nearby may come from the wrong side.
             const bool is_from_near = photon.phase == near;
             if (!is_from_near && !(surface.far_side && photon.phase == surface.far_side->phase)) return;
             if (is_from_near != (wi.z > 0.0f)) return;
             const float by_photons = per_line_density_at(photons_, scene_, surface, bsdf, wi) * photon.line_density;
             if (!(by_photons > 0.0f)) return;
-            // Photons are counted by area of the surface, and so have the surface's cosine already.
+            // Photons are counted per area of the surface, which already includes the surface's cosine.
             const glm::vec3 f = bsdf.evaluate(wi) / photon_cosine(surface, bsdf.frame(), wi);
             add_photon(photon, photon.power, f, by_photons, bsdf.pdf(wi, photon.direction), proposal,
                        surface.near_side.origin);
@@ -351,7 +352,7 @@ class Path {
             photons_.map->near_at_interface(surface.near_side.origin, surface.normal, add);
     }
 
-    // Adds what photons bring whose places in a medium are near the point.
+    // Adds the photons whose points in a medium are near `point`.
     void add_caustics(const MediumPoint& point, const PhotonPlacement& placement, const LightProposal& proposal) {
         if (scene_.settings.techniques != Techniques::all) return;
         const float across = per_line_density_across(photons_, scene_, point.phase);
@@ -359,8 +360,8 @@ class Path {
             const float coverage = placement.coverage(depth);
             const float by_photons = across * photon.line_density * coverage;
             if (!(by_photons > 0.0f)) return;
-            // What the medium leaves of the photon between the boundary and the point. A point before the boundary is
-            // one at which nothing is lost yet.
+            // The transmittance for the photon between the boundary and the point. It is 1 for points before the
+            // boundary.
             const Wavelengths* of_photon = photon.of_one_wavelength ? &*wavelengths_ : current_;
             const glm::vec3 left = transmittance(
                 medium(),
@@ -371,14 +372,14 @@ class Path {
         });
     }
 
-    // Russian roulette on what the path can still bring to the camera. Refraction preserves L/n², and the throughput is
-    // that of L, so the share of the camera's light that is found here is throughput · n²(here)/n²(camera). Returns
-    // whether the path goes on. Where the path went in directions that a guide, or interfaces by the lights, prefer to
-    // BSDFs, the share is taken to be what it would be had the BSDFs chosen them: paths to where light is have little
-    // weight each, and are what such a choice is for.
+    // Russian roulette on the contribution that the path can still bring to the camera. Refraction preserves L/n², and
+    // the throughput applies to L, so the share of the camera's light that is found here is throughput ·
+    // n²(here)/n²(camera). Returns whether the path continues. Where a guide, or the choice by lights at interfaces,
+    // changed the odds of the path's directions, the share is computed as if the BSDFs had chosen them. Paths towards
+    // light have low weights each, and producing them is the purpose of such a choice.
     bool roulette(int depth) {
         const float ior = clear_at(scene_, ray_.phase).ior / camera_ior_;
-        // The hero's throughput stands for three wavelengths where it has gone on alone.
+        // After dispersion, the hero's throughput represents all three wavelengths.
         const float alone = is_dispersed_ && current_->is_spectral ? current_->hero_to_all.x : 1.0f;
         const float worth = std::max({throughput_.x, throughput_.y, throughput_.z}) / alone * ior * ior;
         if (!(worth > 0)) return false;
@@ -401,16 +402,15 @@ class Path {
     float camera_ior_;
     glm::vec3 radiance_{0.0f}, throughput_{1.0f};
     PathChain chain_;
-    // The outward normal of the clear boundary that the path met last in this medium.
+    // The outward normal of the last clear boundary that the path met in this medium.
     std::optional<glm::vec3> entered_;
     bool is_camera_ray_ = true;
-    // Those of the path, also while it still carries colours; none where the world needs none.
+    // Those of the path, even while it still carries colours; nullopt if the world needs none.
     std::optional<Wavelengths> wavelengths_;
-    // What the path's numbers are of: null while they are red, green and blue, else wavelengths_.
+    // What the path's numbers stand for: null while they are red, green and blue, else wavelengths_.
     const Wavelengths* current_ = nullptr;
     bool is_dispersed_ = false;
-    // What the way from the camera leaves of red, green and blue, for the record; a path of colours uses it from where
-    // it is dispersed.
+    // The throughput in red, green and blue for the record; a path of colours uses it once it is dispersed.
     glm::vec3 recorded_throughput_{1.0f};
     PathRecorder recorder_;
 };

@@ -1,20 +1,23 @@
-// Russian roulette: the probability with which a path survives, by how much light it can still bring.
+// Russian roulette: the probability that a path survives, from the light that it can still contribute.
 #pragma once
 
 #include <algorithm>
 
 namespace phasetree::tracer {
 
-/// The probability; 1 if no number is to be drawn. `worth` is the share of what
-/// it began with that the path can still bring, and `depth` how many surfaces and places in
-/// media the path has met.
+/// Returns the probability; 1 if no random number is to be drawn. `worth` is the share of its initial contribution that
+/// the path can still make. `depth` is the number of surfaces and scattering events of the path so far.
 ///
-/// Roulette spares the first three of them: with a wall of glass in front, that is as far as what is seen behind it.
-/// After that the probability is four times the share, so a path survives for certain from a quarter on, because in
-/// long chains of clear interfaces what is ended comes back as noise that costs more than the steps that are saved.
-/// With 4 a picture of glasses had half of the variance times time that it had with 1, one of an hourglass 0.82 of it;
-/// with 16 it was 0.49 and 0.85. At least a twentieth of the paths survive, so that no weight grows by more than 20 at
-/// once; where nearly all would, all do.
+/// The first three are exempt: with a wall of glass in front, they reach what is visible behind it. After that, the
+/// probability is four times the share, so a path survives for certain from a quarter on. In long chains of clear
+/// interfaces, the noise from terminating paths costs more than the saved steps. At least a twentieth of the paths
+/// survive, so that no weight grows by more than 20 at once. Probabilities that are nearly 1 are rounded up to 1.
+///
+/// Variance times time by the factor on the share, relative to a factor of 1:
+///
+///     factor       1      4      16
+///     glasses      1     0.5    0.49
+///     hourglass    1     0.82   0.85
 inline float roulette_survival(float worth, int depth) {
     constexpr int depth_without_roulette = 3;
     constexpr float survival_per_worth = 4.0f, least = 0.05f, nearly_certain = 0.95f;

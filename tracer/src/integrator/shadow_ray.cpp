@@ -23,7 +23,7 @@ float line_density_in_medium(const Photons& photons, const Ray& ray, float dista
 
 namespace {
 
-// This is Arrival::line_density of a point light, which is seen straight ahead.
+// Arrival::line_density of a point light that is seen without refraction.
 float point_density(const ShadowRayContext& context, const Ray& ray, const LightSample& sampled,
                     const OfPointLight& light) {
     if (!context.photons) return 0.0f;
@@ -49,7 +49,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
     Arrival arrival;
     glm::vec3 throughput(1.0f);
     float to_sampled =
-        sampled.distance;  // how far the sampled light is from the ray's origin, as long as it is straight
+        sampled.distance;  // distance of the sampled light from the ray's origin while the ray is straight
     for (int length = 0, segment = 0;; ++segment) {
         const bool is_straight = segment == 0 || (sampled.is_of_point_light() && length == 0);
         const float far = is_straight ? to_sampled : Bounds::infinity;
@@ -67,7 +67,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
             light = context.scene.lights.seen(ray.origin, ray.direction, distance, false, ray_wavelengths.now());
         else if (escaped)
             light = Lights::Emission{to_sampled, sampled_radiance(), sampled.source};
-        if (light) glowing = nullptr;  // a lamp is before it
+        if (light) glowing = nullptr;  // a lamp is in front of it
         if (const auto emitted = glowing ? glowing->emitted(ray_wavelengths.now()) : std::nullopt)
             light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
@@ -101,7 +101,7 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         }
         if (sampled.is_of_point_light() || !is_link(bsdf, *surface) || ++length > longest_chain) return arrival;
         const Frame frame = surface->frame();
-        // A smooth interface has no lobe to choose a direction in, so the two numbers do not matter.
+        // A smooth interface has no lobe to sample a direction from, so the two numbers do not matter.
         const auto next = bsdf.sample(frame.to_local(-ray.direction), context.sampler.next(), glm::vec2(0.0f));
         if (!next) return arrival;
         throughput *= next->weight;

@@ -1,4 +1,4 @@
-// How the estimates of several techniques for the same light are put together.
+// MIS weights of the techniques that find the same light.
 #pragma once
 
 #include "sampling/heuristic.hpp"
@@ -6,11 +6,11 @@
 
 namespace phasetree::tracer {
 
-/// A technique by which a path finds light by itself.
+/// A technique by which a path itself finds light.
 enum class Technique { shadow_rays, directions };
 
-/// The weight of light that one technique found, with the density `pdf`; the other of the two would have found it with
-/// the density `by_other`, and photons with `by_photons`. By the power heuristic, or 1 or 0 where one works alone.
+/// The weight of light that one technique found with `pdf`. The other one would have found it with `by_other`, and
+/// photons with `by_photons`. Uses the power heuristic, or 1 or 0 if only one technique is enabled.
 inline float technique_weight(Techniques at_work, Technique found_by, float pdf, float by_other, float by_photons) {
     switch (at_work) {
         case Techniques::shadow_rays_alone:

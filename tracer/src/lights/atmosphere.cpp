@@ -18,7 +18,7 @@ const double horizon_length = std::sqrt(top_radius * top_radius - ground_radius 
 
 constexpr double air_scale_height = 8.0;
 constexpr double aerosol_scale_height = 1.2;
-constexpr double aerosol_albedo = 0.97;    // scattered share of what aerosol takes out of a ray
+constexpr double aerosol_albedo = 0.97;    // share of the aerosol's extinction that is scattering
 constexpr double aerosol_asymmetry = 0.8;  // mean cosine of the scattering angle
 const dvec3 air_scattering(5.802e-3, 13.558e-3, 33.1e-3);
 const dvec3 ozone_absorption(0.650e-3, 1.881e-3, 0.085e-3);
@@ -39,7 +39,7 @@ double aerosol_phase(double cosine) {
     return k * (1.0 + cosine * cosine) / std::pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
 }
 
-// Distance from radius r along a direction at `cosine` from straight up to the sphere of radius `sphere` ≥ r.
+// Distance from radius r, along a direction at `cosine` from the zenith, to the sphere of radius `sphere` ≥ r.
 double distance_out(double r, double cosine, double sphere) {
     return -r * cosine + std::sqrt(std::max(0.0, r * r * (cosine * cosine - 1.0) + sphere * sphere));
 }
@@ -101,7 +101,7 @@ void Atmosphere::tabulate_transmittance() {
             constexpr int steps = 64;
             dvec3 depth(0.0);
             for (int i = 0; i < steps; ++i) {
-                // Quadratic spacing: the air is densest at the ray's start, or, below the horizontal, not far from it.
+                // Quadratic spacing: the air is densest at the ray's start or, below the horizontal, not far from it.
                 const double a = static_cast<double>(i) / steps;
                 const double b = static_cast<double>(i + 1) / steps;
                 const double t = d * 0.5 * (a * a + b * b);
@@ -113,7 +113,7 @@ void Atmosphere::tabulate_transmittance() {
     }
 }
 
-// To the top of the atmosphere, for rays that do not meet the ground.
+// To the top of the atmosphere, for rays that miss the ground.
 dvec3 Atmosphere::transmittance(double radius, double cosine) const {
     const double r = std::clamp(radius, ground_radius, top_radius);
     const double rho = std::sqrt(r * r - ground_radius * ground_radius);
@@ -124,7 +124,7 @@ dvec3 Atmosphere::transmittance(double radius, double cosine) const {
                        (d - shortest) / (longest - shortest), rho / horizon_length);
 }
 
-// Transmittance towards the sun, which the Earth hides gradually over the sun's angular diameter.
+// Transmittance towards the sun, which sets gradually over its angular diameter.
 dvec3 Atmosphere::sunlight(double radius, double cosine) const {
     const double r = std::clamp(radius, ground_radius, top_radius);
     const double sin_horizon = ground_radius / r;
@@ -178,7 +178,7 @@ void Atmosphere::tabulate_multiple() {
             for (int i = 0; i < directions; ++i) {
                 for (int j = 0; j < directions; ++j) {
                     const double z = 1.0 - 2.0 * (i + 0.5) / directions;
-                    const double azimuth = half_turn * (j + 0.5) / directions;  // the other half is its mirror image
+                    const double azimuth = half_turn * (j + 0.5) / directions;  // the other half is symmetric
                     const double s = std::sqrt(1.0 - z * z);
                     const dvec3 view(s * std::sin(azimuth), s * std::cos(azimuth), z);
                     const Scattered once = scattered_once_isotropically(radius, view, to_sun);
@@ -203,7 +203,7 @@ std::vector<Atmosphere::Step> Atmosphere::path(double sin_elevation) const {
     std::vector<Step> steps(count);
     dvec3 through(1.0);
     for (int i = 0; i < count; ++i) {
-        // Quadratic spacing, as the air is densest at the observer.
+        // Quadratic spacing because the air is densest at the observer.
         const double a = static_cast<double>(i) / count;
         const double b = static_cast<double>(i + 1) / count;
         Step& step = steps[static_cast<std::size_t>(i)];
@@ -212,7 +212,7 @@ std::vector<Atmosphere::Step> Atmosphere::path(double sin_elevation) const {
                                 2.0 * observer_radius * step.distance * sin_elevation);
         const Medium m = medium(step.radius);
         const dvec3 step_through = glm::exp(-m.extinction * (length * (b * b - a * a)));
-        // ∫ of a source that is constant over the step, with the step's own extinction.
+        // The integral of a source that is constant over the step, with the step's own extinction.
         const dvec3 weight = through * (1.0 - step_through) / glm::max(m.extinction, dvec3(1e-12));
         step.air = weight * m.air;
         step.aerosol = weight * m.aerosol;

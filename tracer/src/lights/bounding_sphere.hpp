@@ -1,4 +1,4 @@
-// A ball around a light.
+// Bounding sphere of a light.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -13,12 +13,12 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr std::size_t most_parts = 4;
-// A part is so many times as bright as the mean of the environment at least. Where the sun shines it is thousands of
-// times as bright, a window some ten times.
+// Minimum ratio of a part's luminance to the mean of the environment. For the sun it is in the thousands, for a window
+// about ten.
 constexpr double least_contrast = 16;
-// What belongs to a part has this share of its greatest luminance.
+// Cells belong to a part if they have at least this share of its greatest luminance.
 constexpr double edge = 1.0 / 8;
-// Lines from caps that are wider are spread thin, and what large lights throw is soft.
+// Wider caps would spread photons thinly, and large lights cause only soft caustics.
 constexpr double widest = 25 * std::numbers::pi / 180;
 
 // The cells of the distribution, numbered row by row from the zenith down.
@@ -28,7 +28,7 @@ struct Cells {
                 height = static_cast<std::size_t>(distribution.height());
 
     std::size_t size() const { return width * height; }
-    // How many times as bright as the mean of the environment it is.
+    // The ratio of a cell's luminance to the mean of the environment.
     double contrast(std::size_t cell) const {
         if (!(distribution.integral() > 0.0f)) return 0;
         return 4 * std::numbers::pi * static_cast<double>(distribution.cell_pdf(cell % width, cell / width));
@@ -43,14 +43,14 @@ struct Cells {
                      above = static_cast<double>(cell / width) * step;
         return 2 * std::numbers::pi / static_cast<double>(width) * (std::cos(above) - std::cos(above + step));
     }
-    // From the middle of a cell to a little beyond its corners. Interpolation takes light into the next cells, which
-    // are of a part themselves where that is much.
+    // From the centre of a cell to slightly beyond its corners. Interpolation spreads light into the neighbouring
+    // cells; if that is much, they belong to a part themselves.
     double reach() const {
         return 0.75 * std::numbers::pi * std::hypot(1 / static_cast<double>(height), 2 / static_cast<double>(width));
     }
 };
 
-// The first cell, and all that are connected with it by neighbours of at least this contrast. Columns wrap around.
+// The first cell, and all cells connected to it through neighbours of at least this contrast. Columns wrap around.
 std::vector<std::size_t> connected(const Cells& cells, std::size_t first, double least) {
     std::vector<std::size_t> found{first};
     std::vector<bool> is_in(cells.size());
@@ -86,7 +86,7 @@ Cap cap_around(const Cells& cells, const std::vector<std::size_t>& part) {
 
 std::vector<Cap> bright_parts(const LatLongDistribution& distribution) {
     const Cells cells{distribution};
-    // Those that may begin a part, the brightest first; equal ones in the order of the cells.
+    // Candidates to start a part, the brightest first; equal ones in the order of the cells.
     std::vector<std::size_t> bright;
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         if (cells.contrast(cell) >= least_contrast) bright.push_back(cell);

@@ -1,10 +1,10 @@
-// The small bright parts of an environment, such as the sun in a photograph of the sky: what throws caustics. Photons
-// are sent from these alone, because light from all around makes none.
+// The small bright parts of an environment that cause caustics, such as the sun in a photograph of the sky. Only they
+// emit photons, because light from all directions causes no caustics.
 //
-// A part grows from the brightest cell of the environment's distribution over all neighbours that have an eighth of its
-// luminance, and is the cap around them. The next one grows from the brightest cell that is in no cap yet, while that
-// is much brighter than the mean. This is a heuristic of where to look: whatever is chosen, what photons bring is
-// weighted by the density with which they were sent, and the rest is left to other techniques.
+// A part grows from the brightest cell of the environment's distribution over all neighbours with at least an eighth of
+// its luminance. The part is the cap around these cells. The next part grows from the brightest cell outside all caps,
+// while that is much brighter than the mean. The heuristic affects noise only: photons are weighted by the density with
+// which they were emitted, and the other light is left to other techniques.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace phasetree::tracer {
 
-/// At most four, the brightest first, of what is sampled in proportion to its luminance.
+/// At most four parts, the brightest first. The distribution must be proportional to luminance.
 std::vector<Cap> bright_parts(const LatLongDistribution& distribution);
 
 }  // namespace phasetree::tracer

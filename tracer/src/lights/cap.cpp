@@ -8,7 +8,7 @@
 namespace phasetree::tracer {
 
 Cap::Cap(const glm::vec3& axis, double angle) : axis_(axis) {
-    // How far a unit direction may be off, whose three coordinates were rounded several times by a change of frame.
+    // The error of a unit direction whose coordinates were rounded several times by a change of frame.
     constexpr double rounding = 2e-7;
     const double half_chord = std::sin(0.5 * angle), chord = 2.0 * half_chord + rounding;
     squared_chord_ = static_cast<float>(chord * chord);

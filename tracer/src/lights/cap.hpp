@@ -1,8 +1,8 @@
 // A cap of the sphere of directions: all those within an angle θ of an axis. Sampled uniformly, p = 1/(2π(1 − cos θ)).
 //
-// Directions are floats, so one that was sampled in the cap may lie outside of it by a rounding error. The cap
-// therefore reaches that much farther where a direction is given: otherwise what was sampled there would be lost, and
-// of a small cap all of it.
+// Directions are floats, so a direction that was sampled in the cap may lie outside of it by a rounding error. Tests of
+// given directions therefore use a slightly larger cap. Otherwise samples would be lost, and those of a small cap
+// entirely.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 class Cap {
   public:
-    /// An axis of unit length, and θ in radians, in (0, π].
+    /// The axis has unit length; θ is in radians, in (0, π].
     Cap(const glm::vec3& axis, double angle);
 
     const glm::vec3& axis() const { return axis_; }
@@ -23,21 +23,21 @@ class Cap {
     }
 
     bool contains(const glm::vec3& direction) const {
-        // |ω − axis|² = 2(1 − cos θ), which keeps its digits for small angles.
+        // ω − axis|² = 2(1 − cos θ), which stays precise for small angles.
         const glm::vec3 chord = direction - axis_;
         return glm::dot(chord, chord) <= squared_chord_;
     }
     /// u in [0, 1)².
     glm::vec3 sample(const glm::vec2& u) const;
-    /// The density of sample(), per steradian, in the cap; 0 elsewhere.
+    /// The pdf of sample() per steradian; 0 outside the cap.
     float pdf(const glm::vec3& direction) const { return contains(direction) ? 1.0f / solid_angle() : 0.0f; }
     /// In steradians.
     float solid_angle() const;
 
   private:
     glm::vec3 axis_;
-    float squared_chord_;  // from the axis to as far as the cap reaches
-    float height_;         // 1 − cos θ, of which nothing would be left if the cosine were stored
+    float squared_chord_;  // from the axis to the rim, including the tolerance
+    float height_;         // 1 − cos θ; computed from a stored cosine, it would cancel
 };
 
 }  // namespace phasetree::tracer

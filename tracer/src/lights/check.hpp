@@ -1,4 +1,4 @@
-// Checks of a light's description. The messages complete "… must be …" for a person who wrote a scene.
+// Checks of a light's description. The messages, "… must be …", are for authors of scenes.
 #pragma once
 
 #include <cmath>

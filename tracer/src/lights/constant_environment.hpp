@@ -1,4 +1,4 @@
-// An environment of the same radiance L from everywhere: sampled uniformly, p = 1/4π. A horizontal surface under it
+// An environment with the same radiance L in all directions, sampled uniformly: p = 1/4π. A horizontal surface under it
 // receives the irradiance πL.
 #pragma once
 
@@ -21,7 +21,7 @@ class ConstantEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const;
-    /// None: it is all around.
+    /// nullopt: the light surrounds the scene.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
     std::vector<Cap> bright_parts() const { return {}; }
 
@@ -29,7 +29,7 @@ class ConstantEnvironment {
     glm::vec3 radiance_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct ConstantEnvironmentParameters {
     static constexpr KindInfo info{"constant", "The same radiance from everywhere."};
 

@@ -1,12 +1,11 @@
-// What a light must provide. There are three sorts: infinite lights, which are the same from everywhere, area lights,
-// which have a place and hide what is behind them, and lights without an extent, which no ray meets. kinds.hpp has the
-// list of all kinds.
+// Requirements on lights. There are three sorts. Infinite lights look the same from everywhere. Area lights have a
+// position and hide what is behind them. Point lights have no extent, so no ray meets them. kinds.hpp lists all kinds.
 //
-// Radiance is linear Rec.709 in W/(sr m²), and intensity in W/sr, up to one factor that is the same for a whole scene.
-// Directions are of unit length and point from the place that is lit towards the light. Densities are per steradian,
-// and those of an infinite or area light over all directions integrate to 1.
+// Radiance is linear Rec.709 in W/(sr m²), and intensity is in W/sr, up to one factor for the whole scene. Directions
+// have unit length and point from the lit point towards the light. Pdfs are per steradian; those of an infinite or area
+// light integrate to 1 over all directions.
 //
-// `u` is in [0, 1)²; points that are stratified in the square should give stratified directions.
+// `u` is in [0, 1)²; points that are stratified in the square should result in stratified directions.
 #pragma once
 
 #include <concepts>
@@ -23,12 +22,12 @@
 
 namespace phasetree::tracer {
 
-/// * radiance(w): what arrives from the direction w.
-/// * sample(u): a direction, best in proportion to the luminance of radiance(); nothing if the light is black.
-/// * pdf(w): the density of sample(). It is greater than 0 wherever radiance() is not black.
+/// * radiance(w): the radiance that arrives from the direction w.
+/// * sample(u): a direction, ideally in proportion to the luminance of radiance(); nullopt if the light is black.
+/// * pdf(w): the pdf of sample(). It must be positive wherever radiance() is not black.
 /// * fluence(): the luminance of the radiance, integrated over all directions.
-/// * centre_direction(): the middle of a light that is small in the sky, and nothing for one that is all around.
-/// * bright_parts(): caps of the sphere of directions from which photons are sent; none if it throws no caustics.
+/// * centre_direction(): the centre of a light that covers a small part of the sky, otherwise nullopt.
+/// * bright_parts(): caps of the sphere of directions that emit photons; empty if the light causes no caustics.
 template <class L>
 concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w, const glm::vec2& u) {
     { light.radiance(w) } -> std::same_as<glm::vec3>;
@@ -39,18 +38,18 @@ concept InfiniteLightKind = std::copyable<L> && requires(const L& light, const g
     { light.bright_parts() } -> std::same_as<std::vector<Cap>>;
 };
 
-/// * radiance(): what is emitted, the same from every point to every direction.
+/// * radiance(): the emitted radiance, the same from every point in every direction.
 /// * visible_to_camera(): whether camera rays meet the light; otherwise they pass through.
-/// * approximate_solid_angle(p): the solid angle in steradians that the light fills as seen from p, roughly, which is
-///   all that a choice among lights needs. It is 0 exactly where nothing of the light is seen.
-/// * bounding_sphere(): a ball around it.
-/// * emission_bounds(): how much it sends at most, and where to.
-/// * sample(p, u): a direction from p towards the light; asked only where approximate_solid_angle(p) is not 0.
-/// * pdf_at(p, w, d): the density of sample(), for a direction w in which the light is met at the distance d.
-/// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if it does.
-/// * surface_point(u): a point of its surface, uniformly by area, with the normal on its emitting side.
+/// * approximate_solid_angle(p): approximately the solid angle in steradians that the light subtends at p, precise
+///   enough for a choice among lights. It is 0 exactly where nothing of the light is seen.
+/// * bounding_sphere(): a ball that contains it.
+/// * emission_bounds(): an upper bound on its emission, and its directions.
+/// * sample(p, u): a direction from p towards the light; called only where approximate_solid_angle(p) is not 0.
+/// * pdf_at(p, w, d): the pdf of sample(), for a direction w in which the light is met at the distance d.
+/// * intersect(p, w): the distance at which a ray from p first meets the light's emitting side, if any.
+/// * surface_point(u): a point of its surface, uniform in area, with the normal on its emitting side.
 /// * normal_at(q): that normal at a point of the surface.
-/// * area(): of the surface that emits.
+/// * area(): the area of the emitting surface.
 template <class L>
 concept AreaLightKind = std::copyable<L> &&
     requires(const L& light, const glm::vec3& p, const glm::vec3& w, const glm::vec2& u, float d) {
@@ -67,13 +66,13 @@ concept AreaLightKind = std::copyable<L> &&
     { light.area() } -> std::same_as<float>;
 };
 
-/// * position(): where it is.
+/// * position(): its position.
 /// * intensity(w): the radiant intensity in the direction w away from the light, in the unit of radiance times m²: a
-///   surface that faces the light at the distance d gets the irradiance intensity/d².
-/// * emission_bounds(): how much it sends at most, and where to.
+///   surface that faces the light at the distance d receives the irradiance intensity/d².
+/// * emission_bounds(): an upper bound on its emission, and its directions.
 ///
-/// Such a light is a delta function of direction. It is only found by a ray that goes straight to it, or by the photons
-/// that it sends: paths that refract never meet it.
+/// Such a light is a delta function of direction. Only a ray that goes straight to it, or the photons that it emits,
+/// can find it: refracted paths never meet it.
 template <class L>
 concept PointLightKind = std::copyable<L> && requires(const L& light, const glm::vec3& w) {
     { light.position() } -> std::convertible_to<glm::vec3>;

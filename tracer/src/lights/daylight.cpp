@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The irradiance of the sun above the atmosphere in the unit described in the header.
+// The irradiance of the sun above the atmosphere, in the unit described in the header.
 constexpr double sun_irradiance = 4.872;
 
 constexpr int width = 512;
@@ -32,7 +32,7 @@ Daylight make_daylight(const DaylightParameters& parameters) {
 
     const glm::dvec3 albedo(parameters.ground_albedo);
     const Atmosphere atmosphere(parameters.turbidity, albedo);
-    // Tabulated with the sun at azimuth 0, and then rotated. Left and right are mirror images.
+    // Tabulated with the sun at azimuth 0, then rotated. Left and right are symmetric.
     const glm::dvec3 to_sun(direction_of_degrees(0.0f, parameters.sun_elevation_degrees));
     const double unit = sun_irradiance * static_cast<double>(parameters.intensity);
 

@@ -1,12 +1,12 @@
-// A procedural sky and its sun, from the atmosphere's model (atmosphere.hpp).
+// A procedural sky and its sun, from an atmospheric model (atmosphere.hpp).
 //
-// The sky is tabulated once as a lat-long image and is from then on an image environment: what is seen and what is
-// sampled are the same table. Its lower half is diffuse ground of the given albedo in the same light, with haze towards
-// the horizon.
+// The sky is tabulated once as a lat-long image and is an image environment from then on, so radiance and sampling use
+// the same table. Its lower half is diffuse ground of the given albedo in the same light, with haze towards the
+// horizon.
 //
-// Unit: relative. One constant scales sun and sky such that white, diffuse, level ground has the luminance 1 under a
-// sun 45° high at turbidity 3; a low sun is darker, as it is. Colours: the sun above the atmosphere is white, so that
-// full daylight is close to neutral and a low sun is warm.
+// The unit is relative. One constant scales sun and sky such that white, diffuse, level ground has the luminance 1
+// under a sun 45° high at turbidity 3. A lower sun is darker, as in reality. The sun above the atmosphere is white, so
+// that full daylight is close to neutral and a low sun is warm.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -27,7 +27,7 @@ struct DaylightParameters {
 
 struct Daylight {
     ImageEnvironment sky;
-    Sun sun;  ///< black when it is below the horizon
+    Sun sun;  ///< black below the horizon
 };
 
 Daylight make_daylight(const DaylightParameters& parameters);

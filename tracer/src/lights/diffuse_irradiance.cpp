@@ -13,8 +13,8 @@ namespace {
 
 constexpr int samples = 1024;
 
-// The series may come near 0 or below where there is some light yet. A surface has this share at least of what it would
-// have of the same light from all around.
+// The truncated series may approach 0 or become negative where some light still arrives. The irradiance is at least
+// this share of what the same light would give if it came from all directions.
 constexpr float least_share = 0.05f;
 
 constexpr float least_unevenness = 0.1f;
@@ -31,7 +31,7 @@ std::array<float, 9> harmonics(const glm::vec3& w) {
             0.546274f * (w.x * w.x - w.y * w.y)};
 }
 
-// Point i of Hammersley's set of `samples`, which are 2¹⁰.
+// Point i of the Hammersley set of `samples` points, which are 2¹⁰.
 glm::vec2 hammersley(int i) {
     unsigned reversed = 0;
     for (int bit = 0; bit < 10; ++bit) reversed |= ((static_cast<unsigned>(i) >> bit) & 1u) << (9 - bit);
@@ -49,7 +49,7 @@ DiffuseIrradiance::DiffuseIrradiance(const InfiniteLight& any) {
             least_ = least_share * 0.25f * light.fluence();
             const float mean = light.fluence() / (4 * pi);
             float above_mean = 0, all = 0;
-            // Taken where the light is, so that a sun in an image is not missed.
+            // Samples are taken in proportion to the light, so that a sun in an image is not missed.
             for (int i = 0; i < samples; ++i) {
                 const auto sample = light.sample(hammersley(i));
                 if (!sample || !(sample->pdf > 0.0f)) continue;

@@ -1,7 +1,7 @@
-// Roughly how much light from infinitely far away a surface receives, by the direction that it faces:
+// Approximates the irradiance from infinite lights by the normal n of a surface:
 //     E(n) ≈ Σ_lm A_l L_lm Y_lm(n),   A₀ = π, A₁ = 2π/3, A₂ = π/4,
-// with the coefficients L_lm of the luminance in the first nine spherical harmonics. For light from all around it is
-// right to a few hundredths; it serves the choice among lights, where it need only be near.
+// with the coefficients L_lm of the luminance in the first nine spherical harmonics. For light from all around, the
+// error is a few hundredths. That is sufficient for the choice among lights.
 //
 // Reference: Ramamoorthi & Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001.
 #pragma once
@@ -17,13 +17,14 @@ class DiffuseIrradiance {
   public:
     explicit DiffuseIrradiance(const InfiniteLight& light);
 
-    /// Of a surface of this unit normal, as a luminance. It is greater than 0 unless the light is black.
+    /// At a surface with this unit normal, as a luminance. It is positive unless the light is black.
     float at(const glm::vec3& normal) const;
 
-    /// By how much to choose the light less where paths find it by themselves, too: the part of its luminance above its
-    /// mean, ∫ max(L − L̄, 0) / ∫ L, and a tenth at least. The directions that BSDFs sample find an even sky as well as
-    /// shadow rays do, which are better spent on lamps. A small sun in a sky keeps nearly all. This is the idea of MIS
-    /// compensation, but for the choice of a light alone: the density within the light stays.
+    /// A factor on the probability of choosing the light where paths find it by sampling BSDFs, too: the part of its
+    /// luminance above its mean, ∫ max(L − L̄, 0) / ∫ L, and at least a tenth. Directions sampled from BSDFs find an
+    /// even sky as well as shadow rays do, and shadow rays are better spent on lamps. For a small sun in a sky the
+    /// factor is nearly 1. This is the idea of MIS compensation, but applied only to the choice of a light; the pdf
+    /// within the light is unchanged.
     ///
     /// Reference: Karlík et al., MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling,
     /// SIGGRAPH Asia 2019.

@@ -1,4 +1,4 @@
-// What sampling a light yields: a direction towards it and how densely it was sampled.
+// A sampled direction towards a light, and its pdf.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -9,23 +9,21 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Axes that differ by less than this angle are one, and a point that is this much, relatively, outside of a sphere is
-// within.
+// Axes that differ by less than this angle count as equal, and points outside of a sphere by less than this relative
+// distance count as inside.
 constexpr double axis_slack = 1e-6, distance_slack = 1e-6;
 
-// The cosine of an angle at the edge of a cone may be off by this. Cosines of what lies at the edge are not taken to be
-// less, so that they are not 0.
+// Tolerance on the cosine of an angle at the edge of a cone. It keeps cosines of what lies at the edge above 0.
 constexpr double cosine_slack = 1e-6;
 
-// Where the horizon cuts a cluster, the light may come from a lamp that is well above it. So the cosine is taken to be
-// at least this.
+// Where the horizon cuts a cluster, the light may come from a lamp well above it, so the cosine is at least this.
 constexpr double least_cosine_at_horizon = 1.0 / 16;
 
 struct Angle {
     double cosine, sine;
 };
 
-// α − β, but not below 0, of angles from 0 to π.
+// α − β, clamped at 0, of angles from 0 to π.
 Angle difference(const Angle& a, const Angle& b) {
     if (a.cosine >= b.cosine) return {1.0, 0.0};
     return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
@@ -59,11 +57,11 @@ EmissionCone merged(const EmissionCone& a, const EmissionCone& b) {
     EmissionCone both = wide;
     both.cos_emission_ = std::min(a.cos_emission_, b.cos_emission_);
     if (between + narrow_angle <= wide_angle + axis_slack) return both;
-    // From the far edge of the one to the far edge of the other.
+    // From the far edge of one cone to the far edge of the other.
     const double angle = (wide_angle + between + narrow_angle) / 2;
     const glm::dvec3 aside = narrow.axis_ - glm::dot(wide.axis_, narrow.axis_) * wide.axis_;
     const double length = glm::length(aside), turn = angle - wide_angle;
-    // Opposite axes do not say which way to turn, so all directions count.
+    // Opposite axes do not define which way to turn, so all directions count.
     if (angle >= std::numbers::pi || !(length > axis_slack)) {
         both.cos_normals_ = -1.0;
         both.sin_normals_ = 0.0;
@@ -84,7 +82,7 @@ double EmissionCone::greatest_cosine(const glm::dvec3& towards, double cosine, d
 }
 
 double EmissionCone::measure() const {
-    // 2π ∫ sin θ over the normals, and the rest up to θo + θe weighted by cosines, as the source has it.
+    // 2π ∫ sin θ over the normals, plus the rest up to θo + θe weighted by cosines, as in the reference.
     const double normals = angle_of(cos_normals_), all = std::min(normals + angle_of(cos_emission_), std::numbers::pi);
     return 2 * std::numbers::pi * (1 - cos_normals_) +
            std::numbers::pi / 2 *
@@ -96,8 +94,8 @@ double EmissionBounds::received(const LightReceiver& at) const {
     const glm::dvec3 from_centre = glm::dvec3(at.p) - glm::dvec3(sphere.centre);
     const double squared = glm::dot(from_centre, from_centre), radius = static_cast<double>(sphere.radius);
     const double squared_radius = radius * radius;
-    // A receiver inside the sphere may get light from all around. 3/(R² + d²), and 3/(3d² − R²) outside, are close to
-    // the mean of 1/distance² over the sphere. The mean of the clamped cosine at the centre is 1/4.
+    // A receiver inside the sphere may receive light from all around. 3/(R² + d²), and 3/(3d² − R²) outside,
+    // approximate the mean of 1/distance² over the sphere. The mean of the clamped cosine at the centre is 1/4.
     if (!(squared > squared_radius * (1 + distance_slack))) {
         const double cosine = at.normal && radius > 0.0
                                   ? -glm::dot(from_centre, glm::dvec3(*at.normal)) / (radius * (1 + distance_slack))
@@ -109,14 +107,14 @@ double EmissionBounds::received(const LightReceiver& at) const {
     const double cosine_at_lamp = cone.greatest_cosine(from_centre / distance, std::sqrt(1 - sine * sine), sine);
     if (!(cosine_at_lamp > 0.0)) return 0.0;
     double cosine_at_receiver = at.normal ? mean_cosine(sphere, at) : 1.0;
-    // The mean is less than the sine where the horizon cuts the sphere, from which no cosine is above twice the sine.
+    // Where the horizon cuts the sphere, the mean is less than the sine, and no cosine exceeds twice the sine.
     if (cosine_at_receiver > 0.0 && cosine_at_receiver < sine)
         cosine_at_receiver = std::max(cosine_at_receiver, std::min(least_cosine_at_horizon, 2 * sine));
     return intensity * cosine_at_lamp * cosine_at_receiver * 3 / (3 * squared - squared_radius);
 }
 
-// The cosines from c − s to c + s, with s = r/d, are taken to be equally frequent. The s is slightly enlarged, so that
-// rounding never makes a sphere 0 that is in sight.
+// Assumes that the cosines from c − s to c + s, with s = r/d, are equally frequent. s is slightly enlarged, so that
+// rounding never returns 0 for a visible sphere.
 double mean_cosine(const BoundingSphere& sphere, const LightReceiver& at) {
     const glm::vec3 offset = sphere.centre - at.p;
     const auto distance = static_cast<double>(glm::length(offset)), radius = static_cast<double>(sphere.radius);

@@ -1,4 +1,4 @@
-// The environment images of a scene, each read once, however many lights it makes.
+// The environment images of a scene. Each file is read once, however many lights use it.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 class EnvironmentImages {
   public:
-    // Throws std::runtime_error, whose what() says what is wrong with the file.
+    // Throws std::runtime_error, whose what() describes the problem with the file.
     std::shared_ptr<const EnvironmentImage> get(const std::filesystem::path& file);
 
   private:

@@ -17,8 +17,8 @@ glm::vec3 gradient(const glm::vec3& zenith, const glm::vec3& horizon, const glm:
     return glm::mix(horizon, z > 0.0f ? zenith : ground, t * t * (3.0f - 2.0f * t));
 }
 
-// The mean of the luminance over each zone by Simpson's rule. The luminance is monotone on either side of the horizon
-// and the horizon is between two zones, so a zone that emits anywhere emits at one of its ends and is sampled.
+// The mean luminance of each zone, by Simpson's rule. The luminance is monotone on either side of the horizon, and the
+// horizon is between two zones. So a zone that emits anywhere emits at one of its ends, and is sampled.
 ZonalDistribution importance(const glm::vec3& zenith, const glm::vec3& horizon, const glm::vec3& ground,
                              float softness) {
     check_colour(zenith, "the zenith's radiance");

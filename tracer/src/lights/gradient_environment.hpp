@@ -1,6 +1,6 @@
-// A studio's surround: three colours that run smoothly into each other with the height z of the direction,
+// A studio backdrop: three colours with smooth transitions by the height z of the direction,
 //     L(ω) = mix(horizon, z > 0 ? zenith : ground, S(min(|z|/softness, 1))),   S(t) = t²(3 − 2t),
-// so that the radiance and its slope are continuous everywhere. It depends on z alone; so does its importance.
+// so that the radiance and its slope are continuous everywhere. Both the radiance and its importance depend on z only.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 class GradientEnvironment {
   public:
     // Radiances. `softness` in (0, 1] is the sine of the elevation at which zenith or ground is reached; 1 spreads the
-    // change over the whole half-sphere.
+    // transition over the whole hemisphere.
     GradientEnvironment(const glm::vec3& zenith, const glm::vec3& horizon, const glm::vec3& ground,
                         float softness = 1.0f);
 
@@ -26,7 +26,7 @@ class GradientEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const { return distribution_.integral(); }
-    /// None: it is all around.
+    /// nullopt: the light surrounds the scene.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
     std::vector<Cap> bright_parts() const { return {}; }
 
@@ -38,7 +38,7 @@ class GradientEnvironment {
     ZonalDistribution distribution_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct GradientEnvironmentParameters {
     static constexpr KindInfo info{"gradient", "Three colours that run smoothly into each other with the height.",
                                    "mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)"};

@@ -1,4 +1,4 @@
-// What a scene file may say of a light of any kind, beside the kind's own parameters.
+// Parameters that a scene file may give for a light of any kind, in addition to the kind's own parameters.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ inline constexpr Parameter group_parameter{"group", "",
                                            "lights of a group bring is a plane of the picture.",
                                            limits::any, true};
 
-/// A group's name, which is a part of channels' names. Throws ParameterError for one that cannot be.
+/// Returns the name of a group, which becomes part of channel names. Throws ParameterError if it is invalid.
 inline const std::string& checked_group(const std::string& group) {
     const auto is_allowed = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -42,7 +42,7 @@ struct Grouped : Kind {
         v(&Grouped::spectrum, spectrum_parameter);
     }
 
-    /// The group's name. Throws ParameterError for one that cannot be.
+    /// Returns the name of the group. Throws ParameterError if it is invalid.
     const std::string& checked_group() const { return tracer::checked_group(group); }
 };
 

@@ -24,7 +24,7 @@ IesLight::IesLight(const glm::vec3& position, const glm::vec3& target, float tur
     down_ = glm::normalize(glm::dvec3(target) - glm::dvec3(position));
     const glm::dvec3 up = -down_;
     const glm::dvec3 across = glm::cross(glm::dvec3(0.0, 1.0, 0.0), up);
-    // One that shines along y has +x for its plane of 0° all the same.
+    // A luminaire that points along y also has +x in its 0° plane.
     const glm::dvec3 x = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 y = glm::cross(up, x);
     const double turn = std::remainder(static_cast<double>(turn_degrees), 360.0) * degree;

@@ -1,9 +1,9 @@
-// A luminaire as a point: its light is spread as a photometric file tells it (ies_profile.hpp), and its greatest
+// A luminaire as a point light: a photometric file describes its distribution (ies_profile.hpp), and its greatest
 // radiant intensity is I.
 //
-// The file's straight down is towards the target. Of a luminaire that shines straight down, the file's plane of 0° is
-// towards +x, and angles about the vertical grow anticlockwise seen from above; one that shines elsewhere is turned
-// from there about y first.
+// The file's straight down points towards the target. For a luminaire that points straight down, the file's 0° plane is
+// towards +x, and angles around the vertical increase anticlockwise as seen from above. For other directions, the
+// luminaire is rotated from there around y first.
 #pragma once
 
 #include <filesystem>
@@ -18,14 +18,14 @@ namespace phasetree::tracer {
 
 class IesLight {
   public:
-    /// `turn_degrees` is by how much it is turned about its axis, anticlockwise as seen from behind it.
+    /// `turn_degrees` is a rotation around its axis, anticlockwise as seen from behind.
     IesLight(const glm::vec3& position, const glm::vec3& target, float turn_degrees,
              std::shared_ptr<const IesProfile> profile, const glm::vec3& intensity);
 
-    /// As PointLightKind has it.
+    /// See PointLightKind.
     const glm::vec3& position() const { return position_; }
     glm::vec3 intensity(const glm::vec3& away) const;
-    /// It may shine in all directions.
+    /// It may emit in all directions.
     EmissionBounds emission_bounds() const {
         return {{position_, 0.0f}, static_cast<double>(luminance(intensity_)), {}};
     }
@@ -33,11 +33,11 @@ class IesLight {
   private:
     glm::vec3 position_;
     glm::vec3 intensity_;
-    glm::dvec3 down_, first_, second_;  ///< the file's straight down, its planes of 0° and of 90°
+    glm::dvec3 down_, first_, second_;  ///< the file's straight down, and its 0° and 90° planes
     std::shared_ptr<const IesProfile> profile_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct IesLightParameters {
     static constexpr KindInfo info{
         "ies",

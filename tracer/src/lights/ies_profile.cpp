@@ -14,8 +14,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// More than any instrument measures; a file cannot claim more memory than that.
-constexpr int most_angles = 1441;  // a quarter of a degree all around
+// More than any instrument measures. Limits the memory that a file can claim.
+constexpr int most_angles = 1441;  // a quarter of a degree over a full turn
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -32,7 +32,7 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-// Reads numbers one by one, and knows in which line it is. They are set apart by blanks, commas and ends of lines.
+// Reads numbers one by one and tracks the line. Numbers are separated by blanks, commas and line ends.
 class Numbers {
   public:
     Numbers(std::string_view text, int line) : text_(text), line_(line) {}
@@ -89,7 +89,7 @@ bool is_word(std::string_view text, std::string_view upper_case) {
     return std::ranges::equal(text, upper_case, {}, [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
 }
 
-// What "TILT=" is followed by in a line; nothing of any other line. The standards write it in upper case and without
+// The text after "TILT=" in a line; nullopt for any other line. The standards write it in upper case and without
 // blanks, but not all programs do.
 std::optional<std::string_view> tilt_in(std::string_view line) {
     constexpr std::string_view keyword = "TILT";
@@ -100,8 +100,8 @@ std::optional<std::string_view> tilt_in(std::string_view line) {
     return trimmed(line.substr(1));
 }
 
-// What stands before the numbers: everything up to the line that says TILT. Labels are free, and so are keywords such
-// as [TEST], which came in 1991. What it says of the tilt.
+// Everything before the numbers, up to the line with TILT. Labels are free, and so are keywords such as [TEST],
+// introduced in 1991. `tilt` is the value of TILT.
 struct Heading {
     std::string_view tilt, rest;
     int lines;
@@ -120,7 +120,7 @@ void check_increasing(const Numbers& numbers, std::span<const double> angles, st
             throw numbers.error(fmt::format("{} should increase, but {} follows {}", what, angles[i], angles[i - 1]));
 }
 
-// Linear between the values at the two neighbouring angles: which is below, and how far towards the next.
+// Linear interpolation between two neighbouring angles: the index of the lower one, and the fraction towards the next.
 std::pair<std::size_t, double> place_among(std::span<const double> angles, double angle) {
     if (angles.size() == 1) return {0, 0.0};
     const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
@@ -134,7 +134,8 @@ IesProfile::IesProfile(std::string_view text) {
     const Heading heading = heading_of(text);
     Numbers numbers(heading.rest, heading.lines + 1);
     if (is_word(heading.tilt, "INCLUDE")) {
-        // How lamps dim when the luminaire is tilted, which we take to hang as it was measured.
+        // How lamps dim when the luminaire is tilted. It is ignored: the luminaire is assumed to hang as it was
+        // measured.
         (void)numbers.whole("the lamp's position", 1, 3);
         const int pairs = numbers.whole("the number of tilts", 1, most_angles);
         (void)numbers.list("a tilt", pairs);
@@ -181,7 +182,7 @@ IesProfile::IesProfile(std::string_view text) {
     if (!(greatest_ > 0.0)) throw numbers.error("all candelas are 0");
 }
 
-// The plane of the file that stands for this one.
+// The plane of the file that represents this one.
 double IesProfile::symmetric(double horizontal_degrees) const {
     double angle = std::fmod(horizontal_degrees, 360.0);
     if (angle < 0.0) angle += 360.0;
@@ -192,7 +193,7 @@ double IesProfile::symmetric(double horizontal_degrees) const {
 }
 
 float IesProfile::relative_intensity(double vertical_degrees, double horizontal_degrees) const {
-    // A tenth of a second of arc, for rounding at the ends.
+    // A tenth of an arcsecond, for rounding at the ends.
     constexpr double slack = 3e-5;
     if (vertical_degrees < vertical_.front() - slack || vertical_degrees > vertical_.back() + slack) return 0.0f;
     const auto [row, down] = place_among(vertical_, vertical_degrees);

@@ -1,10 +1,9 @@
-// How a luminaire spreads its light, as a photometric file of the IES tells it (ANSI/IES LM-63: 1986, 1991, 1995, 2002,
-// 2019).
+// The distribution of a luminaire from an IES photometric file (ANSI/IES LM-63: 1986, 1991, 1995, 2002, 2019).
 //
-// Files of type C are understood, those of nearly all luminaires: candelas for angles from straight down, and planes
-// about the vertical. A file may leave out planes that are like others: one plane is for all, planes to 90° are for
-// each quarter, and planes to 180° for each half. Between the file's angles candelas are interpolated linearly in both,
-// and beyond its vertical angles it is dark.
+// Reads files of type C, which nearly all luminaires use: candelas by the angle from straight down and by planes around
+// the vertical. A file may omit planes that follow by symmetry: one plane is for all, planes to 90° are for each
+// quadrant, and planes to 180° for each half. Candelas are interpolated linearly in both angles, and are 0 beyond the
+// file's vertical angles.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +14,11 @@ namespace phasetree::tracer {
 
 class IesProfile {
   public:
-    /// Throws std::runtime_error, whose what() says the line and what is wrong there, for a text that is no such file.
+    /// Throws std::runtime_error, whose what() gives the line and the problem, if the text is not such a file.
     explicit IesProfile(std::string_view text);
 
-    /// The candelas at an angle in [0, 180] degrees from straight down, and at any angle about the vertical, as a share
-    /// of the greatest in the file.
+    /// The candelas at an angle in [0, 180] degrees from straight down, and at any angle around the vertical, as a
+    /// share of the greatest in the file.
     float relative_intensity(double vertical_degrees, double horizontal_degrees) const;
     double greatest_candelas() const { return greatest_; }
 

@@ -32,7 +32,7 @@ std::vector<glm::vec3> usable(std::vector<glm::vec3> pixels, int width, int heig
     return pixels;
 }
 
-// The largest block of texels that divides the image evenly and is not larger than needed; 1 if there is none.
+// The largest block of texels that divides the image evenly, up to the size needed; 1 if there is none.
 int block_size(int width, int height) {
     const int wanted = (width + widest_distribution - 1) / widest_distribution;
     for (int block = wanted; block > 1; --block) {

@@ -1,12 +1,12 @@
 // An environment from a lat-long image: L(ω) = intensity · image(u, v), (u, v) as in lat_long.hpp.
 //
-// The image is interpolated bilinearly between texel centres, wrapping around in azimuth and clamped at the poles.
-// Importance: the mean of the *interpolated* luminance over each texel. Along one axis that mean is (1, 6, 1)/8 of the
-// texel and its two neighbours (the integral of the two hat functions), so a texel is sampled whenever any direction in
-// it emits, a black one beside a bright one too, and the estimator stays unbiased. Images wider than 2,048 texels are
-// sampled by blocks of texels.
+// The image is interpolated bilinearly between texel centres. It wraps around in azimuth and is clamped at the poles.
+// The importance is the mean of the *interpolated* luminance over each texel. Along one axis, that mean is (1, 6, 1)/8
+// of the texel and its two neighbours (the integral of the two hat functions). So a texel is sampled whenever any
+// direction in it emits, including a black texel next to a bright one, and the estimator is unbiased. Images wider than
+// 2,048 texels are sampled by blocks of texels.
 //
-// Texels that are not a number or negative count as black, infinite ones as the largest half-float number, 65,504.
+// NaN and negative texels count as black, infinite ones as the largest half-float number, 65,504.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@
 
 namespace phasetree::tracer {
 
-// The texels, and how they are sampled. Environments of the same image share it.
+// The texels, and their sampling distribution. Environments with the same image share it.
 struct EnvironmentImage {
     // `pixels` row by row, the zenith's row first.
     EnvironmentImage(int width, int height, std::vector<glm::vec3> pixels);
@@ -37,8 +37,8 @@ struct EnvironmentImage {
 
 class ImageEnvironment {
   public:
-    // `rotation_degrees` turns the environment clockwise seen from above: what the image shows at azimuth a is seen at
-    // a + rotation.
+    // `rotation_degrees` turns the environment clockwise as seen from above: what the image shows at azimuth a is seen
+    // at a + rotation.
     ImageEnvironment(std::shared_ptr<const EnvironmentImage> image, float rotation_degrees = 0.0f,
                      float intensity = 1.0f);
     ImageEnvironment(int width, int height, std::vector<glm::vec3> pixels, float rotation_degrees = 0.0f,
@@ -51,7 +51,7 @@ class ImageEnvironment {
     float pdf(const glm::vec3& direction) const;
     // Luminance of the radiance integrated over all directions.
     float fluence() const { return intensity_ * image_->distribution.integral(); }
-    /// None: it is all around.
+    /// nullopt: the light surrounds the scene.
     std::optional<glm::vec3> centre_direction() const { return std::nullopt; }
     std::vector<Cap> bright_parts() const;
 
@@ -67,7 +67,7 @@ class ImageEnvironment {
 
 class EnvironmentImages;
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct ImageEnvironmentParameters {
     static constexpr KindInfo info{"image", "An environment from a lat-long image, which is twice as wide as high."};
 

@@ -16,22 +16,22 @@
 
 namespace phasetree::tracer {
 
-/// A kind of infinite light, once its contract has been asked of it. If it does not meet that, the message names the
-/// kind and the member.
+/// Checks a kind of infinite light against its concept. If the check fails, the compiler's message names the kind and
+/// the member.
 template <class Kind>
 struct CheckedInfiniteLight {
     static_assert(InfiniteLightKind<Kind>);
     using Type = Kind;
 };
 
-/// The same of an area light.
+/// As above, for an area light.
 template <class Kind>
 struct CheckedAreaLight {
     static_assert(AreaLightKind<Kind>);
     using Type = Kind;
 };
 
-/// The same of a light without an extent.
+/// As above, for a point light.
 template <class Kind>
 struct CheckedPointLight {
     static_assert(PointLightKind<Kind>);
@@ -53,7 +53,7 @@ using InfiniteLight = InfiniteLightOf<ConstantEnvironment, GradientEnvironment, 
 /// Every kind of area light.
 using AreaLight = AreaLightOf<RectangleLight, SphereLight>;
 
-/// Every kind of light without an extent.
+/// Every kind of point light.
 using AnyPointLight = PointLightOf<PointLight, SpotLight, IesLight>;
 
 }  // namespace phasetree::tracer

@@ -1,8 +1,8 @@
-// The lat-long (equirectangular) parametrisation of directions, and the project's compass.
+// The lat-long (equirectangular) parametrisation of directions, and the compass of the project.
 //
-// Up is +z; x points right and y away from the default viewer. Azimuths run clockwise seen from above, as on a compass
-// with north = +y: azimuth 0 is +y, 90° is +x. An image's middle column is azimuth 0, its columns run with the azimuth
-// (so that what is right in the image is right when one stands inside), its top row is the zenith:
+// Up is +z; x points right and y away from the default viewer. Azimuths increase clockwise as seen from above, as on a
+// compass with north = +y: azimuth 0 is +y, 90° is +x. The middle column of an image is azimuth 0, and its top row is
+// the zenith. Columns increase with the azimuth, so that the right of the image is on the right for a viewer inside:
 //     u = 1/2 + azimuth/2π,   v = θ/π,   θ = angle from +z.
 #pragma once
 

@@ -48,7 +48,7 @@ std::span<const float> LatLongDistribution::columns_of(std::size_t row) const {
 }
 
 float LatLongDistribution::cell_pdf(std::size_t column, std::size_t row) const {
-    // From the stored, rounded sums: exactly the probabilities with which sample() chooses.
+    // Computed from the stored, rounded sums, so that they are exactly the probabilities with which sample() chooses.
     const auto columns = columns_of(row);
     const double probability =
         static_cast<double>(rows_[row + 1] - rows_[row]) * (columns[column + 1] - columns[column]);

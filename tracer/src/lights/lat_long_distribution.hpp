@@ -1,6 +1,6 @@
-// A piecewise-constant probability density on the sphere of directions, for importance sampling an environment.
+// A piecewise-constant pdf on the sphere of directions, for importance sampling an environment.
 //
-// The sphere is cut into width × height lat-long cells (see lat_long.hpp). Within a cell the density per *solid angle*
+// The sphere is divided into width × height lat-long cells (see lat_long.hpp). Within a cell, the pdf per *solid angle*
 // is constant, p = P(cell)/Ω(cell): a cell is sampled uniformly in azimuth and in cos θ, so no sin θ appears that could
 // vanish at the poles. A row is chosen from the marginal, then a column within the row, each by inverting its
 // cumulative distribution (Pharr, Jakob, Humphreys: Physically Based Rendering, 3rd ed., 13.6.7).
@@ -17,14 +17,14 @@ namespace phasetree::tracer {
 
 class LatLongDistribution {
   public:
-    /// `means` holds, row by row from the zenith down, a non-negative importance for each cell: the mean over the cell
-    /// of the function to be sampled. Where the function is not zero its mean must not be zero either.
+    /// `means` contains, row by row from the zenith down, a non-negative importance for each cell: the mean over the
+    /// cell of the function to be sampled. It must be positive wherever the function is not zero.
     LatLongDistribution(int width, int height, std::span<const float> means);
 
-    /// Nothing when every importance is zero.
+    /// nullopt if all importances are zero.
     std::optional<DirectionSample> sample(const glm::vec2& u) const;
 
-    /// The density of `direction` per steradian; the one sample() reports.
+    /// The pdf of `direction` per steradian, as reported by sample().
     float pdf(const glm::vec3& direction) const;
 
     /// The integral over the sphere of the tabulated importance.
@@ -32,7 +32,7 @@ class LatLongDistribution {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// The density of the directions in a cell, per steradian.
+    /// The pdf of directions in a cell, per steradian.
     float cell_pdf(std::size_t column, std::size_t row) const;
 
   private:

@@ -1,6 +1,6 @@
-// The kinds of lights that a scene file names: one list, from which the reader, the reference and the schema follow.
-// Each has its own parameters and those that all lights have (grouped.hpp). A kind has made(), which returns a light,
-// or several; made(EnvironmentImages&) if it needs images.
+// The kinds of lights in scene files: the list from which the reader, the reference and the schema are generated. Each
+// kind has its own parameters and those of all lights (grouped.hpp). A kind has made(), which returns one light or
+// several, or made(EnvironmentImages&) if it needs images.
 #pragma once
 
 #include <variant>

@@ -1,4 +1,4 @@
-// Where light is looked for.
+// A point that receives light.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -6,8 +6,7 @@
 
 namespace phasetree::tracer {
 
-/// A point, and, if it is on a surface that light does not pass, the unit normal there. No light from below that
-/// counts.
+/// A point and, on an opaque surface, the unit normal there. Light from below that surface does not count.
 struct LightReceiver {
     glm::vec3 p{0};
     std::optional<glm::vec3> normal{};

@@ -7,10 +7,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// An axis is cut into this many slices, and clusters are split between two of them.
+// Candidate splits of a cluster are between these slices of an axis.
 constexpr std::size_t slice_count = 12;
 
-// From this depth on clusters are split into halves by number, which bounds the depth of the tree.
+// From this depth on, clusters are split in halves by number, which bounds the depth of the tree.
 constexpr int deepest_costed_split = 40;
 
 struct Box {
@@ -20,14 +20,14 @@ struct Box {
         low = glm::min(low, other.low);
         high = glm::max(high, other.high);
     }
-    // The surface area, plus a little of the squared diagonal, so that points in a row do not count as 0.
+    // The surface area plus a fraction of the squared diagonal, so that collinear points do not have area 0.
     double area_for_splitting() const {
         const glm::dvec3 size = high - low;
         return 2 * (size.x * size.y + size.y * size.z + size.z * size.x) + 0.01 * glm::dot(size, size);
     }
 };
 
-// What is known of several lamps while the tree is built.
+// Properties of several lamps, used while building the tree.
 struct Summary {
     Box box{};
     double intensity = 0;
@@ -88,7 +88,7 @@ class LightTree::Builder {
             if (!(size[axis] > 0.0)) continue;
             std::array<Summary, slice_count> slices{};
             for (const std::size_t i : lamps) slices[slice_of(i, axis)].add(summary_of(lamps_[i].bounds));
-            // A split across a short edge makes thin parts, so it costs more.
+            // Splitting a short edge creates thin parts, so it costs more.
             const double thinness = std::max({size.x, size.y, size.z}) / size[axis];
             std::array<double, slice_count> upper_cost{};
             Summary upper;
@@ -126,7 +126,7 @@ class LightTree::Builder {
             radius = std::max(radius, glm::distance(glm::dvec3(sphere.centre), glm::dvec3(bounds.sphere.centre)) +
                                           static_cast<double>(sphere.radius));
         }
-        // It is rounded up, so that the sphere stays around the lamps in single precision as well.
+        // Rounded up, so that the sphere still contains the lamps in single precision.
         bounds.sphere.radius = static_cast<float>(radius * (1 + 1e-6));
         return bounds;
     }
@@ -157,7 +157,7 @@ LightTree LightTree::of(std::span<const Lamp> lamps) {
     if (lamps.empty()) return tree;
     for (const Lamp& lamp : lamps) ++tree.lamps_[static_cast<std::size_t>(lamp.node.kind)];
     tree.roots_ = {Builder(tree, lamps).build()};
-    // The strongest, widest clusters are replaced by their members until there are enough roots.
+    // Replace the strongest, widest clusters by their members until there are enough roots.
     const auto priority_of = [&](const LightNode& node) {
         if (node.kind != LightNode::Kind::cluster) return -1.0;
         const EmissionBounds& bounds = tree.clusters_[node.number].bounds;
@@ -171,7 +171,7 @@ LightTree LightTree::of(std::span<const Lamp> lamps) {
         tree.roots_.push_back(members[1]);
     }
     std::ranges::sort(tree.roots_);
-    // Every member gets its parent, from the roots down.
+    // Assign parents, from the roots down.
     tree.parent_.resize(lamps.size() + tree.clusters_.size());
     std::vector<LightNode> to_visit = tree.roots_;
     while (!to_visit.empty()) {
@@ -192,7 +192,7 @@ bool LightTree::may_hit(const glm::vec3& origin, const glm::vec3& direction, flo
     const glm::dvec3 to_centre = glm::dvec3(sphere.centre) - glm::dvec3(origin), d(direction);
     const double along = glm::dot(to_centre, d), radius = static_cast<double>(sphere.radius);
     const glm::dvec3 across = to_centre - along * d;
-    // Rounded directions may miss by a little, and lamps accept such rays, so the sphere is slightly enlarged.
+    // Lamps accept rays that miss slightly because directions are rounded, so the sphere is slightly enlarged.
     const double enlarged_radius = radius + 1e-6 * (std::abs(along) + radius);
     return along > -enlarged_radius && along - enlarged_radius < static_cast<double>(farthest) &&
            glm::dot(across, across) <= enlarged_radius * enlarged_radius;

@@ -1,13 +1,13 @@
-// With many lamps it is too slow to ask each one. The tree joins lamps into clusters, and clusters into larger ones.
-// Choosing a lamp, or finding those that a ray may hit, then looks at a few dozen nodes.
+// A tree over lamps, because evaluating every one of many lamps is too slow. It groups lamps into clusters, and
+// clusters into larger ones. Choosing a lamp, or finding those that a ray may hit, then visits a few dozen nodes.
 //
-// A lamp is an area light, a point light, or a part of what glows or shines. There are at most `most_roots` roots once
-// lamps are clustered, each a cluster or a lamp; before that every lamp is a root. A root is chosen among all roots;
-// from there the path leads to one of the two members of each cluster, nearly in proportion to what they give at the
-// receiver. The caller says what a node gives, of clusters by received(). The probability below the root is the product
-// along the path.
+// A lamp is an area light, a point light, or a part of an emissive surface or medium. Once lamps are clustered, there
+// are at most `most_roots` roots, each a cluster or a lamp; before that, every lamp is a root. A root is chosen among
+// all roots. From there, one of the two members of each cluster is chosen, nearly in proportion to their light at the
+// receiver. The caller provides the light of a node; that of clusters is received(). The probability below the root is
+// the product along the path.
 //
-// A cluster is split where the sum of intensity · area · cone measure of both halves is least, with a penalty for thin
+// Clusters are split where the sum of intensity · area · cone measure of both halves is least, with a penalty for thin
 // ones: A. Conty Estevez, C. Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, HPG 2018.
 #pragma once
 
@@ -40,19 +40,19 @@ class LightTree {
         LightNode node;
         EmissionBounds bounds;
     };
-    /// The greatest number of roots once lamps are clustered. This many lamps are all roots.
+    /// The maximum number of roots once lamps are clustered. Up to this many lamps are all roots.
     static constexpr std::size_t most_roots = 32;
 
     /// Adds the next lamp of its kind, and dissolves all clusters.
     void add(LightNode::Kind kind);
-    /// Clusters the lamps. Numbers of each kind run from 0 without gaps.
+    /// Clusters the lamps. The numbers of each kind start at 0 and have no gaps.
     static LightTree of(std::span<const Lamp> lamps);
 
-    /// The nodes among which a choice starts, in the order of LightNode::Kind and then of their numbers. Each lamp is
-    /// below exactly one of them, or is one.
+    /// The nodes among which a choice starts, in the order of LightNode::Kind and then of their numbers. Each lamp is a
+    /// root or below exactly one.
     std::span<const LightNode> roots() const { return roots_; }
 
-    /// What a cluster gives, as EmissionBounds::received(), kept within single precision.
+    /// The light of a cluster, see EmissionBounds::received(), clamped to single precision.
     float received(std::uint32_t cluster, const LightReceiver& at) const {
         constexpr double most = std::numeric_limits<float>::max();
         return static_cast<float>(std::min(clusters_[cluster].bounds.received(at), most));
@@ -62,11 +62,11 @@ class LightTree {
 
     struct Choice {
         LightNode lamp;
-        float probability;  ///< with which choose() reached it from the node
-        float u;            ///< u, stretched to [0, 1) again within the part of it that led here
+        float probability;  ///< with which choose() reaches it from the node
+        float u;            ///< u, rescaled to [0, 1) within the part of it that led here
     };
-    /// Chooses a lamp below a node by u in [0, 1). given(node) is what a node gives. Returns nothing where both members
-    /// of a cluster give nothing, or more than a float holds.
+    /// Chooses a lamp below a node by u in [0, 1). given(node) returns the light of a node. Returns nullopt where the
+    /// light of both members of a cluster is 0, or overflows a float.
     template <class Given>
     std::optional<Choice> choose(LightNode node, float u, const Given& given) const;
 
@@ -78,14 +78,14 @@ class LightTree {
     template <class Given>
     Reached path_to(LightNode lamp, const Given& given) const;
 
-    /// Calls use(lamp) for every area light and glowing part that the ray may hit nearer than `farthest()`, which may
-    /// become less with each call, and for some others. The direction has unit length.
+    /// Calls use(lamp) for every area light and emissive part that the ray may hit nearer than `farthest()`, and for
+    /// some others. `farthest()` may decrease with each call. The direction has unit length.
     template <class Farthest, class Use>
     void for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
                             const Use& use) const;
 
-    /// The same of all that the ray may hit, with the path to each lamp: calls use(lamp, path), where path() is
-    /// path_to(lamp, given), but for rounding. What is asked of a cluster is computed once for all lamps below.
+    /// As above, for everything that the ray may hit, with the path to each lamp: calls use(lamp, path), where path()
+    /// is path_to(lamp, given), except for rounding. The light of a cluster is computed once for all lamps below.
     template <class Given, class Use>
     void for_each_maybe_hit_with_path(const glm::vec3& origin, const glm::vec3& direction, const Given& given,
                                       const Use& use) const;
@@ -97,24 +97,24 @@ class LightTree {
     };
     class Builder;
 
-    /// If either member is a cluster, of which only an estimate is known, no member that gives something is chosen with
-    /// a smaller probability than this.
+    /// If either member is a cluster, whose light is only estimated, no member with light is chosen with a smaller
+    /// probability than this.
     static constexpr float least_probability = 1.0f / 256;
 
-    /// The probability of a cluster's first member; none if what both give is 0 or more than a float holds.
+    /// The probability of a cluster's first member; nullopt if the light of both is 0 or overflows a float.
     template <class Given>
     std::optional<float> first_probability(std::uint32_t cluster, const Given& given) const;
 
-    /// Lamps and clusters in one row, in the order of LightNode::Kind.
+    /// Index of a lamp or cluster in one sequence, in the order of LightNode::Kind.
     std::size_t index_of(const LightNode& node) const {
         const auto kind = static_cast<std::ptrdiff_t>(node.kind);
         return std::accumulate(lamps_.begin(), lamps_.begin() + kind, std::size_t(0)) + node.number;
     }
-    /// A node on the path from a root, and what choose() makes of it.
+    /// A node on the path from a root, and the results of choose() for it.
     struct Step {
-        const Step* before = nullptr;  ///< the cluster that it is a member of; none of a root
+        const Step* before = nullptr;  ///< the cluster that contains it; null for a root
         LightNode node{};
-        mutable std::optional<float> probability{};                       ///< with which it is reached from the root
+        mutable std::optional<float> probability{};                       ///< of reaching it from the root
         mutable std::optional<std::optional<float>> first_probability{};  ///< of a cluster; unset until it is computed
     };
     template <class Given>
@@ -123,10 +123,10 @@ class LightTree {
     void roots_are_all_lamps();
     bool may_hit(const glm::vec3& origin, const glm::vec3& direction, float farthest, std::uint32_t cluster) const;
 
-    std::array<std::uint32_t, 3> lamps_{};  ///< how many there are of each kind
+    std::array<std::uint32_t, 3> lamps_{};  ///< number of lamps of each kind
     std::vector<LightNode> roots_;
     std::vector<Cluster> clusters_;
-    std::vector<std::optional<std::uint32_t>> parent_;  ///< the cluster above a node, by index_of(); none above a root
+    std::vector<std::optional<std::uint32_t>> parent_;  ///< the cluster above a node, by index_of(); nullopt for a root
 };
 
 template <class Given>

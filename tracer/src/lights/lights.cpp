@@ -15,7 +15,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// One weight for each choice. Up to 64 need no heap.
+// One weight per choice. Up to 64 need no heap.
 class Scratch {
   public:
     explicit Scratch(std::size_t size) : values_(size, 0.0f, &arena_) {}
@@ -28,10 +28,10 @@ class Scratch {
     std::pmr::vector<float> values_;
 };
 
-// A sun whose middle is below the horizon may still be seen in part.
+// A sun whose centre is below the horizon may still be partly visible.
 constexpr float least_cosine_of_sun = 0.02f;
 
-// Where a point light is from p, and the irradiance that it gives there.
+// The direction and distance of a point light from p, and its irradiance there.
 struct FromPoint {
     glm::vec3 direction;
     float distance;
@@ -49,7 +49,7 @@ FromPoint seen_from(const glm::vec3& p, const AnyPointLight& any) {
         any);
 }
 
-// Whether lights can be chosen by weights of this sum. Otherwise there is no sample.
+// Whether lights can be chosen by weights with this sum. Otherwise there is no sample.
 bool is_usable(float total) {
     return total > 0.0f && total < infinity;
 }
@@ -122,8 +122,8 @@ void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelength
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
             const glm::vec3 part = radiance_of_infinite(i, direction, wavelengths);
             glm::vec3 share(0.0f);
-            // Light of a shadow ray that was dispersed is of colours of which none came from the lights: it is shared
-            // by brightness.
+            // The light of a dispersed shadow ray has colours that the lights did not emit. It is divided by
+            // brightness.
             for (int c = 0; c < 3; ++c)
                 share[c] = found[c] * (all[c] > 0 ? part[c] / all[c] : luminance(part) / luminance(all));
             groups[infinite_group_[i]] += colour_of_found(share, wavelengths);
@@ -150,7 +150,7 @@ float Lights::weigh(const LightReceiver& at, std::span<float> weights) const {
         weights[index] = std::visit(
             [&](const auto& light) {
                 const std::optional<glm::vec3> centre = light.centre_direction();
-                // With portals all of the light counts: what is seen through them is hardly found by chance.
+                // With portals, all of the light counts: what is seen through them is hardly found by chance.
                 const float part = centre || !portals_.empty() ? 1.0f : irradiance_[i].unevenness();
                 if (!at.normal) return part * light.fluence();
                 if (!centre) return part * irradiance_[i].at(*at.normal);
@@ -188,7 +188,7 @@ float Lights::received_from(const LightNode& node, const LightReceiver& at) cons
     return cosine > 0.0f ? luminance(from_point.irradiance) * cosine : 0.0f;
 }
 
-// Moves a part of the weight of lights that are all around to the portals that p sees. The sum stays the same.
+// Moves a part of the weight of environments to the portals that p sees. The sum stays the same.
 void Lights::move_weight_to_portals(const glm::vec3& p, std::span<float> weights) const {
     constexpr float part = 0.75f;
     const std::span<float> portals = weights.last(portals_.size());
@@ -225,7 +225,7 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
     density += of_portals / total;
     const auto given = [&](const LightNode& node) { return received_from(node, at); };
     tree_.for_each_maybe_hit_with_path(at.p, direction, given, [&](const LightNode& lamp, const auto& path) {
-        // `pdf` is the density of the lamp's own sampling.
+        // `pdf` returns the pdf of the lamp's own sampling.
         const auto add = [&](const auto& pdf) {
             if (chosen && chosen->lamp == lamp) return;
             const auto [root, probability] = path();
@@ -273,7 +273,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
     const std::span<const float> weights = scratch.values();
     if (!is_usable(total)) return std::nullopt;
 
-    // If rounding leaves u beyond the sum, the last light with a weight is taken.
+    // If rounding leaves u beyond the sum, the last light with a weight is chosen.
     Chosen chosen{0};
     float sum = 0.0f;
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -323,7 +323,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
                                           if (is_area_light && chosen.lamp->number == number)
                                               misses_chosen_area_light = false;
                                       });
-    // At the very rim of a light rounding can put the direction just outside.
+    // At the rim of a light, rounding can move the direction just outside.
     if (misses_chosen_area_light || !(density > 0.0f)) return std::nullopt;
     if (nearest_area_light)
         return LightSample{wi, nearest_area_light->distance, nearest_area_light->radiance, density,
@@ -361,7 +361,7 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
         if (consider(weights.values()[infinite_.size() + i], [&] { return std::optional(direction_to(root, p)); }))
             node = root;
     }
-    // The brighter member of each cluster is followed down to a lamp, or to where none is on the normal's side.
+    // Follow the brighter member of each cluster down to a lamp, or until none is on the normal's side.
     while (node && node->kind == LightNode::Kind::cluster) {
         std::optional<LightNode> next;
         most = 0.0f;

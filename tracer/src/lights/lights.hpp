@@ -1,39 +1,39 @@
-// All lights of a scene, as the integrator sees them.
+// All lights of a scene, as seen by the integrator.
 //
-// Sampling is one density over *directions*, a mixture of the lights' own:
+// Light sampling has one pdf over *directions*, a mixture of those of the lights:
 //     p(ω | x) = Σᵢ cᵢ(x) pᵢ(ω | x),   Σ cᵢ ≤ 1.
-// A light is chosen with cᵢ, a direction from that light's pᵢ, and the sample is then what is *seen* along that
-// direction if no geometry is in the way: the nearest area light, or, if there is none, all infinite lights together
-// (sky + sun). The radiance belongs to the direction, not to the light that proposed it, and the density is the whole
-// mixture's. So overlapping lights (the sun's disk in front of the sky, a lamp in front of another) are neither counted
-// twice nor lost, ∫ f(ω) L(ω) dω has the unbiased estimator f L/p, and BSDF samples combine with light samples by one
-// pair of densities.
+// A light is chosen with the probability cᵢ, and a direction from that light's pᵢ. The sample is then what is *seen*
+// along that direction without occlusion by geometry: the nearest area light or, if there is none, all infinite lights
+// together (sky + sun). The radiance belongs to the direction, not to the light that proposed it, and the pdf is that
+// of the whole mixture. So overlapping lights (the sun's disk in front of the sky, a lamp in front of another) are
+// neither counted twice nor lost, ∫ f(ω) L(ω) dω has the unbiased estimator f L/p, and MIS with BSDF samples needs one
+// pair of pdfs.
 //
-// cᵢ(x) is proportional to the luminance the light sends through x from all directions if nothing is in the way (its
-// fluence, the mean luminance times the solid angle; of a rectangle, roughly); at a surface, to the luminance that it
-// receives, with the cosine. Of light from all around the share counts by which it is uneven, a tenth at
-// least (unevenness(), in diffuse_irradiance.hpp), unless there are portals. Unlike emitted power this needs no extent
-// of the scene to compare an environment with a lamp, and lamps that are far away, turned away or below the surface
-// take few samples or none.
+// cᵢ(x) is proportional to the luminance of the light at x from all directions without occlusion. That is its fluence,
+// the mean luminance times the solid angle (approximate for rectangles); at a surface it is the irradiance, which
+// includes the cosine. An environment counts with the share by which it is uneven, at least a tenth (unevenness(), in
+// diffuse_irradiance.hpp), unless there are portals. Unlike emitted power, this measure can compare an environment with
+// a lamp without knowing the extent of the scene, and lamps that are far away, turned away or below the surface take
+// few samples or none.
 //
-// Many lamps, which are area lights, point lights and parts of surfaces that glow, are in clusters (light_tree.hpp). A
-// lamp's cᵢ is then that of the root above it times the probability of the path to the lamp. Σ cᵢ may be less than 1,
-// since a cluster is chosen by an estimate: if none of its lamps gives light, there is no sample.
+// Many lamps, which are area lights, point lights and parts of emissive surfaces and media, are grouped into clusters
+// (light_tree.hpp). A lamp's cᵢ is then that of the root above it times the probability of the path to the lamp. Σ cᵢ
+// may be less than 1 because a cluster is chosen by an estimate: if none of its lamps contributes, there is no sample.
 //
-// Area lights hide what is behind them, rectangles from their emitting side, spheres from everywhere. No other light
+// Area lights hide what is behind them: rectangles from their emitting side, spheres from everywhere. No other light
 // hides anything.
 //
-// A point light is chosen by the same rule, but it is no part of the density. Its sample has the probability of the
-// choice instead, and no direction that a path samples otherwise leads to it.
+// A point light is chosen by the same rule, but is not part of the pdf. Its sample has the probability of the choice
+// instead, and no direction that a path samples otherwise leads to it.
 //
-// Surfaces that glow, and media that shine, are part of the geometry, and no light of this list. Balls around them are
-// lamps of the tree that propose directions and emit nothing (glowing_part.hpp): a shadow ray in a direction, whoever
-// proposed it, brings what the media on its way send, and the glowing surface that it meets before it gets to the light
+// Emissive surfaces and media are part of the geometry, not lights of this list. Balls around them are lamps of the
+// tree that propose directions but emit nothing (glowing_part.hpp). A shadow ray, whatever proposed its direction,
+// collects the emission of the media on its way and of the emissive surface that it meets before it reaches the light
 // that is seen there.
 //
-// Portals are sampled instead of some samples of lights that are all around: a point that sees portals moves three
-// quarters of those lights' weight to the portals, in proportion to their solid angles. A portal is one more density in
-// the mixture and emits nothing.
+// Portals replace some of the samples of environments: a point that sees portals moves three quarters of the
+// environments' weight to the portals, in proportion to their solid angles. A portal is one more pdf in the mixture and
+// emits nothing.
 #pragma once
 
 #include <cstddef>
@@ -57,8 +57,9 @@
 
 namespace phasetree::tracer {
 
-/// What shines in some direction: all infinite lights together, what camera rays see instead of them, an area light or
-/// a point light, by its number in area() or points(), or a surface that glows, by its group's number in groups().
+/// The source of radiance in some direction: all infinite lights together, the background that camera rays see instead
+/// of them, an area light or a point light (by its number in area() or points()), or an emissive surface (by the number
+/// of its group in groups()).
 struct InfiniteLights {};
 struct Background {};
 struct OfAreaLight {
@@ -73,13 +74,13 @@ struct OfGlowingSurface {
 using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight, OfGlowingSurface>;
 
 struct LightSample {
-    glm::vec3 wi;        ///< unit, from the point towards the light
+    glm::vec3 wi;        ///< unit length, from the point towards the light
     float distance;      ///< to the light; infinity for infinite lights
-    glm::vec3 radiance;  ///< the radiance that arrives from there if no geometry is in between
-    float pdf;           ///< per steradian, of the whole mixture; of a point light, the probability that it was chosen
+    glm::vec3 radiance;  ///< radiance that arrives from there without occlusion by geometry
+    float pdf;           ///< per steradian, of the whole mixture; for a point light, the probability of choosing it
     LightSource source;  ///< the light that the radiance comes from
 
-    /// Whether it is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no
+    /// Whether the sample is of a point light. Then `radiance` is its irradiance on a surface that faces it, and no
     /// direction that is sampled otherwise leads to it.
     bool is_of_point_light() const { return std::holds_alternative<OfPointLight>(source); }
 };
@@ -96,56 +97,58 @@ class Lights {
         bool is_of_point_light() const { return std::holds_alternative<OfPointLight>(source); }
     };
 
-    /// Lights belong to groups, whose shares of a picture can be recorded separately (add_to_groups). The background
-    /// and lights that name no group are of the group `default_group`.
-    /// What a light sends is in its own colour or, with a spectrum, in that, and as bright.
+    /// Lights belong to groups, whose shares of a picture can be recorded separately (add_to_groups). The background,
+    /// and lights without a group, belong to `default_group`. If a spectrum is given, it determines the colour of the
+    /// light, with the same brightness.
     void add(InfiniteLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(AreaLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(AnyPointLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(const GlowingPart& part);
-    /// A portal is of no group: it has no light of its own.
+    /// A portal has no group because it emits nothing.
     void add(const Portal& portal) { portals_.push_back(portal); }
-    /// To be called once all lights are there. It clusters the lamps, if there are more than LightTree::most_roots.
-    /// Adding another lamp dissolves the clusters, and then all lamps are asked for each sample.
+    /// Clusters the lamps if there are more than LightTree::most_roots. Call it after adding all lights. Adding another
+    /// lamp dissolves the clusters; each sample then evaluates all lamps.
     void cluster_lamps();
-    /// What camera rays see instead of the infinite lights.
+    /// Sets what camera rays see instead of the infinite lights.
     void set_background(const std::optional<glm::vec3>& radiance);
     /// Whether camera rays that meet nothing see no light.
     bool is_background_black() const { return background_ ? *background_ == glm::vec3(0.0f) : infinite_.empty(); }
 
-    /// The number in groups() of a group, which is added if there is none of this name.
+    /// Returns the number of a group in groups(), and adds the group if the name is new.
     std::size_t group_of(std::string_view name);
     /// The names of the groups, default_group first.
     const std::vector<std::string>& groups() const { return groups_; }
-    /// Adds what a path found of a light that was seen in the direction, as a colour, to that light's group: of light
-    /// of wavelengths or of red, green and blue. What came of infinite lights in several groups is shared out as they
-    /// shine in that direction; it then adds up to the colour of all but for rounding. `groups` is as long as groups().
+    /// Converts light that a path found in `direction` to a colour and adds it to the group of its light. `found` is in
+    /// wavelengths, or in red, green and blue. Light of infinite lights in several groups is divided by their radiance
+    /// in that direction; up to rounding, the shares add up to the colour of the whole. `groups` is as long as
+    /// groups().
     void add_to_groups(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
                        const glm::vec3& direction, std::span<glm::vec3> groups) const;
 
-    /// Whether there are none, glowing parts left aside.
+    /// Whether there are no lights; emissive parts do not count.
     bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }
-    /// Those of all lights; null for one without.
+    /// The spectra of all lights; null for one without.
     std::vector<SharedLightSpectrum> spectra() const;
     std::span<const InfiniteLight> infinite() const { return infinite_; }
     std::span<const AreaLight> area() const { return area_; }
     std::span<const AnyPointLight> points() const { return points_; }
     std::span<const GlowingPart> glowing() const { return glowing_; }
 
-    /// `u` in [0, 1)². Its x chooses the light, and what is left of it, stretched to [0, 1) again, is the x that the
-    /// light's own sampling gets: points that are stratified in the square are so for each light. Nothing if no light
-    /// reaches the place, if the cluster that is chosen gives nothing there, or if rounding misses the light.
-    /// Its radiance is that at the wavelengths, if there are any, as in all that follows.
+    /// Samples a direction; `u` is in [0, 1)². u.x chooses the light. Its remainder, rescaled to [0, 1), is the x of
+    /// the light's own sampling, so that points stratified in the square are stratified for each light. Returns nullopt
+    /// if no light reaches the point, if the chosen cluster contributes nothing there, or if rounding misses the light.
+    /// As in all functions below, the radiance is that at the wavelengths, if given.
     std::optional<LightSample> sample(const LightReceiver& at, glm::vec2 u,
                                       const Wavelengths* wavelengths = nullptr) const;
 
-    /// What a ray sees that meets geometry at that distance, infinity for none: the nearest area light before it or, if
-    /// nothing is in the way, the infinite lights. Camera rays pass through lights that are not visible to the camera.
+    /// What a ray sees that meets geometry at that distance, or infinity: the nearest area light in front of the
+    /// geometry or, if the ray meets nothing, the infinite lights. Camera rays pass through lights that are not visible
+    /// to the camera.
     std::optional<Emission> seen(const glm::vec3& origin, const glm::vec3& direction, float geometry, bool camera_ray,
                                  const Wavelengths* wavelengths = nullptr) const;
 
-    /// Calls use(number) for each lamp of one kind, area lights or parts of what glows, that a ray from the origin in a
-    /// unit direction may meet before a distance, and for some others. Without clusters all of the kind come, in their
+    /// Calls use(number) for each lamp of one kind, area lights or emissive parts, that a ray may meet before a
+    /// distance, and for some others. The direction has unit length. Without clusters, visits all lamps of the kind, in
     /// order.
     template <class Use>
     void for_each_lamp_near(LightNode::Kind kind, const glm::vec3& origin, const glm::vec3& direction, const Use& use,
@@ -161,47 +164,47 @@ class Lights {
     std::optional<Emission> area_light_seen(const glm::vec3& origin, const glm::vec3& direction, float geometry,
                                             bool camera_ray, const Wavelengths* wavelengths = nullptr) const;
 
-    /// The luminance of the brightest ball around a part of what glows that a ray meets: an estimate of what comes from
-    /// there if nothing is in the way. 0 if it meets none.
+    /// The luminance of the brightest ball around an emissive part that a ray meets: an estimate of the radiance
+    /// without occlusion. 0 if it meets none.
     float glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const;
 
-    /// What the point light of this number in points() sends in a direction away from it: its radiant intensity.
+    /// The radiant intensity of a point light, by its number in points(), in a direction away from it.
     glm::vec3 intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths = nullptr) const;
 
-    /// How far light on its way from an origin in a unit direction gets before an area light takes it: one that hides
-    /// the origin from who looks back. Nothing if there is none before the distance `far`. The light that comes from
-    /// `own` starts there, so that one is left out.
+    /// The distance at which light that travels from an origin in a unit direction is stopped by an area light, which
+    /// hides the origin from the other side. nullopt if there is none before the distance `far`. The light `own` is
+    /// ignored because the light starts there.
     std::optional<float> area_light_in_the_way(const glm::vec3& origin, const glm::vec3& direction, float far,
                                                const LightSource& own) const;
 
-    /// The density of sample() there, per steradian.
+    /// The pdf of sample() per steradian.
     float pdf(const LightReceiver& at, const glm::vec3& direction) const;
 
-    /// The probability with which sample() chooses the point light of this number in points().
+    /// The probability with which sample() chooses this point light, by its number in points().
     float point_light_probability(const LightReceiver& at, std::size_t index) const;
 
-    /// The direction to the brightest light that has a middle, of those whose middle is on the normal's side of p;
-    /// nothing if there is none. Of clusters only the brighter member is followed, so with clusters it is approximate.
+    /// The direction to the brightest light that has a centre, among those whose centre is on the normal's side of p;
+    /// nullopt if there is none. Approximate with clusters, because only the brighter member of each is followed.
     std::optional<glm::vec3> towards_brightest(const glm::vec3& p, const glm::vec3& normal) const;
 
   private:
-    /// How many weights there are: of infinite lights, of the roots of the tree, and of portals, in this order.
+    /// The number of weights: of infinite lights, of the roots of the tree, and of portals, in this order.
     std::size_t weight_count() const { return infinite_.size() + tree_.roots().size() + portals_.size(); }
     std::size_t first_portal() const { return infinite_.size() + tree_.roots().size(); }
-    /// Fills in the weights in the choice, which are not normalised, and returns their sum.
+    /// Computes the weights of the choice, which are not normalised, and returns their sum.
     float weigh(const LightReceiver& at, std::span<float> weights) const;
     void move_weight_to_portals(const glm::vec3& p, std::span<float> weights) const;
-    /// What a lamp or a cluster gives.
+    /// The light of a lamp or a cluster at the receiver.
     float received_from(const LightNode& node, const LightReceiver& at) const;
-    /// Towards the middle of a lamp or a cluster, as seen from p.
+    /// The direction from p to the centre of a lamp or a cluster.
     glm::vec3 direction_to(const LightNode& node, const glm::vec3& p) const;
-    /// What was chosen: one of the weights, and below a root a lamp.
+    /// The result of a choice: one of the weights and, below a root, a lamp.
     struct Chosen {
         std::size_t weight;
         std::optional<LightNode> lamp{};
     };
-    /// Adds to a density what all lights but the chosen one propose in a direction, and calls hit(number, distance) for
-    /// each area light that is met there.
+    /// Adds the pdfs of all lights except the chosen one in a direction to `density`, and calls hit(number, distance)
+    /// for each area light that the direction meets.
     template <class Hit>
     float with_others(float density, const std::optional<Chosen>& chosen, const LightReceiver& at,
                       const glm::vec3& direction, std::span<const float> weights, float total, const Hit& hit) const;
@@ -214,7 +217,7 @@ class Lights {
     std::vector<AreaLight> area_;
     std::vector<AnyPointLight> points_;
     std::vector<GlowingPart> glowing_;
-    LightTree tree_;  ///< of the area and point lights, and of what glows
+    LightTree tree_;  ///< of the area and point lights, and of emissive parts
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
     std::vector<std::size_t> infinite_group_, area_group_, point_group_;                   ///< the group of each light

@@ -16,7 +16,8 @@ namespace {
 
 void check(const ImageHeader& header) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 27;  // 16,384 × 8,192
-    // A pixel either way is what resizing leaves; more is another projection, such as a cube map or an angular map.
+    // Resizing may leave a difference of one pixel; a larger one means another projection, such as a cube map or an
+    // angular map.
     if (std::abs(header.width / 2 - header.height) > 1)
         throw std::runtime_error("a lat-long image is twice as wide as high, this one is " +
                                  std::to_string(header.width) + " × " + std::to_string(header.height));
@@ -32,7 +33,7 @@ std::shared_ptr<const EnvironmentImage> load_environment_image(const std::string
     const auto begin = [&](const ImageHeader& read) {
         check(read);
         header = read;
-        // Reserved memory is not there before it is written to.
+        // Reserved memory is not committed until it is written.
         pixels.reserve(static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height));
         return header.channels < 3 ? 1 : 3;
     };

@@ -1,4 +1,4 @@
-// Reads an environment image (image/read_image.hpp says of which formats).
+// Reads environment images (see image/read_image.hpp for formats).
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace phasetree::tracer {
 
-/// A lat-long image, twice as wide as high (see lat_long.hpp for how it is oriented). Files that store integers, such
-/// as PNG and JPEG, are taken to be sRGB-encoded, floating-point ones to be linear Rec.709, as is. Grey images are grey
-/// light. Throws std::runtime_error with a message that names the file.
+/// Reads a lat-long image, twice as wide as high (see lat_long.hpp for its orientation). Integer files, such as PNG and
+/// JPEG, are decoded as sRGB; floating-point files are linear Rec.709. Grey images result in grey light. Throws
+/// std::runtime_error with a message that names the file.
 std::shared_ptr<const EnvironmentImage> load_environment_image(const std::string& path);
 
 inline ImageEnvironment load_environment(const std::string& path, float rotation_degrees = 0.0f,

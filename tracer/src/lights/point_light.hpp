@@ -1,7 +1,7 @@
-// A point that shines alike in all directions, with the radiant intensity I.
+// A point light with the same radiant intensity I in all directions.
 //
-// At the distance d a surface that faces it gets the irradiance E = I/d². A light of no size is only found by rays that
-// are sent to it: no ray meets it, and no camera sees it.
+// A surface that faces it at the distance d receives the irradiance E = I/d². Because it has no extent, only rays aimed
+// at it find it, and no camera sees it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,7 +21,7 @@ class PointLight {
         check_colour(intensity, "the point light's intensity");
     }
 
-    /// As PointLightKind has it.
+    /// See PointLightKind.
     const glm::vec3& position() const { return position_; }
     glm::vec3 intensity(const glm::vec3& /*away*/) const { return intensity_; }
     EmissionBounds emission_bounds() const {
@@ -41,7 +41,7 @@ inline constexpr Parameter intensity_of_a_point{
 inline constexpr ColourParameter colour_of_a_point{
     {"color", "", "A factor of the intensity of each colour.", limits::non_negative, true}};
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct PointLightParameters {
     static constexpr KindInfo info{
         "point",

@@ -1,11 +1,11 @@
-// A rectangle through which lights at infinity come in, such as a window: directions are sampled through it instead of
-// all around. It shines by nothing of its own, hides nothing, and changes no picture but its noise.
+// A rectangle through which infinite lights enter, such as a window: directions are sampled through it instead of over
+// the whole sphere. It emits and hides nothing; it only changes the noise of a picture.
 //
-// From a point on its inner side directions are uniform in the solid angle that it fills (rectangle_light.hpp), with
-// exactly that density; from its other side it is not there.
+// From a point on its inner side, directions are uniform in the solid angle that it subtends (rectangle_light.hpp),
+// with exactly that pdf. From its other side it does not exist.
 //
-// Reference: Bitterli, Novák & Jarosz, Portal-Masked Environment Map Sampling, EGSR 2015, of which this is the plain
-// form without the image's own distribution.
+// Reference: Bitterli, Novák & Jarosz, Portal-Masked Environment Map Sampling, EGSR 2015. This is the simple form,
+// without the image's own distribution.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -20,11 +20,11 @@ class Portal {
     /// The rectangle's emitting side is the inner one.
     explicit Portal(const RectangleLight& opening) : opening_(opening) {}
 
-    /// Roughly, in steradians; 0 where the portal is not there.
+    /// Approximate, in steradians; 0 where the portal does not exist.
     double approximate_solid_angle(const glm::vec3& p) const { return opening_.approximate_solid_angle(p); }
-    /// A direction out of it; asked only where the solid angle is not 0.
+    /// A direction through it; called only where the solid angle is not 0.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const { return opening_.sample(p, u); }
-    /// The density of sample(), 0 for a direction that does not lead out of it.
+    /// The pdf of sample(); 0 for a direction that does not lead through it.
     float pdf(const glm::vec3& p, const glm::vec3& direction) const {
         const std::optional<float> distance = opening_.intersect(p, direction);
         return distance ? opening_.pdf_at(p, direction, *distance) : 0.0f;
@@ -34,7 +34,7 @@ class Portal {
     RectangleLight opening_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct PortalParameters {
     static constexpr KindInfo info{
         "portal",

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double smallest_spherical = 1e-9;  // steradians
 
-// The component along z, and 1 − z², of the normal of the plane through the origin and a rectangle's edge. The edge
-// runs parallel to one axis at offset `side` along the other and at depth `depth`.
+// The component along z, and 1 − z², of the normal of the plane through the origin and a rectangle's edge. The edge is
+// parallel to one axis, at offset `side` along the other and at depth `depth`.
 struct EdgeNormal {
     double z;
     double rest;
@@ -26,7 +26,7 @@ struct EdgeNormal {
     }
 };
 
-// A unit complex number, of an angle up to π.
+// The unit complex number of an angle up to π.
 struct Turn {
     double cosine, sine;
     friend Turn operator*(const Turn& a, const Turn& b) {
@@ -40,9 +40,9 @@ Turn corner(const EdgeNormal& a, const EdgeNormal& b) {
     return {-a.z * b.z, std::sqrt(std::max(0.0, sin_squared))};
 }
 
-// The sum of two such angles less π, which is in [−π, π]. Rounding does not exchange the two ends of that range: near
-// them both cosines have the same sign, so the sine of the sum is itself a sum of two products of one sign, and its
-// sign is right.
+// The sum of two such angles minus π, which is in [−π, π]. Rounding does not swap the two ends of that range: near
+// them, both cosines have the same sign, so the sine of the sum is a sum of two products of one sign, and its sign is
+// right.
 double excess(const Turn& a, const Turn& b) {
     const Turn sum = a * b;
     return std::atan2(-sum.sine, -sum.cosine);
@@ -52,8 +52,8 @@ double excess(const Turn& a, const Turn& b) {
 
 // The spherical rectangle, in the frame of p: the rectangle is [x0, x1] × [y0, y1] in the plane z = −depth. b0, b1 and
 // k are those of Ureña et al. 2013: the z components of the normals of the planes through p and the edges y0 and y1,
-// and k = 2π − γ₂ − γ₃, where γ₂ and γ₃ are the inner angles at the ends of the edge x0. sample() has their fu, cu, xu,
-// h0 and h1 by the same names.
+// and k = 2π − γ₂ − γ₃, where γ₂ and γ₃ are the inner angles at the ends of the edge x0. sample() uses their names fu,
+// cu, xu, h0 and h1, too.
 struct RectangleLight::View {
     double x0, x1, y0, y1, depth;
     double solid_angle = 0.0;
@@ -110,7 +110,7 @@ RectangleLight::View RectangleLight::seen_from(const glm::vec3& p) const {
     const double y = glm::dot(offset, axis_v_);
     View view{x - half_u_, x + half_u_, y - half_v_, y + half_v_, -glm::dot(offset, axis_n_)};
     if (!(view.depth > 0.0)) return view;
-    // The edges' planes in the order y = y0, x = x1, y = y1, x = x0; the sign makes all normals point outwards alike.
+    // The edges' planes in the order y = y0, x = x1, y = y1, x = x0; the signs make all normals point outwards.
     const EdgeNormal n0(view.y0, view.depth, -1.0);
     const EdgeNormal n1(view.x1, view.depth, 1.0);
     const EdgeNormal n2(view.y1, view.depth, 1.0);
@@ -132,7 +132,7 @@ double RectangleLight::solid_angle(const glm::vec3& p) const {
     return seen_from(p).solid_angle;
 }
 
-// A cos θ/d² far away, 2π close by; r, the radius of a disk as large, tells the one from the other.
+// A cos θ/d² far away, 2π close by. r, the radius of a disk of the same area, is the scale between the two.
 double RectangleLight::approximate_solid_angle(const glm::vec3& p) const {
     const glm::dvec3 offset = centre_ - glm::dvec3(p);
     const double depth = -glm::dot(offset, axis_n_);

@@ -1,10 +1,10 @@
-// A rectangle that emits the radiance L uniformly to one side, the side of its normal. From behind it is not there: it
-// neither emits nor hides anything.
+// A rectangle that emits the radiance L uniformly to one side, the side of its normal. From behind it does not exist:
+// it neither emits nor hides anything.
 //
 // Sampled uniformly in the solid angle it subtends, p = 1/Ω: Ureña, Fajardo, King: An Area-Preserving Parametrization
 // for Spherical Rectangles, EGSR 2013. The angles are computed by atan2 of exact sines instead of acos, which keeps
-// them when the point is close to the rectangle's plane. Where Ω < 1e-9, too little for the parametrisation's own
-// rounding, points are taken uniformly in area instead, p = d²/(A cos θ).
+// them precise when the point is close to the rectangle's plane. If Ω < 1e-9, rounding in the parametrisation would
+// dominate, so points are sampled uniformly in area instead, p = d²/(A cos θ).
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ class RectangleLight {
     RectangleLight(const glm::vec3& centre, const glm::vec3& edge_u, const glm::vec3& edge_v, const glm::vec3& radiance,
                    bool visible_to_camera = true);
 
-    // Turned to emit towards `target`, its width horizontal (for one that faces straight up or down: along x).
+    // Faces `target`, with a horizontal width (along x if it faces straight up or down).
     static RectangleLight facing(const glm::vec3& centre, const glm::vec3& target, float width, float height,
                                  const glm::vec3& radiance, bool visible_to_camera = true);
 
@@ -34,22 +34,23 @@ class RectangleLight {
     bool visible_to_camera() const { return visible_to_camera_; }
     glm::vec3 normal() const { return axis_n_; }
 
-    // Steradians seen from p; 0 from behind.
+    // Solid angle in steradians at p; 0 from behind.
     double solid_angle(const glm::vec3& p) const;
-    // About as much, without a trigonometric function: what a choice among lights needs. 0 where solid_angle() is 0.
+    // Approximates solid_angle() without trigonometric functions, for a choice among lights. 0 where solid_angle() is
+    // 0.
     double approximate_solid_angle(const glm::vec3& p) const;
     BoundingSphere bounding_sphere() const {
         return {glm::vec3(centre_), static_cast<float>(std::sqrt(half_u_ * half_u_ + half_v_ * half_v_))};
     }
     EmissionBounds emission_bounds() const;
-    // A direction from p towards the light; p must see it.
+    // Samples a direction from p towards the light; p must see it.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
-    // The density of sample() per steradian, for a direction in which the light is met at that distance.
+    // The pdf of sample() per steradian, for a direction in which the light is met at that distance.
     float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray meets the emitting side.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 
-    // As AreaLightKind has them.
+    // See AreaLightKind.
     SurfacePoint surface_point(const glm::vec2& u) const;
     glm::vec3 normal_at(const glm::vec3& /*point*/) const { return normal(); }
     float area() const { return static_cast<float>(area_); }
@@ -62,12 +63,12 @@ class RectangleLight {
     glm::dvec3 centre_;
     glm::dvec3 axis_u_, axis_v_, axis_n_;  // orthonormal
     double half_u_, half_v_;
-    double area_, disk_radius_;  // of a disk as large
+    double area_, disk_radius_;  // of a disk of the same area
     glm::vec3 radiance_;
     bool visible_to_camera_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct RectangleLightParameters {
     static constexpr KindInfo info{"rectangle", "A rectangle that shines to one side and is not there from behind."};
 

@@ -1,5 +1,5 @@
-// What of the lights is seen along a line: by rays, and by what travels the other way. How lights are chosen is in
-// lights.cpp.
+// The part of Lights that determines what is seen along a line, by rays and by light that travels the other way.
+// lights.cpp chooses lights.
 #include <algorithm>
 #include <limits>
 

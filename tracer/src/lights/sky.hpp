@@ -1,4 +1,4 @@
-// Daylight as a scene file says it: the light of the sky, and of the sun if that is wanted and up.
+// Daylight in a scene file: the light of the sky and, optionally, of the sun if it is above the horizon.
 #pragma once
 
 #include <vector>

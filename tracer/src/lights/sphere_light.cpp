@@ -18,8 +18,8 @@ SphereLight::SphereLight(const glm::vec3& centre, float radius, const glm::vec3&
     check_colour(radiance, "the sphere light's radiance");
 }
 
-// 1 − cos α of the cone the sphere fills; 2, all directions, from inside. With s = sin α:
-// 1 − √(1 − s²) = s²/(1 + √(1 − s²)) loses no digits when the sphere is far away.
+// 1 − cos α of the cone that the sphere subtends; 2, all directions, from inside. With s = sin α, 1 − √(1 − s²) = s²/(1
+// + √(1 − s²)) stays precise when the sphere is far away.
 double SphereLight::cap_height(const glm::dvec3& to_centre) const {
     const double squared_distance = glm::dot(to_centre, to_centre);
     const double squared_radius = radius_ * radius_;
@@ -53,7 +53,7 @@ std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::
     const glm::dvec3 to_centre = centre_ - glm::dvec3(origin);
     const double squared_distance = glm::dot(to_centre, to_centre);
     const bool inside = !(squared_distance > radius_ * radius_);
-    // Most rays miss by far, which the direction as it is tells, whose length is 1 but for rounding.
+    // Most rays miss by far. The direction, whose length is 1 up to rounding, is precise enough to detect that.
     const double roughly_along = glm::dot(to_centre, glm::dvec3(direction));
     const double far_reach = 1.001 * radius_ + 1e-5 * std::abs(roughly_along);
     if (!inside && squared_distance - (1 + 1e-5) * roughly_along * roughly_along > far_reach * far_reach)
@@ -63,7 +63,7 @@ std::optional<float> SphereLight::intersect(const glm::vec3& origin, const glm::
     const glm::dvec3 across = to_centre - along * d;
     const double squared_half_chord = radius_ * radius_ - glm::dot(across, across);
     if (inside) return static_cast<float>(along + std::sqrt(std::max(0.0, squared_half_chord)));
-    // How far a unit direction may be off, whose three coordinates were rounded several times by a change of frame.
+    // The error of a unit direction whose coordinates were rounded several times by a change of frame.
     constexpr double rounding = 2e-7;
     const double reach = radius_ + rounding * along;
     if (!(glm::dot(across, across) <= reach * reach) || !(along > 0.0)) return std::nullopt;

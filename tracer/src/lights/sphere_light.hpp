@@ -1,14 +1,13 @@
 // A sphere whose surface emits the radiance L uniformly, outwards and inwards.
 //
-// From outside, at distance d, it fills the cone of half-angle α = asin(r/d), which is sampled uniformly:
-// p = 1/(2π(1 − cos α)). From inside it fills the whole sphere of directions: p = 1/(4π). A surface element at distance
+// From outside, at distance d, it subtends the cone of half-angle α = asin(r/d), which is sampled uniformly: p =
+// 1/(2π(1 − cos α)). From inside it subtends the whole sphere of directions: p = 1/(4π). A surface element at distance
 // d that sees all of it receives E = πL (r/d)² cos θ.
 //
-// Directions are floats, so one that was sampled in the cone may pass the ball by a rounding error. The ball therefore
-// reaches that much farther, 2·10⁻⁷ d, where it is asked what a ray meets: otherwise the light of what was sampled
-// there would be lost, a hundredth of it from a ball that is seen 10⁻⁴ degrees large. What a surface receives from the
-// light by sampling it is right for the smallest of balls. In a mirror they look larger than they are: one of 10⁻³
-// degrees has five per cent more area there.
+// Directions are floats, so one that was sampled in the cone may miss the ball by a rounding error. Intersections
+// therefore use a radius that is larger by 2·10⁻⁷ d. Otherwise samples would be lost: a hundredth of the light from a
+// ball with an angular diameter of 10⁻⁴ degrees. Sampled light is right even for the smallest balls. In a mirror, they
+// look larger than they are: one of 10⁻³ degrees has five per cent more area there.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -30,19 +29,19 @@ class SphereLight {
     const glm::vec3& radiance() const { return radiance_; }
     bool visible_to_camera() const { return visible_to_camera_; }
 
-    // Steradians seen from p.
+    // Solid angle in steradians at p.
     double solid_angle(const glm::vec3& p) const;
     double approximate_solid_angle(const glm::vec3& p) const { return solid_angle(p); }
     BoundingSphere bounding_sphere() const { return {glm::vec3(centre_), static_cast<float>(radius_)}; }
     EmissionBounds emission_bounds() const;
-    // A direction from p towards the light.
+    // Samples a direction from p towards the light.
     DirectionSample sample(const glm::vec3& p, const glm::vec2& u) const;
-    // The density of sample() per steradian, for a direction in which the light is met, at that distance.
+    // The pdf of sample() per steradian, for a direction in which the light is met at that distance.
     float pdf_at(const glm::vec3& p, const glm::vec3& direction, float distance) const;
     // The distance at which a ray first meets the surface.
     std::optional<float> intersect(const glm::vec3& origin, const glm::vec3& direction) const;
 
-    // As AreaLightKind has them; of the outer side.
+    // See AreaLightKind; these refer to the outer side.
     glm::vec3 centre() const { return centre_; }
     SurfacePoint surface_point(const glm::vec2& u) const;
     glm::vec3 normal_at(const glm::vec3& point) const;
@@ -57,7 +56,7 @@ class SphereLight {
     bool visible_to_camera_;
 };
 
-// What a scene file says of a ball that shines, but for where it is.
+// Parameters of an emissive ball in a scene file, except its position.
 struct ShiningBallParameters {
     float radius = 1.0f;
     glm::vec3 radiance{1.0f};
@@ -78,7 +77,7 @@ struct ShiningBallParameters {
     }
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct SphereLightParameters : ShiningBallParameters {
     static constexpr KindInfo info{"sphere", "A ball that shines."};
 

@@ -1,5 +1,5 @@
-// Many equal balls that shine, such as a string of fairy lights: sphere lights (sphere_light.hpp) in one entry of a
-// scene file.
+// Many equal emissive balls, such as a string of fairy lights: sphere lights (sphere_light.hpp) in one entry of a scene
+// file.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,11 +1,11 @@
-// A point that shines into a cone with a smooth edge.
+// A point light that emits into a cone with a smooth edge.
 //
 // With γ the angle from the axis, the cone's half-angle γ₁ and the edge's width w, the radiant intensity is
 //
 //     I s(t),   s(t) = t² (3 − 2t),   t = (cos γ − cos γ₁) / (cos(γ₁ − w) − cos γ₁), clamped to [0, 1]
 //
-// so that it is I from the axis out to γ₁ − w, and 0 from γ₁ on. The whole flux with w = 0 is 2π I (1 − cos γ₁), and
-// the edge gives half of what the ring would between its two cosines.
+// so that it is I from the axis to γ₁ − w, and 0 from γ₁ on. The whole flux with w = 0 is 2π I (1 − cos γ₁). The edge
+// emits half of what a sharp ring between its two cosines would.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace phasetree::tracer {
 
 class SpotLight {
   public:
-    /// Angles are in degrees: that across the whole cone, above 0 and at most 360, and how wide its edge is, within it.
+    /// Angles are in degrees: the full angle of the cone, in (0, 360], and the width of its edge, inside the cone.
     SpotLight(const glm::vec3& position, const glm::vec3& target, float cone_degrees, float edge_degrees,
               const glm::vec3& intensity)
         : position_(position), intensity_(intensity) {
@@ -36,7 +36,7 @@ class SpotLight {
         inner_ = cosine(0.5f * cone_degrees - edge_degrees);
     }
 
-    /// As PointLightKind has it.
+    /// See PointLightKind.
     const glm::vec3& position() const { return position_; }
     glm::vec3 intensity(const glm::vec3& away) const {
         const double cosine = glm::dot(glm::dvec3(away), axis_);
@@ -54,10 +54,10 @@ class SpotLight {
     glm::vec3 position_;
     glm::vec3 intensity_;
     glm::dvec3 axis_;
-    double outer_, inner_;  ///< cosines between which the edge is
+    double outer_, inner_;  ///< cosines at the ends of the edge
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct SpotLightParameters {
     static constexpr KindInfo info{"spot",
                                    "A point that shines into a cone with a smooth edge. It is a point light else."};

@@ -19,7 +19,7 @@ glm::vec3 unit(const glm::vec3& direction) {
     return glm::normalize(towards);
 }
 
-// In radians, from the middle of the disk to its rim.
+// In radians, from the centre of the disk to its rim.
 double radius(float angular_diameter_degrees) {
     check_positive(angular_diameter_degrees, "the sun's angular diameter");
     check_range(angular_diameter_degrees, 0.0f, 90.0f, "the sun's angular diameter in degrees");

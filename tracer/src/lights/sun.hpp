@@ -1,11 +1,11 @@
-// The sun: a disk of constant radiance L infinitely far away, of angular diameter δ.
+// The sun: a disk of constant radiance L at infinity, of angular diameter δ.
 //
-// It is described by the irradiance E⊥ it gives a surface that faces it; L = E⊥/(π sin²(δ/2)). So a larger sun softens
-// shadows and caustics and leaves the exposure as it is. Sampled uniformly in its cone, p = 1/(2π(1 − cos(δ/2))); a
-// surface whose whole upper half-space holds the disk receives E = Lπ sin²(δ/2) cos θ.
+// It is specified by the irradiance E⊥ on a surface that faces it; L = E⊥/(π sin²(δ/2)). So a larger sun softens
+// shadows and caustics without changing the exposure. Sampled uniformly in its cone, p = 1/(2π(1 − cos(δ/2))). A
+// surface whose upper half-space contains the whole disk receives E = Lπ sin²(δ/2) cos θ.
 //
-// Suns below 0.01 degrees are taken for ones of that size, of the same irradiance: rounding errors of directions
-// (cap.hpp) would be as large as they are, and nobody sees the difference.
+// Suns smaller than 0.01 degrees are enlarged to that size, with the same irradiance: rounding errors of directions
+// (cap.hpp) would be as large as the sun, and the difference is invisible.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,7 +23,7 @@ class Sun {
     static constexpr float real_angular_diameter_degrees = 0.53f;
     static constexpr float least_angular_diameter_degrees = 0.01f;
 
-    // `direction` points towards the sun, of any length; `irradiance` is E⊥. The diameter is in (0, 90] degrees.
+    // `direction` points towards the sun, with any length; `irradiance` is E⊥. The diameter is in (0, 90] degrees.
     Sun(const glm::vec3& direction, const glm::vec3& irradiance,
         float angular_diameter_degrees = real_angular_diameter_degrees);
 
@@ -42,7 +42,7 @@ class Sun {
     glm::vec3 radiance_;
 };
 
-// As a scene file says it.
+// Parameters in a scene file.
 struct SunParameters {
     static constexpr KindInfo info{"sun", "A disk of constant radiance infinitely far away.", "L = E/(π sin²(δ/2))"};
 

@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 struct SurfacePoint {
     glm::vec3 position;
-    glm::vec3 normal;  ///< of unit length, on the side that emits
+    glm::vec3 normal;  ///< unit length, on the emitting side
 };
 
 }  // namespace phasetree::tracer

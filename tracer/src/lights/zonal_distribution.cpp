@@ -13,7 +13,7 @@ ZonalDistribution::ZonalDistribution(std::span<const double> means)
     : cumulative_(means.size() + 1), density_(means.size()) {
     const double solid_angle = 4.0 * std::numbers::pi / static_cast<double>(means.size());
     integral_ = static_cast<float>(accumulate(means, cumulative_) * solid_angle);
-    // From the stored, rounded sums: exactly the probabilities with which sample() chooses.
+    // Computed from the stored, rounded sums, so that they are exactly the probabilities with which sample() chooses.
     for (std::size_t i = 0; i < density_.size(); ++i)
         density_[i] = static_cast<float>((cumulative_[i + 1] - cumulative_[i]) / solid_angle);
 }

@@ -1,7 +1,7 @@
-// A probability density on the sphere of directions that depends on their height z alone, for importance sampling.
+// A pdf on the sphere of directions that depends only on their height z, for importance sampling.
 //
-// The sphere is cut into zones of equal height, which have equal solid angles (Archimedes); in each the density is
-// constant. Within its zone a direction is uniform in z and in azimuth.
+// The sphere is divided into zones of equal height, which have equal solid angles (Archimedes). In each, the pdf is
+// constant, and directions are uniform in z and in azimuth.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,10 +18,10 @@ class ZonalDistribution {
     /// A non-negative importance for each zone, from z = −1 up: the mean over the zone of the function to be sampled.
     explicit ZonalDistribution(std::span<const double> means);
 
-    /// Nothing when every importance is zero.
+    /// nullopt if all importances are zero.
     std::optional<DirectionSample> sample(const glm::vec2& u) const;
 
-    /// The density of a unit direction per steradian; the one sample() reports.
+    /// The pdf of a unit direction per steradian, as reported by sample().
     float pdf(const glm::vec3& direction) const;
 
     /// The integral over the sphere of the tabulated importance.

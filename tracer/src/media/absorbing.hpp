@@ -1,5 +1,5 @@
-// A medium that absorbs and does not scatter. The Beer-Lambert law gives the part of the radiance that is left after a
-// distance d, T = exp(−a d) with the absorption a in each colour channel.
+// A medium that absorbs and does not scatter. By the Beer-Lambert law, its transmittance over a distance d is T =
+// exp(−a d), with the absorption a in each colour channel.
 #pragma once
 
 #include <cmath>
@@ -10,9 +10,9 @@
 
 namespace phasetree::tracer {
 
-/// What is left after a distance, which may be infinite, at a coefficient per unit of length in each channel.
+/// The transmittance over a distance, which may be infinite, for a coefficient per unit length in each channel.
 inline glm::vec3 beer_lambert(const glm::vec3& coefficient, float distance) {
-    // A medium that does not absorb passes everything, also over an infinite distance, where 0·∞ is not a number.
+    // A medium that does not absorb has transmittance 1 over an infinite distance, too, where 0·∞ would be NaN.
     const auto channel = [distance](float a) { return a > 0.0f ? std::exp(-a * distance) : 1.0f; };
     return {channel(coefficient.x), channel(coefficient.y), channel(coefficient.z)};
 }

@@ -6,8 +6,8 @@
 namespace phasetree::tracer {
 
 Absorption Absorption::of(SharedSpectrum spectrum) {
-    constexpr float darkest = 1e-4f;  // Red, green and blue cannot mix all colours: some have less than nothing of one.
-    constexpr double thinnest = 1e-30, densest = 1e30;  // The distance stays a good float between these.
+    constexpr float darkest = 1e-4f;  // Red, green and blue cannot mix all colours: some have a negative component.
+    constexpr double thinnest = 1e-30, densest = 1e30;  // The distance stays within the range of floats between these.
     Absorption absorption;
     const double mean = mean_of([&](double nanometres) { return spectrum->mean_around(nanometres); });
     if (mean > 0.0) {

@@ -1,9 +1,9 @@
-// This is how much of light a medium absorbs per unit of length.
+// The absorption coefficient of a medium, per unit length.
 //
-// It is given for red, green and blue, as a colour that is left after a distance, or by wavelength. Light of
-// wavelengths loses what makes the colour after that distance exactly what it is for red, green and blue: with the
-// colour's spectrum c(λ) (for_light()) a(λ) = −ln c(λ)/d. Three coefficients alone say nothing of a distance, and a(λ)
-// is their mixture, as is that of scattering.
+// It is given for red, green and blue, as the colour that remains after a distance, or by wavelength. In the second
+// case, spectral light is absorbed such that the colour after that distance equals the colour for red, green and blue:
+// with the colour's spectrum c(λ) (for_light()), a(λ) = −ln c(λ)/d. Three coefficients alone do not define a distance,
+// and a(λ) is their mixture, as for scattering.
 #pragma once
 
 #include <algorithm>
@@ -19,21 +19,21 @@ namespace phasetree::tracer {
 class Absorption {
   public:
     Absorption() = default;
-    /// For red, green and blue, per unit of length; not negative.
-    Absorption(const glm::vec3& rgb) : rgb_(rgb) {}  // NOLINT: it converts by itself
+    /// For red, green and blue, per unit length; not negative.
+    Absorption(const glm::vec3& rgb) : rgb_(rgb) {}  // NOLINT: implicit conversion is intended
     explicit Absorption(float grey) : rgb_(grey) {}
-    /// What is left of white light after a distance, in (0, 1].
+    /// From the colour of white light after a distance, with components in (0, 1].
     static Absorption left_after(const glm::vec3& colour, float distance) {
         Absorption absorption(glm::max(-glm::log(colour) / distance, glm::vec3(0.0f)));
         absorption.left_ = colour;
         absorption.distance_ = distance;
         return absorption;
     }
-    /// By wavelength, per unit of length; not negative. For colours it is what makes their light the same after a
-    /// distance of one over its mean, which lets a third of white light through, or more.
+    /// By wavelength, per unit length; not negative. The colour coefficients are chosen such that colours agree with it
+    /// at a distance of one over its mean, where at least a third of white light is transmitted.
     static Absorption of(SharedSpectrum spectrum);
 
-    /// The same of what is so many times as dense.
+    /// The absorption of a medium with `factor` times the density.
     Absorption times(float factor) const {
         Absorption scaled = *this;
         scaled.factor_ *= factor;
@@ -41,7 +41,7 @@ class Absorption {
     }
 
     glm::vec3 rgb() const { return factor_ * rgb_; }
-    /// At least the greatest at any wavelength and for any of the colours, together with a scattering.
+    /// An upper bound, over all wavelengths and all colours, on the sum of absorption and scattering.
     float greatest_with(const glm::vec3& scattering) const {
         const glm::vec3 sum = rgb() + scattering;
         const float colours = std::max({sum.x, sum.y, sum.z});
@@ -60,7 +60,7 @@ class Absorption {
   private:
     glm::vec3 rgb_{0.0f}, left_{1.0f};
     float distance_ = 0.0f;  ///< 0 if no colour was given
-    float factor_ = 1.0f;    ///< of all the others
+    float factor_ = 1.0f;    ///< of all other members
     SharedSpectrum spectrum_{};
 };
 

@@ -1,5 +1,5 @@
-// What a medium that scatters is made of, for each of the three numbers of light (spectrum/wavelengths.hpp) and per
-// unit of length of the scene.
+// The coefficients of a scattering medium, per unit length of the scene and for each of the three components of light
+// (spectrum/wavelengths.hpp).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,16 +13,16 @@ namespace phasetree::tracer {
 struct ScatteringCoefficients {
     Absorption absorption{};     ///< σa
     glm::vec3 scattering{0.0f};  ///< σs
-    /// What it shines by itself: radiance per unit of length.
+    /// Emitted radiance per unit length.
     glm::vec3 emission{0.0f};
-    SharedLightSpectrum emission_spectrum{};  ///< of that, if it is known
+    SharedLightSpectrum emission_spectrum{};  ///< spectrum of the emission, if known
     HenyeyGreenstein phase_function{};
 
     glm::vec3 extinction() const { return absorption.rgb() + scattering; }  ///< σt of red, green and blue
-    /// At least σt at any wavelength.
+    /// An upper bound on σt over all wavelengths.
     float greatest_extinction() const { return absorption.greatest_with(scattering); }
     bool scatters() const { return scattering != glm::vec3(0.0f); }
-    /// The same of what is so many times as dense.
+    /// The coefficients of a medium with `factor` times the density.
     ScatteringCoefficients times(float factor) const {
         ScatteringCoefficients scaled = *this;
         scaled.absorption = absorption.times(factor);
@@ -31,13 +31,13 @@ struct ScatteringCoefficients {
         return scaled;
     }
 
-    /// All of it for one path.
+    /// All coefficients, for the light of one path.
     struct ForLight {
         glm::vec3 absorption, scattering, emission;
         glm::vec3 extinction() const { return absorption + scattering; }  ///< σt
         bool scatters() const { return scattering != glm::vec3(0.0f); }
     };
-    /// At the wavelengths of light, or for red, green and blue.
+    /// At the wavelengths, or for red, green and blue.
     ForLight for_light(const Wavelengths* wavelengths) const {
         return {absorption.for_light(wavelengths), tracer::for_light(scattering, wavelengths),
                 light_of(emission, emission_spectrum, wavelengths)};

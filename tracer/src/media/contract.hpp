@@ -1,9 +1,8 @@
-// What a medium must provide: the interior of a clear phase, through which rays travel.
+// Requirements on a medium: the interior of a clear phase, through which rays travel.
 //
-// Of a ray's way through a medium an integrator asks one of three questions. A photon wants to know what is left of
-// light that goes straight on: the transmittance. A shadow ray wants to know as well what the medium itself sends along
-// the way: its passage. A path wants to know where it is scattered, if at all: its flight. All are estimates where
-// there is no closed form; their means are exact.
+// An integrator needs one of three quantities for a ray segment in a medium. A photon needs the transmittance. A shadow
+// ray needs the transmittance and the emission along the segment: its passage. A path needs the point where it is
+// scattered, if any: its flight. All are estimates where there is no closed form, and all are unbiased.
 #pragma once
 
 #include <concepts>
@@ -17,41 +16,42 @@
 
 namespace phasetree::tracer {
 
-/// A straight way through a medium. Its length, in the scene's unit, may be infinite.
+/// A straight segment through a medium. Its length, in the scene's unit, may be infinite.
 struct Way {
     glm::vec3 origin;
-    glm::vec3 direction;  ///< of unit length in the scene (TracedGeometry::way_through_medium())
+    glm::vec3 direction;  ///< unit length in the scene (TracedGeometry::way_through_medium())
     float length;
-    const Wavelengths* wavelengths = nullptr;  ///< of the light; none if its numbers are red, green and blue
+    const Wavelengths* wavelengths = nullptr;  ///< of the light; null if its components are red, green and blue
 };
 
-/// What becomes of a path on its way. Each of its three numbers, here called channels, has a weight, which multiplies
-/// the path's throughput.
+/// The result of sampling a path along a segment. Each of the three components, here called channels, has a weight that
+/// multiplies the path's throughput.
 struct Flight {
     glm::vec3 weight{1.0f};
-    std::optional<float> scattered_at{};  ///< the distance at which it is scattered; none if it gets to the way's end
-    glm::vec3 emitted{0.0f};              ///< radiance that the medium adds on the way, by the throughput at its start
+    std::optional<float> scattered_at{};  ///< distance of scattering; nullopt if the path reaches the end of the
+                                          ///< segment
+    glm::vec3 emitted{0.0f};              ///< radiance emitted by the medium, relative to the throughput at the start
 };
 
-/// What arrives at a way's start, where nothing is scattered.
+/// The light that arrives at the start of a segment without scattering.
 struct Passage {
-    glm::vec3 left{1.0f};     ///< the part of the radiance that comes in at the way's end
-    glm::vec3 emitted{0.0f};  ///< radiance that the medium adds
+    glm::vec3 left{1.0f};     ///< transmittance for radiance that enters at the end
+    glm::vec3 emitted{0.0f};  ///< radiance emitted by the medium
 };
 
-/// * transmittance(way, sampler): an estimate, for each colour channel, of the part of the radiance that is left after
-///   the way. It is 1 for a way of length 0, and in [0, 1] for all.
+/// * transmittance(way, sampler): an estimate of the transmittance of the segment for each colour channel. It is 1 for
+///   a segment of length 0, and always in [0, 1].
 template <class M>
 concept MediumKind = std::copyable<M> && requires(const M& medium, const Way& way, Sampler& sampler) {
     { medium.transmittance(way, sampler) } -> std::same_as<glm::vec3>;
 };
 
-/// A medium that scatters or shines also has
-/// * fly(way, throughput, sampler): a flight. Channels are sampled in proportion to the path's throughput (greater than
-///   0 in one channel at least), and a flight's weights never make the sum of the throughput's channels greater.
-/// * pass(way, sampler): a passage. The part that is left is a transmittance.
-/// * coefficients(): what it is made of, where it is densest.
-/// * phase_function(): how light is scattered, the same everywhere in the medium.
+/// A medium that scatters or emits also has
+/// * fly(way, throughput, sampler): a flight. Channels are sampled in proportion to the path's throughput, which must
+///   be positive in at least one channel. The weights of a flight never increase the sum of the throughput's channels.
+/// * pass(way, sampler): a passage. Its `left` is a transmittance.
+/// * coefficients(): the coefficients where the medium is densest.
+/// * phase_function(): the phase function, the same everywhere in the medium.
 template <class M>
 concept ScatteringMediumKind = MediumKind<M> &&
     requires(const M& medium, const Way& way, const glm::vec3& throughput, Sampler& sampler) {

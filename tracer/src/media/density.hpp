@@ -8,8 +8,8 @@
 
 namespace phasetree::tracer {
 
-/// A kind of density, once its contract has been asked of it. If it does not meet that, the message names the kind and
-/// the member.
+/// Checks a kind of density against its concept. If the check fails, the compiler's message names the kind and the
+/// member.
 template <class Kind>
 struct CheckedDensity {
     static_assert(DensityKind<Kind>);
@@ -25,12 +25,12 @@ using Density = DensityOf<FieldDensity, VoxelDensity>;
 inline BatchOfFloats density_at(const Density& density, const PointBatch& points) {
     return std::visit([&](const auto& kind) { return kind.at(points, batch_size); }, density);
 }
-/// DensityKind's bounds() of a density of any kind.
+/// DensityKind's bounds() for a density of any kind.
 inline const Bounds& bounds_of(const Density& density) {
     return std::visit([](const auto& kind) -> const Bounds& { return kind.bounds(); }, density);
 }
 
-/// The bytes that a density's voxels take.
+/// The memory in bytes of a density's voxels.
 inline std::size_t bytes_of(const Density& density) {
     const auto* voxels = std::get_if<VoxelDensity>(&density);
     return voxels ? voxels->bytes() : 0;

@@ -1,6 +1,6 @@
-// This is what a kind of density must provide. A density ρ in [0, 1] tells how dense a medium is at each point.
+// Requirements on a density ρ, which gives the relative density of a medium in [0, 1] at each point.
 //
-// A ray's way is divided into stretches, each with an upper bound on ρ in it, so that thin parts of a medium take few
+// A ray segment is divided into stretches, each with an upper bound on ρ, so that thin parts of a medium need few
 // lookups and empty ones none (media/varying.hpp).
 #pragma once
 
@@ -15,10 +15,10 @@
 
 namespace phasetree::tracer {
 
-/// A part of a way, by its distances from the way's origin.
+/// A part of a ray segment, by its distances from the segment's origin.
 struct DensityStretch {
     float from, to;
-    float bound;  ///< an upper bound on ρ in it, more than 0
+    float bound;  ///< upper bound on ρ in it, positive
 };
 
 /// Up to eight points.
@@ -28,14 +28,11 @@ struct PointBatch {
     glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// * together: how many points are best asked for at once, at most batch_size.
-/// * at(points, count): ρ at the first this many points. The other points are numbers, and what is returned for them
-/// means
-///   nothing.
+/// * together: the most efficient number of points per call of at(), at most batch_size.
+/// * at(points, count): ρ at the first `count` points. The other points must be numbers; their results are undefined.
 /// * bounds(): a box outside of which ρ is 0.
-/// * stretches(way): an object whose next() returns the way's stretches in their order, and then nothing. Outside of
-/// all
-///   stretches ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
+/// * stretches(way): an object whose next() returns the stretches of the segment in order, and then nullopt. Outside of
+///   all stretches, ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
 template <class D>
 concept DensityKind = std::copyable<D> && requires(const D& density, const PointBatch& points, const Way& way) {
     { density.at(points, D::together) } -> std::same_as<BatchOfFloats>;
@@ -44,8 +41,8 @@ concept DensityKind = std::copyable<D> && requires(const D& density, const Point
     { density.stretches(way).length() } -> std::same_as<float>;
 };
 
-/// The part of a way within a box, from the first distance to the second. If no part is, the second is not greater. The
-/// way's direction may have any length, which distances are counted in.
+/// The part of a segment within a box, from the first distance to the second. If there is none, the second is not
+/// greater. The segment's direction may have any length, and distances are in units of that length.
 inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
     float from = 0.0f, to = way.length;
     for (int i = 0; i < 3; ++i) {

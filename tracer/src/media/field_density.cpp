@@ -25,7 +25,7 @@ FieldDensity::FieldDensity(const Field& field, float depth)
 }
 
 BatchOfFloats FieldDensity::at(const PointBatch& points, std::size_t) const {
-    // Those of a recorded field are two: its phase and the vacuum.
+    // A recorded field has two outputs: its phase and the vacuum.
     std::array<BatchOfFloats, 2> values;
     evaluator_->evaluate(points.x, points.y, points.z, std::span(values).first(outputs_),
                          Evaluator::thread_workspace());

@@ -1,7 +1,7 @@
-// A field φ of the tree gives the density of a medium: with a depth d > 0
+// The density of a medium from a field φ of the tree: with a depth d > 0,
 //     ρ(p) = min(max(−φ(p)/d, 0), 1).
-// It is 0 at the field's surface and outside, and rises evenly to 1 within the depth d. So 1 is a majorant by itself,
-// whatever the field is, and outside of the field's bounds there is nothing.
+// It is 0 at the field's surface and outside, and increases linearly to 1 within the depth d. So 1 is a majorant for
+// any field, and the medium is empty outside of the field's bounds.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 class FieldDensity {
   public:
-    /// The part of a way within the field's bounds.
+    /// The part of a ray segment within the field's bounds.
     class Stretches {
       public:
         Stretches(const Bounds& box, const Way& way);
@@ -26,10 +26,10 @@ class FieldDensity {
         float length_ = 0.0f;
     };
 
-    /// Throws ModelError for a field that cannot be recorded.
+    /// Throws ModelError if the field cannot be recorded.
     FieldDensity(const Field& field, float depth);
 
-    /// One run of the field's program takes as long for eight points as for one.
+    /// The field's program takes as long for eight points as for one.
     static constexpr std::size_t together = batch_size;
     BatchOfFloats at(const PointBatch& points, std::size_t count) const;
     const Bounds& bounds() const { return bounds_; }
@@ -39,7 +39,7 @@ class FieldDensity {
     std::shared_ptr<const Evaluator> evaluator_;
     Bounds bounds_;
     std::size_t outputs_;
-    std::size_t field_output_;  ///< which of the program's outputs φ is
+    std::size_t field_output_;  ///< index of φ among the program's outputs
     float inverse_depth_;
 };
 

@@ -10,8 +10,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Between two of this many steps light is interpolated. For greatest temperatures from 200 to 100,000 K it is wrong by
-// at most 0.15 %, where it is brighter than a thousandth of what the hottest place emits.
+// The number of steps; light is interpolated linearly between them. For greatest temperatures from 200 to 100,000 K,
+// the error is at most 0.15 % where the light is brighter than a thousandth of the hottest point's emission.
 constexpr std::size_t steps = 1024;
 
 std::vector<glm::vec3> colours_up_to(float greatest, float reference, const LightSpectrum& at_reference) {
@@ -22,7 +22,7 @@ std::vector<glm::vec3> colours_up_to(float greatest, float reference, const Ligh
             return static_cast<double>(at_reference.relative_at(static_cast<float>(nm))) *
                    planck_ratio(nm, temperature, static_cast<double>(reference));
         }));
-        // A colour that red, green and blue cannot mix has the nearest that they can, with the same luminance.
+        // A colour outside the gamut is replaced by the nearest one inside, with the same luminance.
         const glm::vec3 positive = glm::max(mixed, glm::vec3(0.0f));
         const float brightness = tracer::luminance(positive);
         if (brightness > 0.0f) colours[i] = positive * (std::max(tracer::luminance(mixed), 0.0f) / brightness);

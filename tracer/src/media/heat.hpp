@@ -1,10 +1,10 @@
-// This is the light of a medium whose temperature T varies. By Kirchhoff's and Planck's laws it emits
+// The emission of a medium with varying temperature T. By Kirchhoff's and Planck's laws it emits
 //     j(λ, p) = ρ(p) ε B(λ, T(p))/B(λ, T₀)
-// per unit of length, where ρ is the density, and ε what the medium emits at the wavelength λ where ρ is 1 and the
-// temperature is T₀. The scene chooses T₀, and gives the luminance of ε; its spectrum is that of T₀.
+// per unit length. Here ρ is the density, and ε the emission at the wavelength λ where ρ is 1 and the temperature is
+// T₀. The scene specifies T₀ and the luminance of ε; the spectrum of ε is that of T₀.
 //
-// For red, green and blue the colour and brightness of that light are computed beforehand, for even steps of the
-// temperature from 0 to the greatest one.
+// For red, green and blue, the colour and brightness of that light are precomputed at equidistant temperatures from 0
+// to the greatest one.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,16 @@ namespace phasetree::tracer {
 
 class Heat {
   public:
-    /// Temperatures are kept as densities are, as shares of the greatest one. That and T₀ are in kelvin, and positive.
+    /// Temperatures are stored like densities, as shares of the greatest one. `greatest` and `reference` (T₀) are in
+    /// kelvin and positive.
     Heat(const VoxelDensity& shares, float greatest, float reference);
 
     /// The temperature at a point, as a share of the greatest one.
     float share_at(const glm::vec3& p) const { return shares_.at(p); }
-    /// The light at such a share, as a path takes it, of what emits light of that luminance at T₀.
+    /// The light at that share of the greatest temperature, in the components of a path. `luminance_at_reference` is
+    /// its luminance at T₀.
     glm::vec3 light(float share, float luminance_at_reference, const Wavelengths* wavelengths) const;
-    /// The luminance at such a share over that at T₀.
+    /// The luminance at that share over that at T₀.
     float luminance(float share) const;
     /// The spectrum of the light at T₀.
     const SharedLightSpectrum& spectrum() const { return spectrum_; }
@@ -36,7 +38,7 @@ class Heat {
     VoxelDensity shares_;
     float greatest_, reference_;
     SharedLightSpectrum spectrum_;
-    std::shared_ptr<const std::vector<glm::vec3>> colours_;  ///< of luminance 1 at T₀
+    std::shared_ptr<const std::vector<glm::vec3>> colours_;  ///< with luminance 1 at T₀
 };
 
 }  // namespace phasetree::tracer

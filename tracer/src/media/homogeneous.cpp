@@ -9,8 +9,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// ∫₀ᵈ ε T dt = ε (1 − exp(−σ d))/σ with the extinction σ, where next to nothing is lost, too. Where nothing is lost it
-// is ε d; on a way without end, which only phases without an end have, it is left out.
+// ∫₀ᵈ ε T dt = ε (1 − exp(−σ d))/σ with the extinction σ, computed precisely for small σ d, too. For σ = 0 it is ε d;
+// on an infinite segment, which only unbounded phases have, it is omitted then.
 glm::vec3 emitted_along(const ScatteringCoefficients::ForLight& coefficients, float length) {
     const glm::vec3 extinction = coefficients.extinction();
     glm::vec3 emitted(0.0f);
@@ -47,7 +47,7 @@ Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampl
     const glm::vec3 choice = channel_choice(throughput);
     const glm::vec2 u = sampler.next2();
     const float chosen = extinction[channel_at(choice, u.x)];
-    // A distance of 0 would make the next ray start where this one did; u.y is in [0, 1), and 1 − u.y never 0.
+    // A distance of 0 would make the next ray start where this one did. u.y is in [0, 1), so 1 − u.y is never 0.
     const float distance = chosen > 0.0f ? -std::log1p(-u.y) / chosen : way.length;
     if (distance < way.length) {
         const glm::vec3 left = beer_lambert(extinction, distance);

@@ -1,5 +1,5 @@
-// Measured scattering of milk, marble, skin and the like, by name: the reduced scattering coefficient σs' = (1 − g) σs
-// and the absorption σa in mm⁻¹, for red, green and blue.
+// Measured scattering of milk, marble, skin and other materials, by name: the reduced scattering coefficient σs' = (1 −
+// g) σs and the absorption σa in mm⁻¹, for red, green and blue.
 //
 // Reference: Jensen, Marschner, Levoy & Hanrahan, A Practical Model for Subsurface Light Transport, SIGGRAPH 2001,
 // figure 5.

@@ -11,8 +11,8 @@
 
 namespace phasetree::tracer {
 
-/// A kind of medium, once its contract has been asked of it. If it does not meet that, the message names the kind and
-/// the member.
+/// Checks a kind of medium against its concept. If the check fails, the compiler's message names the kind and the
+/// member.
 template <class Kind>
 struct CheckedMedium {
     static_assert(MediumKind<Kind>);
@@ -22,15 +22,15 @@ struct CheckedMedium {
 template <class... Kinds>
 using MediumOf = std::variant<typename CheckedMedium<Kinds>::Type...>;
 
-/// Every kind of medium. The first is the default, and lets everything pass as long as nothing else is said.
+/// Every kind of medium. The first is the default, and transparent by default.
 using Medium = MediumOf<AbsorbingMedium, HomogeneousMedium, VaryingMedium>;
 
-/// MediumKind's transmittance of a medium of any kind.
+/// MediumKind's transmittance for a medium of any kind.
 inline glm::vec3 transmittance(const Medium& medium, const Way& way, Sampler& sampler) {
     return std::visit([&](const auto& kind) { return kind.transmittance(way, sampler); }, medium);
 }
 
-/// MediumKind's passage of a medium of any kind; one that only absorbs shines not.
+/// MediumKind's passage for a medium of any kind. Purely absorbing media do not emit.
 inline Passage pass(const Medium& medium, const Way& way, Sampler& sampler) {
     return std::visit(
         [&]<class Kind>(const Kind& kind) {
@@ -42,7 +42,7 @@ inline Passage pass(const Medium& medium, const Way& way, Sampler& sampler) {
         medium);
 }
 
-/// What it shines by itself where it is densest, in radiance per unit of length, in red, green and blue.
+/// The emission where the medium is densest: radiance per unit length in red, green and blue.
 inline glm::vec3 emission(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) {
@@ -53,8 +53,8 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
-/// The luminance of what it shines by itself at a place, in the space of Way, over that of emission(); more
-/// than 1 where it is hotter than the medium's reference.
+/// The luminance of the emission at a point, in the space of Way, over that of emission(). It exceeds 1 where the
+/// medium is hotter than its reference temperature.
 inline float share_of_emission(const Medium& medium, const glm::vec3& place) {
     const auto* varying = std::get_if<VaryingMedium>(&medium);
     if (!varying) return 1.0f;
@@ -64,7 +64,7 @@ inline float share_of_emission(const Medium& medium, const glm::vec3& place) {
     places.z[0] = place.z;
     return varying->brightness_at(places)[0];
 }
-/// The spectrum of that; null if it is not known.
+/// The spectrum of the emission; null if unknown.
 inline SharedLightSpectrum emission_spectrum(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) -> SharedLightSpectrum {
@@ -75,7 +75,7 @@ inline SharedLightSpectrum emission_spectrum(const Medium& medium) {
         },
         medium);
 }
-/// Its σt where it is densest, of red, green and blue.
+/// σt where the medium is densest, for red, green and blue.
 inline glm::vec3 extinction(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) {
@@ -90,7 +90,7 @@ inline bool shines(const Medium& medium) {
     return emission(medium) != glm::vec3(0.0f);
 }
 
-/// The flight of a path through a medium of any kind; through one that only absorbs nothing is random.
+/// The flight of a path through a medium of any kind; deterministic if the medium only absorbs.
 inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& throughput, Sampler& sampler) {
     return std::visit(
         [&]<class Kind>(const Kind& kind) {
@@ -102,7 +102,7 @@ inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& through
         medium);
 }
 
-/// How a medium scatters light; none for a kind that never does.
+/// The phase function of a medium; null for a kind that never scatters.
 inline const HenyeyGreenstein* phase_function(const Medium& medium) {
     return std::visit(
         []<class Kind>(const Kind& kind) -> const HenyeyGreenstein* {

@@ -11,16 +11,15 @@ namespace phasetree::tracer {
 
 namespace {
 
-// After so many collisions the rest of a stretch counts as empty, and after this many in all the rest of a way. That
-// ends ways without end through a field without bounds, and those through blocks of voxels of which one is far denser
-// than the others.
+// After this many collisions, the rest of a stretch, or of the whole segment, counts as empty. This terminates infinite
+// segments through an unbounded field, and those through blocks of voxels of which one is far denser than the others.
 constexpr int most_collisions_of_stretch = 1 << 16, most_collisions = 1 << 20;
 
-// On a way without empty stretches there are at least this many tentative collisions on average, where more of them
-// estimate with less noise what is left and what is emitted.
+// A segment without empty stretches has at least this many tentative collisions on average where more of them reduce
+// the noise of estimates of transmittance and emission.
 constexpr float collisions_of_estimate = 5;
 
-// Light of which less than this is left is followed in one of four cases, and counts four times then.
+// Transmittance below `little` is subject to Russian roulette with this survival probability.
 constexpr float little = 0.05f, survival = 0.25f;
 
 struct Place {
@@ -28,7 +27,7 @@ struct Place {
     float density_bound;
 };
 
-// The places of tentative collisions, sampled in the stretches of a density. Their rate per unit of length is at least
+// The points of tentative collisions, sampled in the stretches of a density. Their rate per unit length is at least
 // `extinction` times the bound on the density.
 template <DensityKind D>
 class Places {
@@ -36,19 +35,19 @@ class Places {
     Places(const D& density, float extinction, const Way& way, float least_collisions)
         : stretches_(density.stretches(way)), extinction_(extinction) {
         if (!(stretches_.length() > 0.0f)) return;
-        constexpr float most = 1e30f;  // Products with it are no infinities.
+        constexpr float most = 1e30f;  // Products with it stay finite.
         least_rate_ = std::min(least_collisions / stretches_.length(), most);
         stretch_ = stretches_.next();
     }
 
-    // The next one; nothing at the way's end.
+    // The next point; nullopt at the end of the segment.
     std::optional<Place> next(Sampler& sampler) {
         if (!stretch_) return std::nullopt;
-        // This is the integral of the rate up to the next place. Stretches take from it what they have.
+        // The integral of the rate up to the next point. Each stretch consumes its part.
         float thickness = -std::log1p(-sampler.next());
         for (; stretch_; begin_next_stretch()) {
-            // It has had all that it may have. What remains of the thickness is right for the next stretch, too,
-            // because an exponential distribution has no memory.
+            // The stretch has reached its limit. The remaining thickness is right for the next stretch, too, because an
+            // exponential distribution has no memory.
             if (collisions_ >= most_collisions_of_stretch) continue;
             const float length = stretch_->to - stretch_->from;
             const float rate = std::max(extinction_ * stretch_->bound, least_rate_);
@@ -73,8 +72,8 @@ class Places {
     float extinction_;
     float least_rate_ = 0.0f;
     std::optional<DensityStretch> stretch_{};
-    // The distance is counted from where the stretch begins: far from a way's origin, steps may be less than floats
-    // resolve.
+    // The distance is relative to the start of the stretch: far from a segment's origin, steps may be smaller than
+    // floats resolve.
     float gone_ = 0.0f;
     int collisions_ = 0;  // in the stretch
 };
@@ -86,7 +85,7 @@ struct VaryingMedium::Collision {
     float density;
     glm::vec3 at;
 
-    // How much of something that has a coefficient of 1 is met here.
+    // The contribution of this collision per unit coefficient.
     float share() const { return density / rate; }
 };
 
@@ -108,7 +107,7 @@ BatchOfFloats VaryingMedium::brightness_at(const PointBatch& points) const {
     return brightness;
 }
 
-// Calls visit(collision) for each until it returns false.
+// Calls visit(collision) for each tentative collision until it returns false.
 template <class Visit>
 void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sampler, float least_collisions,
                                                  Visit&& visit) const {
@@ -126,7 +125,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
             if (count == 0) return;
             PointBatch points;
             for (std::size_t i = 0; i < batch_size; ++i) {
-                // The unused places of a batch repeat the first collision.
+                // The unused entries of a batch repeat the first collision.
                 const float distance = found[i < count ? i : 0].distance;
                 points.x[i] = way.origin.x + distance * way.direction.x;
                 points.y[i] = way.origin.y + distance * way.direction.y;
@@ -134,7 +133,7 @@ void VaryingMedium::for_each_tentative_collision(const Way& way, Sampler& sample
             }
             const BatchOfFloats density = kind.at(points, count);
             for (std::size_t i = 0; i < count; ++i) {
-                // At the border of a stretch the density may be above the bound by a rounding error.
+                // At the border of a stretch, the density may exceed the bound by a rounding error.
                 const float bounded = std::min(density[i], found[i].density_bound);
                 if (!visit(Collision{found[i].distance, found[i].rate, bounded, points[i]})) return;
             }

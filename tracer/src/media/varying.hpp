@@ -1,15 +1,15 @@
-// This medium's density ρ(p) in [0, 1] varies, by a field or by numbers at voxels, and all its coefficients are
-// multiplied by it: σ(p) = ρ(p) σ.
+// A medium whose density ρ(p) in [0, 1] varies, given by a field or by voxels. All its coefficients are multiplied by
+// the density: σ(p) = ρ(p) σ.
 //
-// Along a way places are sampled at which light may meet something, at a rate σ̄ ≥ ρ̄ max σt. Here ρ̄ is a bound on the
-// density that is a constant in each stretch of the way (media/density_contract.hpp), and σ̄ is more than that where
-// there would be so few places that their estimates were noisy. Each of these tentative collisions is either real, and
-// light is scattered, or null, and light goes on unchanged; null collisions make up for what σt ρ lacks to σ̄. With the
-// throughput β of the path, its weights so far included,
+// Tentative collisions are sampled along a ray segment at a rate σ̄ ≥ ρ̄ max σt. Here ρ̄ is a bound on the density that
+// is constant in each stretch of the segment (media/density_contract.hpp). σ̄ is increased where there would otherwise
+// be so few collisions that estimates were noisy. Each tentative collision is either real, and light is scattered, or
+// null, and light continues unchanged; null collisions fill the difference between σt ρ and σ̄. With the throughput β
+// of the path, including its weights so far,
 //     P_s = Σ β_c σs_c ρ / Σ β_c (σs_c ρ + σ̄ − σt_c ρ),   P_n = 1 − P_s,
-// and the weights become σs_c ρ/(σ̄ P_s) or (σ̄ − σt_c ρ)/(σ̄ P_n). As in a homogeneous medium Σ β_c does not grow. The
-// transmittance is estimated by ratio tracking, Π (1 − σt_c ρ/σ̄) over the tentative collisions; what the medium emits
-// is added at these too.
+// and the weights become σs_c ρ/(σ̄ P_s) or (σ̄ − σt_c ρ)/(σ̄ P_n). As in a homogeneous medium, Σ β_c does not
+// increase. The transmittance is estimated by ratio tracking, Π (1 − σt_c ρ/σ̄) over the tentative collisions, at which
+// emission is added, too.
 //
 // References: Kutz, Habel, Li & Novák, Spectral and Decomposition Tracking for Rendering Heterogeneous Volumes,
 // SIGGRAPH 2017; Novák, Selle & Jarosz, Residual Ratio Tracking for Estimating Attenuation in Participating Media,
@@ -26,8 +26,8 @@ namespace phasetree::tracer {
 
 class VaryingMedium {
   public:
-    /// The coefficients are those at density 1. With heat, their emission is that at its T₀, of which the luminance
-    /// counts.
+    /// The coefficients are those at density 1. With `heat`, their emission is that at its T₀, and only its luminance
+    /// is used.
     VaryingMedium(const ScatteringCoefficients& coefficients, const Density& density,
                   const std::optional<Heat>& heat = std::nullopt);
 
@@ -38,11 +38,11 @@ class VaryingMedium {
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
     /// ρ at eight points.
     BatchOfFloats densities_at(const PointBatch& points) const { return density_at(density_, points); }
-    /// The luminance of what it emits at eight points, over that of the coefficients' emission.
+    /// The luminance of the emission at eight points, over that of the coefficients' emission.
     BatchOfFloats brightness_at(const PointBatch& points) const;
-    /// The bytes of its voxels.
+    /// The memory in bytes of its voxels.
     std::size_t bytes() const { return bytes_of(density_) + (heat_ ? heat_->bytes() : 0); }
-    /// A box outside of which there is nothing of it.
+    /// A box outside of which the medium is empty.
     const Bounds& bounds() const { return bounds_of(density_); }
 
   private:
@@ -50,7 +50,7 @@ class VaryingMedium {
     Passage pass(const Way& way, bool with_emission, Sampler& sampler) const;
     template <class Visit>
     void for_each_tentative_collision(const Way& way, Sampler& sampler, float least_collisions, Visit&& visit) const;
-    // What it emits at a collision, as light takes it whose coefficients are given.
+    // The emission at a collision, for the light of the given coefficients.
     glm::vec3 emitted_at(const Collision& collision, const ScatteringCoefficients::ForLight& coefficients,
                          const Wavelengths* wavelengths) const;
 

@@ -10,8 +10,8 @@ namespace phasetree::tracer {
 
 VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement) : greatest_number_(grid.greatest()) {
     if (greatest_number_ > 0.0f) grid.divide_by(static_cast<double>(greatest_number_));
-    // The grid is moved so that its first voxel is at its own origin: far from there floats would not tell its voxels
-    // apart.
+    // The grid is moved such that its first voxel is at its own origin: far from the origin, floats would not resolve
+    // voxels.
     const glm::dvec3 translation = placement.linear * grid.lattice.first + placement.translation;
     grid.move_first_to(glm::dvec3(0));
     box_ = grid.extent();
@@ -28,7 +28,7 @@ VoxelDensity::VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement) : gr
     grid_ = std::make_shared<const VoxelGrid>(std::move(grid));
 }
 
-// Throws unless what floats of the scene cannot tell apart is less than a hundredth of a voxel along each of its axes.
+// Throws unless the resolution of floats in the scene is finer than a hundredth of a voxel along each of its axes.
 void VoxelDensity::check_resolution(const glm::dvec3& spacing) const {
     constexpr double float_step = 0x1p-24, share_of_voxel = 0.01, least = 1e-30;
     const glm::dvec3 farthest(glm::max(glm::abs(bounds_.low), glm::abs(bounds_.high)));
@@ -57,7 +57,7 @@ BatchOfFloats VoxelDensity::at(const PointBatch& points, std::size_t count) cons
 
 VoxelDensity::Stretches::Stretches(const VoxelDensity& density, const Way& way) {
     const float* const data = density.grid_->table.data();
-    // The direction is not of unit length there, so that distances remain those in the scene.
+    // The direction does not have unit length there, so that distances remain those in the scene.
     const Way in_grid{density.in_grid(way.origin), density.to_grid_ * way.direction, way.length};
     const auto [from, to] = part_within(density.box_, in_grid);
     if (!(from < to)) return;
@@ -79,8 +79,8 @@ VoxelDensity::Stretches::Stretches(const VoxelDensity& density, const Way& way) 
 std::optional<DensityStretch> VoxelDensity::Stretches::next() {
     const float length = to_ - from_;
     while (at_ < length) {
-        // The face by which the way leaves the block. Distances are those from where the way enters the grid. The
-        // outermost blocks reach to the grid's own faces, where the way ends.
+        // The face through which the segment leaves the block. Distances are relative to where the segment enters the
+        // grid. The outermost blocks extend to the grid's own faces, where the segment ends.
         float leaves = length;
         std::optional<int> axis;
         for (int i = 0; i < 3; ++i) {

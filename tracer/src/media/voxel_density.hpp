@@ -1,11 +1,11 @@
-// Numbers at voxels give the density of a medium: smoke, clouds, ink, scans. ρ is their trilinear interpolation,
-// divided by the greatest of them, and 0 outside of the grid's box, whose faces are half a voxel outside of the
-// outermost centres.
+// The density of a medium from values at voxels: smoke, clouds, ink, scans. ρ is their trilinear interpolation, divided
+// by the greatest value. It is 0 outside of the grid's box, whose faces are half a voxel outside of the outermost
+// centres.
 //
-// The bound on ρ along a way is that of the blocks of 8³ voxels through which it goes, with the voxels next to each,
-// and blocks without anything are passed over. Szirmay-Kalos, Tóth & Magdics, Free Path Sampling in High Resolution
-// Inhomogeneous Participating Media, CGF 30(1), 2011, use such bounds; the walk from block to block is that of
-// Amanatides & Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987.
+// The bound on ρ along a ray segment is that of the blocks of 8³ voxels that it crosses, including the voxels adjacent
+// to each. Empty blocks are skipped. Szirmay-Kalos, Tóth & Magdics, Free Path Sampling in High Resolution Inhomogeneous
+// Participating Media, CGF 30(1), 2011, use such bounds; the traversal of blocks is that of Amanatides & Woo, A Fast
+// Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -16,8 +16,8 @@
 
 namespace phasetree::tracer {
 
-/// Where voxels are in the space of the object, or of the scene if that is one tree: p = linear q + translation, of
-/// points q in the grid's own space.
+/// The placement of voxels in the space of the object, or of the scene if that is one tree: p = linear q + translation,
+/// for points q in the grid's own space.
 struct VoxelPlacement {
     glm::dmat3 linear{1};
     glm::dvec3 translation{0};
@@ -33,19 +33,19 @@ class VoxelDensity {
 
       private:
         const float* directory_ = nullptr;
-        float from_ = 0.0f, to_ = 0.0f;    ///< where the way enters and leaves the grid's box
-        float at_ = 0.0f;                  ///< the distance from from_ to where the next block begins
-        glm::vec3 start_{0}, step_{0};     ///< the place at from_, and how far a unit of distance goes; in blocks
-        glm::ivec3 block_{0}, blocks_{0};  ///< the next block, and how many there are
+        float from_ = 0.0f, to_ = 0.0f;    ///< where the segment enters and leaves the grid's box
+        float at_ = 0.0f;                  ///< distance from from_ to where the next block begins
+        glm::vec3 start_{0}, step_{0};     ///< the point at from_, and the step per unit distance; in blocks
+        glm::ivec3 block_{0}, blocks_{0};  ///< the next block, and the number of blocks
     };
 
-    /// The grid's values are not negative. Throws std::invalid_argument for a grid whose voxels floats do not tell
-    /// apart where it is placed.
+    /// The values of the grid must not be negative. Throws std::invalid_argument if floats cannot resolve the voxels
+    /// where the grid is placed.
     VoxelDensity(VoxelGrid grid, const VoxelPlacement& placement);
 
-    /// The greatest number of a voxel, of which ρ is a share.
+    /// The greatest value of a voxel, by which ρ is normalised.
     float greatest_number() const { return greatest_number_; }
-    /// Each point takes a lookup of its own.
+    /// Each point needs its own lookup.
     static constexpr std::size_t together = 1;
     BatchOfFloats at(const PointBatch& points, std::size_t count) const;
     float at(const glm::vec3& p) const;

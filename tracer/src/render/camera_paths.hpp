@@ -1,4 +1,4 @@
-// Where the paths of a picture begin.
+// Generates the camera rays of a picture's paths.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ class CameraPaths {
         if (origin && !scene.moves()) single_ = geometry_.inside(*origin);
     }
 
-    /// The path's first ray through a point of the film, in pixels, at a time from 0 to 1 while the shutter is open.
+    /// The first ray of a path through a point of the film, in pixels, at a time from 0 to 1 of the shutter interval.
     Ray first_ray(const glm::dvec2& on_film, float time, Sampler& sampler) const {
         const CameraRay ray = camera_.generate(on_film, sampler.next2(), static_cast<double>(time));
         const TracedGeometry::Inside start = single_ ? *single_ : geometry_.inside(ray.origin, time);
@@ -28,7 +28,7 @@ class CameraPaths {
   private:
     const TracedGeometry& geometry_;
     MovingCamera camera_;
-    // In what the camera is whose rays all start at one point, asked for once.
+    // What contains a camera whose rays all start at one point, computed once.
     std::optional<TracedGeometry::Inside> single_;
 };
 

@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::size_t paths_a_task = 1024;
 constexpr std::size_t paths_of_first_round = std::size_t{1} << 14;
-// Of a room behind a door a quarter of a million paths in all rounds leave 1.4 × the variance that a million leave.
+// For a room behind a door, a quarter of a million paths in all rounds result in 1.4 × the variance of a million.
 constexpr std::size_t least_paths_of_last_round = std::size_t{1} << 17, most_paths_of_last_round = std::size_t{1} << 19;
 
-// These paths have a pixel of their own, so that their random numbers differ from those of the picture and of photons
-// (caustics/caustics.cpp has the two columns before this one).
+// These paths have pixel coordinates of their own, so that their random numbers differ from those of the picture and of
+// photons (caustics/caustics.cpp uses the two previous columns).
 constexpr std::uint32_t column_of_training = 0x80000002u;
 
 std::size_t paths_of_last_round(const Scene& scene) {
@@ -55,7 +55,7 @@ class Training {
     }
 
   private:
-    // What a round of paths finds; nothing if it was cancelled.
+    // The findings of a round of paths; nullopt if cancelled.
     std::optional<std::vector<Finding>> found_by(std::size_t paths, const Guide* guide) {
         const std::size_t tasks = paths / paths_a_task;
         std::vector<std::vector<Finding>> parts(tasks);
@@ -99,14 +99,14 @@ class Training {
         }
         return findings;
     }
-    // Photons and the paths that they help meet the world at the same moment.
+    // Photons and the paths that gather them have the same time.
     float time_of(std::uint32_t row, std::uint32_t number) const {
         if (!training_.scene.moves()) return 0.0f;
         if (training_.caustics) return training_.caustics->time(round_);
         return shutter_time(column_of_training, row, number, training_.scene.settings.seed);
     }
 
-    // The last hundredth is left for making the last guide.
+    // The last hundredth is reserved for making the final guide.
     void report(std::size_t paths) {
         const std::lock_guard lock(reporting_);
         done_ += paths;

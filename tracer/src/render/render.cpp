@@ -22,7 +22,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// How many of a job's samples each pixel has when a pass over the picture is done, from how many it had.
+// The number of a job's samples per pixel after the next pass over the picture, given the current number.
 int after_pass(int had, int in_all) {
     // The first pass is one sample, so that even an early Ctrl-C leaves a picture; later ones are larger.
     return std::min(in_all, had == 0 ? 1 : had + std::clamp(had, 1, 16));
@@ -36,7 +36,7 @@ class Renderer {
           job_(job),
           samples_(job.samples.value_or(SampleRange{0, scene.settings.samples})),
           cameras_(world, scene),
-          // Of a picture alone no path need tell more.
+          // A picture without further planes needs no path records.
           recording_(scene.film.planes.count() > 1),
           axis_{position_of(scene.camera), glm::normalize(look_at_of(scene.camera) - position_of(scene.camera))},
           film_(film),
@@ -45,13 +45,13 @@ class Renderer {
         if (scene.settings.caustics) caustics_.emplace(world, scene);
     }
 
-    // Returns how many samples each pixel has in the end, at least, but for those that stop by their noise. A pass that
-    // is cut off leaves some pixels with more; of the first pass it leaves what there is, because something beats
-    // nothing.
+    // Returns the minimum number of samples per pixel at the end, not counting blocks that stopped by their noise. A
+    // pass that is cut off leaves some pixels with more. If the first pass is cut off, its samples are kept, because an
+    // incomplete picture is better than none.
     int run() {
         leave_out_quiet_blocks();
         int done = fewest_samples();
-        // What is resumed when its time is over already has no use for a guide.
+        // A resumed render whose time is over needs no guide.
         const bool is_late = job_.deadline && done > 0 && Clock::now() >= *job_.deadline;
         if (scene_.settings.guiding && done < samples_.size() && !blocks_.empty() && !is_late) {
             guide_ = trained_guide(
@@ -59,7 +59,7 @@ class Renderer {
             stopped_ = !guide_;
         }
         while (done < samples_.size() && !stopped_ && !blocks_.empty()) {
-            // What was learned is used at least once, or a render that is resumed again and again would learn forever.
+            // A new guide is used for at least one pass, or a render that is resumed repeatedly would train forever.
             const bool is_first_with_guide = guide_ && seconds_of_sample_ == 0;
             const int next = is_first_with_guide ? done + 1 : after_next_pass(done);
             if (next == done) break;
@@ -89,7 +89,7 @@ class Renderer {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // Of the blocks that go on.
+    // Of the blocks that continue.
     int fewest_samples() const {
         auto fewest = static_cast<std::uint32_t>(samples_.size());
         for (const PixelRange& block : blocks_)
@@ -97,17 +97,17 @@ class Renderer {
                 for (int x = block.x0; x < block.x1; ++x) fewest = std::min(fewest, film_.pixels().samples(x, y));
         return static_cast<int>(fewest);
     }
-    // How many samples a pixel of the blocks that go on has after the next pass; as many as before if there is no time
-    // for one.
+    // The number of samples per pixel after the next pass, for the blocks that continue. Returns `done` if there is no
+    // time for another pass.
     int after_next_pass(int done) {
-        // Each sample of a pixel sees photons of its own, so with photons a pass is one sample.
+        // Each sample of a pixel gathers photons of its own, so with photons a pass is one sample.
         int next = caustics_ ? done + 1 : after_pass(done, samples_.size());
         if (noise_) next = std::min(next, NoiseLimit::next_look(done));
         if (job_.deadline && done > 0) {
             const double left = std::chrono::duration<double>(*job_.deadline - Clock::now()).count();
             is_out_of_time_ = left <= 0 || left < seconds_of_sample_;
             if (is_out_of_time_) return done;
-            // Of what is resumed nobody has measured yet how long a sample takes.
+            // A resumed render has not measured the time per sample yet.
             if (seconds_of_sample_ == 0)
                 next = done + 1;
             else if (left < (next - done) * seconds_of_sample_)
@@ -115,8 +115,8 @@ class Renderer {
         }
         return next;
     }
-    // From now on they have no samples more. A block is examined when all of its pixels have the same number, which
-    // those that a pass was cut off in may not have.
+    // Stops blocks that meet the limit. A block is tested when all its pixels have the same number of samples, which
+    // they may not have if a pass was cut off in them.
     void leave_out_quiet_blocks() {
         if (!noise_) return;
         std::uint64_t spared = 0;
@@ -128,7 +128,7 @@ class Renderer {
         });
         job_.advance(spared);
     }
-    // One pass over the picture, after which each pixel has this many samples.
+    // Runs one pass over the picture, after which each pixel has this many samples.
     void run(int wanted) {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, blocks_.size(), 1),
@@ -143,7 +143,7 @@ class Renderer {
             },
             tbb::simple_partitioner());
     }
-    // Adds to each pixel of a part what it lacks. Returns how many samples that were.
+    // Adds the missing samples of each pixel of a part. Returns their number.
     std::uint64_t run(const PixelRange& part, int wanted) {
         const FlushSubnormals flush;
         PathCounters& counters = counters_.local();
@@ -151,13 +151,13 @@ class Renderer {
         std::uint64_t added = 0;
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x)
-                // Tiles of one pass do not overlap: nobody else adds to this pixel now.
+                // Tiles of one pass do not overlap: no other thread adds to this pixel now.
                 for (int s = static_cast<int>(film_.pixels().samples(x, y)); s < wanted; ++s, ++added)
                     tile.add(x, y, sample(x, y, samples_.first + s, counters));
         film_.add(tile);
         return added;
     }
-    // What it refers to is good until the next sample of the same thread.
+    // The result refers to data that is valid until the next sample of the same thread.
     FilmSample sample(int x, int y, int number, PathCounters& counters) {
         Sampler sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                         static_cast<std::uint32_t>(number), scene_.settings.seed);
@@ -174,7 +174,7 @@ class Renderer {
         return result;
     }
 
-    // Photons and paths of a pass meet the world at one and the same time.
+    // Photons and paths of a pass have the same time.
     float time_of(int x, int y, int number) const {
         if (caustics_) return caustics_->time(number);
         return shutter_time(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
@@ -187,15 +187,15 @@ class Renderer {
     SampleRange samples_;
     CameraPaths cameras_;
     bool recording_;
-    CameraRay axis_;  // from where the camera is when the shutter opens to where it looks
+    CameraRay axis_;  // from the camera's position when the shutter opens towards its target
     Film& film_;
     std::optional<NoiseLimit> noise_;
-    std::vector<PixelRange> blocks_;  // which tiles of the film are, without those that have stopped
-    double seconds_of_sample_ = 0;    // of all pixels, in the last pass
+    std::vector<PixelRange> blocks_;  // tiles of the film, without those that have stopped
+    double seconds_of_sample_ = 0;    // for all pixels, in the last pass
     bool is_out_of_time_ = false;
     std::optional<Caustics> caustics_;
     std::optional<PhotonMap> photons_;  // of this pass
-    std::optional<Guide> guide_;        // where light comes from, if the scene asks for that
+    std::optional<Guide> guide_;        // if the scene requests guiding
     tbb::enumerable_thread_specific<PathCounters> counters_;
     tbb::enumerable_thread_specific<PathRecord> records_;
     std::atomic<bool> stopped_{false};

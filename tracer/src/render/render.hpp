@@ -1,4 +1,4 @@
-// From a scene to an image, on all cores.
+// Renders a scene to an image, on all cores.
 #pragma once
 
 #include <chrono>
@@ -17,30 +17,30 @@ class Film;
 
 struct RenderJob {
     PixelRange pixels;
-    /// Which of a pixel's samples, by their numbers: [first, last). All of the scene's if it is not said.
+    /// Range of sample numbers of each pixel: [first, last). nullopt for all samples of the scene.
     std::optional<SampleRange> samples = std::nullopt;
     int threads = 0;  ///< 0: as many as there are cores
-    /// No pass begins that would not end by then, as far as the last one tells; the first one is always done, and one
-    /// after a guide was learned.
+    /// No pass starts that would not end by then, as estimated from the previous one. The first pass, and one after
+    /// training a guide, are always done.
     std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
-    /// Called with the samples done since the last call, from any thread; those that a block need not have, because it
-    /// has little noise, count as done.
+    /// Called with the number of samples done since the last call, from any thread. Samples that a block omits because
+    /// it has little noise count as done.
     std::function<void(std::uint64_t)> advance = [](std::uint64_t) {};
-    /// Called with how much is done, from 0 to 1, of what is learned before the first pass if the scene asks for
-    /// guiding; by one thread at a time. Not called without.
+    /// Called with the progress of training the guide before the first pass, from 0 to 1, by one thread at a time. Not
+    /// called without guiding.
     std::function<void(double)> learned = [](double) {};
     std::function<bool()> cancelled = [] { return false; };
-    /// Called after each whole pass with how many samples each pixel has by then; nothing is added meanwhile.
+    /// Called after each complete pass with the number of samples per pixel. The film does not change meanwhile.
     std::function<void(const Film&, int)> passed = [](const Film&, int) {};
 };
 
 struct Rendering {
     Image image;
-    /// In each pixel of the image at least: fewer than asked if the rendering was cancelled or its time was over. Where
-    /// pixels stop by their noise it is their mean, rounded down.
+    /// Minimum samples per pixel of the image: fewer than requested if the rendering was cancelled or ran out of time.
+    /// If pixels stop by their noise, it is the mean, rounded down.
     int samples = 0;
-    std::size_t blocks = 0;        ///< those of noise_limit.hpp
-    std::size_t noisy_blocks = 0;  ///< which have not stopped by their noise; 0 if none is to
+    std::size_t blocks = 0;        ///< number of blocks, see noise_limit.hpp
+    std::size_t noisy_blocks = 0;  ///< blocks that have not stopped by their noise; 0 without a limit
     bool is_out_of_time = false;
     FilmFaults faults;
     bool cancelled = false;
@@ -49,25 +49,26 @@ struct Rendering {
     PathCounters counters;
 };
 
-/// Adds to the film what its pixels lack of the job's samples. The film comes from film_of(). It is empty, or was left
-/// by a cancelled render() of the same job: each pixel then has the job's samples from the lowest number on, without
-/// gaps. While this runs, others may write the film's rows to a file.
+/// Adds the missing samples of the job to the film. The film comes from film_of(). It must be empty, or the result of a
+/// cancelled render() of the same job, in which each pixel has the job's samples from the lowest number on, without
+/// gaps. While this runs, other threads may write the film's rows to a file.
 ///
-/// Gives the same film for any number of threads and whatever the film had: a pixel's samples are numbered and seeded
-/// by pixel and number, and the film's sums do not depend on their order. Works in passes over the whole image, so that
-/// a cancelled one is evenly done: no pixel is further ahead than by one pass. Where the scene has a limit of noise, a
-/// block stops early that meets it; the image is of the job's pixels, and the film of all blocks that these touch.
+/// The resulting film does not depend on the number of threads, nor on interruptions: samples are numbered and seeded
+/// by pixel and number, and the film's sums do not depend on their order. Rendering proceeds in passes over the whole
+/// image, so that a cancelled one is even: pixels differ by at most one pass. If the scene has a noise limit, blocks
+/// that meet it stop early; the image then contains the job's pixels, and the film all blocks that overlap them.
 Rendering render(const World& world, const Scene& scene, const RenderJob& job, Film& film);
-/// The same from the beginning.
+/// As above, starting with an empty film.
 Rendering render(const World& world, const Scene& scene, const RenderJob& job);
 
-/// What the planes of a scene's film name their channels after.
+/// The names from which the planes of a scene's film derive their channels.
 PlaneSubjects subjects_of(const Scene& scene);
-/// What a scene's film keeps: beside its planes those of the noise and of the numbers of samples, if pixels stop by it.
+/// The settings of a scene's film. If pixels stop by their noise, they include the planes of noise and of sample
+/// numbers.
 FilmSettings film_settings(const Scene& scene);
-/// The pixels of the film for a job: the job's own, or all blocks that these touch, if those may stop by their noise.
+/// The pixels of the film for a job: the job's own, or all blocks that overlap them if those may stop by their noise.
 PixelRange film_area(const Scene& scene, const RenderJob& job);
-/// The film for a job on a scene, without samples.
+/// An empty film for a job on a scene.
 Film film_of(const Scene& scene, const RenderJob& job);
 
 }  // namespace phasetree::tracer

@@ -19,8 +19,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// How many threads this process has, or 0 if the system does not tell. By a stream and not by the folder of its tasks:
-// libstdc++ ends the process if memory ends within a directory_iterator.
+// The number of threads of this process, or 0 if the system does not report it. Reads a file instead of listing a
+// folder because libstdc++ ends the process if memory runs out inside a directory_iterator.
 int running() {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;)
@@ -28,7 +28,7 @@ int running() {
     return 0;
 }
 
-// How many of this many threads can be started beside this one.
+// The number of threads, up to `wanted`, that can be started in addition to this one.
 int startable(int wanted) {
     const int before = running();
     std::vector<std::thread> threads;
@@ -37,13 +37,13 @@ int startable(int wanted) {
     try {
         while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&] { all_are_counted.wait(); });
     } catch (const std::system_error&) {
-        // Then it is as many as there are.
+        // The limit is reached.
     } catch (const std::bad_alloc&) {
-        // Those that wait must be let go and joined in this case, too.
+        // The threads that wait must be released and joined in this case, too.
     }
     all_are_counted.count_down();
     for (std::thread& thread : threads) thread.join();
-    // One that has been joined counts for a moment longer, until the system has cleared it away.
+    // A joined thread still counts for a moment, until the system has removed it.
     for (int i = 0; i < 1000 && running() > before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return static_cast<int>(threads.size());
 }
@@ -52,7 +52,7 @@ int startable(int wanted) {
 
 AvailableThreads::AvailableThreads(int wanted)
     : wanted_(wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency()), count_(wanted_) {
-    // OpenImageIO and OpenEXR start one a core for themselves, and TBB may start one that does not count for it.
+    // OpenImageIO and OpenEXR start one thread per core each, and TBB may start one beyond its limit.
     const int others = 2 * static_cast<int>(std::thread::hardware_concurrency()) + 1;
     const int there = startable(wanted_ - 1 + others);
     if (there == wanted_ - 1 + others) return;
@@ -62,8 +62,8 @@ AvailableThreads::AvailableThreads(int wanted)
             "processes is reached");
     count_ = std::min(wanted_, there);
     limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_));
-    // OpenImageIO and OpenEXR can work on the calling thread alone. OpenImageIO reads the environment variable when it
-    // first needs its threads; exr_threads = -1 says that OpenEXR starts none.
+    // OpenImageIO and OpenEXR can work on the calling thread only. OpenImageIO reads the environment variable when it
+    // first needs its threads; exr_threads = -1 stops OpenEXR from starting any.
     ::setenv("OPENIMAGEIO_THREADS", "1", 1);
     OIIO::attribute("exr_threads", -1);
 }

@@ -1,5 +1,5 @@
-// How many threads there can be: a limit on processes may leave fewer than there are cores, and TBB, which would find
-// out in the middle of the work, cannot go on then.
+// Determines how many threads can be started: a limit on processes may allow fewer than there are cores. TBB would
+// discover that in the middle of the work and fail.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -8,9 +8,9 @@
 
 namespace phasetree::tracer {
 
-/// While it lives, no more threads work than can be started, and `wanted` at most; 0 wants one a core. To find out it
-/// starts as many and lets them go. To be made before anything reads or writes an image. Throws std::runtime_error
-/// where there can be none.
+/// During its lifetime, at most `wanted` threads work, and no more than can be started; 0 means one per core. To find
+/// the limit, it starts that many and lets them end. Create it before reading or writing images. Throws
+/// std::runtime_error if no thread can be started.
 class AvailableThreads {
   public:
     explicit AvailableThreads(int wanted = 0);

@@ -2,10 +2,10 @@
 //
 //   D(m)      = 1 / (π a b (m.x²/a² + m.y²/b² + m.z²)²)
 //   G₁(w)     = 2 |w.z| / (|w.z| + √(a² w.x² + b² w.y² + w.z²))
-//   G₂(o, i)  = 1 / (1 + Λ(o) + Λ(i)) for reflection (heights correlated), G₁(o) G₁(i) for transmission
-//   D_o(m)    = G₁(o) max(0, o·m) D(m) / o.z, the density of the normals that `o` sees
+//   G₂(o, i)  = 1 / (1 + Λ(o) + Λ(i)) for reflection (height-correlated), G₁(o) G₁(i) for transmission
+//   D_o(m)    = G₁(o) max(0, o·m) D(m) / o.z, the pdf of the normals visible from `o`
 //
-// a and b are the roughness along x and along y, which differ on brushed metal and are one α elsewhere; m.z > 0 and
+// a and b are the roughness along x and along y. They differ on brushed metal, and elsewhere both are α; m.z > 0 and
 // o.z > 0.
 //
 // References: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007;
@@ -41,7 +41,7 @@ class Ggx {
         return 2.0f / (std::abs(i.z) * slope_term(o) + std::abs(o.z) * slope_term(i));
     }
 
-    /// G₂/G₁(o): the part of the light that o's visible normals reflect to i which leaves the surface.
+    /// G₂/G₁(o): the share of the light reflected to i by the normals visible from o that leaves the surface.
     float shadowing_of_reflected(const glm::vec3& o, const glm::vec3& i) const {
         return reflection_visibility(o, i) * std::abs(o.z) * std::abs(i.z) / masking(o);
     }
@@ -51,8 +51,8 @@ class Ggx {
         return 4.0f / ((std::abs(o.z) + slope_term(o)) * (std::abs(i.z) + slope_term(i)));
     }
 
-    /// A normal that `o` sees. The normals seen on the stretched, hemispherical surface are halfway between `o` and a
-    /// direction uniform on a spherical cap.
+    /// Samples a normal visible from `o`. The normals visible on the stretched, hemispherical surface are halfway
+    /// between `o` and a direction uniform on a spherical cap.
     glm::vec3 sample_visible_normal(const glm::vec3& o, const glm::vec2& u) const {
         const glm::vec3 stretched = glm::normalize(glm::vec3{alpha_x_ * o.x, alpha_y_ * o.y, o.z});
         const glm::vec3 cap = square_to_uniform_cone({u.y, u.x}, 1.0f + stretched.z);

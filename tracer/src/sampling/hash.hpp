@@ -1,4 +1,4 @@
-// Integer hashing: the one source of pseudo-randomness of samples and textures.
+// Integer hashing: the only source of pseudo-randomness for samples and textures.
 //
 // The finaliser is Wellons's "triple32" (Prospecting for Hash Functions, 2018), a bijection of 32-bit integers with
 // nearly ideal avalanche. Several words are chained through it.
@@ -28,14 +28,14 @@ constexpr std::uint32_t hash(std::uint32_t first, Words... rest) {
     return state;
 }
 
-/// Of a point or a direction, by all bits of its numbers, and of what else tells it from others.
+/// The hash of a point or direction, from all bits of its components, and of further words.
 template <typename... Words>
 std::uint32_t hash_of(const glm::vec3& v, Words... rest) {
     return hash(std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z),
                 rest...);
 }
 
-/// In [0, 1).
+/// Maps a hash to [0, 1).
 constexpr float hash_to_unit(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }

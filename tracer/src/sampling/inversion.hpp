@@ -1,5 +1,5 @@
-// Sampling a piecewise-constant density by inverting its cumulative distribution. Inversion, not the alias method: it
-// is monotone and keeps the stratification of the sample points.
+// Sampling a piecewise-constant pdf by inverting its cumulative distribution. Unlike the alias method, inversion is
+// monotone and preserves the stratification of sample points.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace phasetree::tracer {
 
-/// Writes the running sums of `weights`, one more than those, scaled to end at exactly 1 (all zero if there is nothing
-/// to sum); returns the sum.
+/// Writes the prefix sums of `weights`, one more than weights, scaled to end at exactly 1 (all zero if the sum is
+/// zero). Returns the sum.
 inline double accumulate(std::span<const double> weights, std::span<float> cumulative) {
     double sum = 0.0;
     for (const double weight : weights) sum += weight;
@@ -21,18 +21,18 @@ inline double accumulate(std::span<const double> weights, std::span<float> cumul
     return sum;
 }
 
-/// The interval that u falls into, and where in it.
+/// The interval that contains u, and the position in it.
 struct Inverse {
     std::size_t index;
     float position;  ///< in [0, 1)
 };
 
-/// `cumulative` rises from 0 to 1; intervals in which it does not rise are skipped. The search halves without branches,
-/// which a random u would make impossible to guess.
+/// `cumulative` increases from 0 to 1; intervals in which it is constant are skipped. The binary search has no
+/// branches, which a random u would make unpredictable.
 inline Inverse invert(std::span<const float> cumulative, float u) {
     constexpr float below_one = 0x1.fffffep-1f;
     const float inside = std::clamp(u, 0.0f, below_one);
-    // The last boundary that is not above u; the very last, 1, is.
+    // The last boundary that is not above u. The final boundary, 1, always is.
     const float* first = cumulative.data();
     for (std::size_t length = cumulative.size(); length > 1;) {
         const std::size_t half = length / 2;

@@ -10,11 +10,11 @@ std::uint32_t reverse_bits(std::uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);  // with the next, a swap of bytes
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);  // together with the next line, a byte swap
     return (x >> 16) | (x << 16);
 }
 
-// The Laine-Karras permutation: a bit of the result depends on that bit and the bits below it only. Constants by
+// The Laine-Karras permutation: a bit of the result depends only on that bit and the bits below it. Constants by
 // Vegdahl (Building a Better LK Hash, 2021), which avalanche better than those first published.
 std::uint32_t laine_karras_permutation(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
@@ -25,9 +25,9 @@ std::uint32_t laine_karras_permutation(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-// The generator matrix of the second dimension, before its digits become a fraction's, is Pascal's triangle modulo 2,
-// the five-fold Kronecker power of (1 1; 0 1): digit r is the exclusive or of all bits of the index whose number
-// contains the bits of r. One step a Kronecker factor.
+// The generator matrix of the second dimension, before its digits are reversed to form a fraction, is Pascal's triangle
+// modulo 2: the five-fold Kronecker power of (1 1; 0 1). Digit r is the exclusive or of all bits of the index whose
+// number contains the bits of r. One step per Kronecker factor.
 std::uint32_t pascal(std::uint32_t index) {
     index ^= (index & 0xaaaaaaaau) >> 1;
     index ^= (index & 0xccccccccu) >> 2;
@@ -37,7 +37,7 @@ std::uint32_t pascal(std::uint32_t index) {
     return index;
 }
 
-// nested_uniform_scramble() of a fraction whose bits are given in reverse, as the sequence has them at first.
+// nested_uniform_scramble() of a fraction whose bits are reversed, as initially in the sequence.
 std::uint32_t scrambled(std::uint32_t reversed_fraction, std::uint32_t seed) {
     return reverse_bits(laine_karras_permutation(reversed_fraction, seed));
 }

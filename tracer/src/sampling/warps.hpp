@@ -1,10 +1,10 @@
-// Maps from the unit square to directions and disks, each with its density.
+// Maps from the unit square to directions and disks, each with its pdf.
 //
-// Densities are with respect to solid angle (directions) or area (disk). Directions are in a local frame whose z is
-// the axis of the distribution.
+// Pdfs are with respect to solid angle (directions) or area (disk). Directions are in a local frame whose z is the axis
+// of the distribution.
 //
 // References: Shirley & Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997; Pharr, Jakob & Humphreys,
-// Physically Based Rendering, 4th ed., Appendix A.5. The microfacet normals are in ggx.hpp.
+// Physically Based Rendering, 4th ed., Appendix A.5. ggx.hpp samples microfacet normals.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 
 inline constexpr float pi = std::numbers::pi_v<float>;
 
-/// Concentric map to the unit disk: squares around the middle become circles, so neighbours stay neighbours.
+/// Concentric map to the unit disk: squares around the centre become circles, so neighbours stay neighbours.
 inline glm::vec2 square_to_uniform_disk(const glm::vec2& u) {
     const float x = 2.0f * u.x - 1.0f;
     const float y = 2.0f * u.y - 1.0f;
@@ -47,8 +47,8 @@ inline float cosine_hemisphere_pdf(float cos_theta) {
     return std::max(0.0f, cos_theta) / pi;
 }
 
-/// Uniform in the cone around +z of half-angle θ; `height` = 1 − cos θ, in [0, 2]. It is given instead of cos θ because
-/// cos θ of a small light (the sun: height 1.1e-5) has no digits left in a float.
+/// Uniform in the cone around +z with half-angle θ; `height` = 1 − cos θ, in [0, 2]. It is given instead of cos θ
+/// because 1 − cos θ of a small light (the sun: 1.1e-5) would cancel in a float.
 inline glm::vec3 square_to_uniform_cone(const glm::vec2& u, float height) {
     const float below_pole = u.x * height;
     const float sin_theta = std::sqrt(std::max(0.0f, below_pole * (2.0f - below_pole)));

@@ -1,7 +1,7 @@
 // The list of all BSDFs, and a BSDF of any kind by value.
 //
-// The members mean what bsdf/contract.hpp says. The frame, the meaning of `wo` and `wi` and the convention of radiance
-// are those of bsdf/sample.hpp.
+// bsdf/contract.hpp documents the members. The frame, `wo` and `wi`, and the convention for radiance are those of
+// bsdf/sample.hpp.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -23,8 +23,7 @@
 
 namespace phasetree::tracer {
 
-/// A kind of BSDF, once its contract has been asked of it. If it does not meet that, the message names the kind and the
-/// member.
+/// Checks a kind of BSDF against its concept. If the check fails, the compiler's message names the kind and the member.
 template <class Kind>
 struct CheckedBsdf {
     static_assert(BsdfKind<Kind>);
@@ -52,8 +51,8 @@ class Bsdf {
     float pdf(const glm::vec3& wo, const glm::vec3& wi) const {
         return std::visit([&](const auto& bsdf) { return bsdf.pdf(wo, wi); }, kind_);
     }
-    /// The density with which sample() of the same interface, met from the side of wi, would propose wo, as a path goes
-    /// that comes along this one backwards. It leaves delta lobes out, as pdf() does.
+    /// The pdf with which sample() of the same interface, met from the side of wi, proposes wo: that of a path which
+    /// follows this one backwards. Excludes delta lobes, like pdf().
     float reverse_pdf(const glm::vec3& wo, const glm::vec3& wi) const {
         return std::visit(
             [&](const auto& bsdf) {
@@ -67,12 +66,12 @@ class Bsdf {
     bool is_delta() const {
         return std::visit([](const auto& bsdf) { return bsdf.is_delta(); }, kind_);
     }
-    /// Whether it has a diffuse part, so that light from nearly any direction counts.
+    /// Whether it has a diffuse lobe, so that light from nearly any direction contributes.
     bool is_diffuse() const {
         return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<RoughDiffuseBsdf>(kind_) ||
                std::holds_alternative<CoatedDiffuseBsdf>(kind_);
     }
-    /// Whether it is metal's.
+    /// Whether it is a metal.
     bool is_metal() const {
         return std::holds_alternative<SmoothConductorBsdf>(kind_) || std::holds_alternative<RoughConductorBsdf>(kind_);
     }

@@ -11,10 +11,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Two places that are nearer to each other than this share of the largest coordinate differ mostly by rounding.
+// The difference of two points closer than this share of the largest coordinate is mostly rounding error.
 constexpr float least_half_distance = 1e-5f;
-// Bumped normals are turned until their cosine with the direction from which they are seen is about this, or that of
-// the surface's own normal where that is less.
+// Bumped normals are turned until their cosine with the viewing direction is about this, or that of the surface's own
+// normal if that is less.
 constexpr float least_cosine = 0.05f;
 
 }  // namespace

@@ -11,12 +11,13 @@ namespace phasetree::tracer {
 class Frame {
   public:
     explicit Frame(const glm::vec3& normal) : normal_(normal), basis_(normal) {}
-    /// Local x is the projection of `along`, of any length; where it has none, as of the other constructor.
+    /// Local x is the projection of `along`, which may have any length. If the projection vanishes, this is the frame
+    /// of the other constructor.
     Frame(const glm::vec3& normal, const glm::vec3& along) : Frame(normal) {
         const auto projected = [&](const glm::vec3& v) { return v - glm::dot(v, normal) * normal; };
         const glm::vec3 x = projected(along);
         if (!(glm::dot(x, x) > least_projection * glm::dot(along, along))) return;
-        // Once more, because of a short projection rounding leaves a part that is not across the normal.
+        // Project again: for a short projection, rounding leaves a component along the normal.
         basis_.tangent = glm::normalize(projected(glm::normalize(x)));
         basis_.bitangent = glm::cross(normal, basis_.tangent);
     }
@@ -30,7 +31,7 @@ class Frame {
     const glm::vec3& normal() const { return normal_; }
 
   private:
-    // The square of the sine below which a projection is mostly rounding.
+    // Square of the sine below which a projection is mostly rounding error.
     static constexpr float least_projection = 1e-8f;
 
     glm::vec3 normal_;

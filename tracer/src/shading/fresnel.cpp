@@ -10,17 +10,17 @@ DielectricFresnel fresnel_dielectric(float cos_theta, float eta) {
     const float sin2_transmitted = (1.0f - c) * (1.0f + c) / (eta * eta);
     if (!(sin2_transmitted < 1.0f)) return {1.0f, 0.0f};
     const float transmitted = std::sqrt(1.0f - sin2_transmitted);
-    // At c = 0 nothing gets in, whatever eta; for eta = 1 both would be 0/0.
+    // At c = 0 all light is reflected, whatever eta; for eta = 1 both would be 0/0.
     if (c == 0.0f) return {1.0f, transmitted};
     const float parallel = (eta * c - transmitted) / (eta * c + transmitted);
     const float perpendicular = (c - eta * transmitted) / (c + eta * transmitted);
     return {std::min(1.0f, 0.5f * (parallel * parallel + perpendicular * perpendicular)), transmitted};
 }
 
-// In doubles: the fourth powers of every float that η and k may be are finite in them.
+// Uses doubles, in which the fourth powers of any float η and k are finite.
 float fresnel_conductor(float cos_theta, float eta, float k) {
     const double c = std::clamp(cos_theta, 0.0f, 1.0f);
-    // At c = 0 nothing gets in; for η = 1, k = 0 it would be 0/0.
+    // At c = 0 all light is reflected; for η = 1, k = 0 it would be 0/0.
     if (c == 0) return 1.0f;
     const double n = eta, c2 = c * c, s2 = (1 - c) * (1 + c);
     // (a + ib)² = (η + ik)² − sin²θ

@@ -1,11 +1,11 @@
 // Fresnel's equations for unpolarised light.
 //
-// `eta` is always the index of what is behind the interface divided by the index of what the ray is in. With
-// c = cos θ, sin²θ' = (1 − c²)/η² and c' = cos θ':
+// `eta` is always the index behind the interface divided by the index on the ray's side. With c = cos θ, sin²θ' = (1 −
+// c²)/η² and c' = cos θ':
 //
 //   r∥ = (η c − c') / (η c + c'),   r⊥ = (c − η c') / (c + η c'),   F = (r∥² + r⊥²) / 2
 //
-// and the same with a complex η + ik for conductors, written out in reals.
+// and the same with a complex η + ik for conductors, written in real arithmetic.
 //
 // Reference: Born & Wolf, Principles of Optics, 7th ed., 1.5.2, 1.5.4 and 14.4.
 #pragma once
@@ -25,8 +25,8 @@ DielectricFresnel fresnel_dielectric(float cos_theta, float eta);
 float fresnel_conductor(float cos_theta, float eta, float k);
 glm::vec3 fresnel_conductor(float cos_theta, const glm::vec3& eta, const glm::vec3& k);
 
-/// k of the index 1 + ik, which reflects this part of the light at normal incidence: k² = 4 r / (1 − r). What reflects
-/// all of it has no such index, and is taken to reflect 0.9999.
+/// k of the index 1 + ik that reflects this part of the light at normal incidence: k² = 4 r / (1 − r). No such index
+/// reflects all light, so the reflectance is clamped to 0.9999.
 float k_of_reflectance(float reflectance);
 glm::vec3 k_of_reflectance(const glm::vec3& reflectance);
 

@@ -1,12 +1,12 @@
-// The strokes of brushed metal: a direction on the surface along which it is smoother than across. Highlights are drawn
-// out across the strokes, because the slopes of the microfacets lie across them.
+// The strokes of brushed metal: a direction on the surface along which it is smoother than across. Highlights are
+// elongated across the strokes because the microfacets slope in that direction.
 //
-// Strokes run along one direction, projected onto the surface, as those of a brush; or around an axis, as those of a
-// lathe: at p along axis × (p − through). Where that has no direction on the surface (where the surface is
-// perpendicular to the strokes, or on the axis) any direction is taken.
+// Strokes run along one direction, projected onto the surface, like those of a brush; or around an axis, like those of
+// a lathe: at p along axis × (p − through). If that has no direction on the surface (where the surface is perpendicular
+// to the strokes, or on the axis), an arbitrary direction is used.
 //
 // References: Ward, Measuring and Modeling Anisotropic Reflection, SIGGRAPH 1992; Heitz 2014 (sampling/ggx.hpp) for
-// microfacets that are stretched.
+// stretched microfacets.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -18,10 +18,10 @@
 namespace phasetree::tracer {
 
 struct Grain {
-    glm::vec3 axis{1.0f, 0.0f, 0.0f};    ///< along which the strokes run, or around which; in the object's own space,
-                                         ///< or in the scene's, of a mesh
-    std::optional<glm::vec3> through{};  ///< a point of the axis around which they run
-    float aspect = 0.2f;                 ///< the roughness along the strokes over that across, at most 1
+    glm::vec3 axis{1.0f, 0.0f, 0.0f};    ///< direction of the strokes, or axis around which they run; in object space,
+                                         ///< or in scene space for a mesh
+    std::optional<glm::vec3> through{};  ///< a point of the axis around which strokes run
+    float aspect = 0.2f;                 ///< roughness along the strokes over that across, at most 1
 
     /// The direction of the strokes, which may point out of the surface and has any length.
     glm::vec3 direction_at(const TexturePoint& place) const {

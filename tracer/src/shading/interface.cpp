@@ -13,7 +13,7 @@ ValueRange range_of(const Number& number) {
     return {least_of(number), greatest_of(number)};
 }
 
-// The part of a range of roughness that is not treated as smooth, which needs tables; none, if all of it is smooth.
+// The part of a range of roughness that is not treated as smooth and needs tables; nullopt if all of it is smooth.
 std::optional<ValueRange> rough_part(const ValueRange& roughness) {
     if (is_smooth(roughness.greatest)) return std::nullopt;
     return ValueRange{std::clamp(roughness.least, least_roughness, 1.0f), std::min(roughness.greatest, 1.0f)};
@@ -24,7 +24,7 @@ std::optional<FilmOfSurface> film_of(const std::optional<SurfaceFilm>& film) {
     return FilmOfSurface{film->ior, range_of(film->thickness)};
 }
 
-// An interface of two clear materials has one film.
+// An interface of two clear materials has only one film.
 const std::optional<SurfaceFilm>& thicker(const std::optional<SurfaceFilm>& a, const std::optional<SurfaceFilm>& b) {
     return !a || (b && greatest_of(b->thickness) > greatest_of(a->thickness)) ? b : a;
 }
@@ -33,7 +33,7 @@ Number thickness_of(const std::optional<SurfaceFilm>& film) {
     return film ? film->thickness : Number(0.0f);
 }
 
-// optics_of() gives the optics of each kind of material, seen from within a clear one.
+// optics_of() makes the optics of each kind of material, seen from inside a clear one.
 
 Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& shared) {
     const std::optional<SurfaceFilm>& film = thicker(from.film, to.film);
@@ -89,18 +89,19 @@ Bsdf dispersive_bsdf(const Interface::ClearOptics::Dispersive& sides, float hero
     return SmoothDielectricBsdf(index(sides.from, sides.from_ior), index(sides.to, sides.to_ior));
 }
 
-// The second of a mixture's materials is chosen where this number is below its amount. A mixture within a mixture is of
-// the next level, and has a number of its own.
+// The second of a mixture's materials is chosen where this number is below its amount. A mixture inside a mixture is on
+// the next level, with a number of its own.
 float threshold_at(const TexturePoint& p, std::uint32_t level) {
     return hash_to_unit(hash_of(p.position, p.copy, level));
 }
 
-// bsdf_of() gives the BSDF of each kind of optics at a place, for light of wavelengths or, without any, of colours.
+// bsdf_of() makes the BSDF of each kind of optics at a point, for spectral light or, if `wavelengths` is null, for
+// colours.
 
 Bsdf bsdf_of(const Interface::ClearOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     const float thickness = number_at(optics.thickness, p);
-    // Between equal indices there is at most a film. What passes it goes straight on, however rough it is, and there is
-    // no microfacet that would send it there.
+    // Between equal indices there is at most a film. Light that passes it goes straight on, however rough it is, and no
+    // microfacet would refract it there.
     if (optics.surface->eta() == 1.0f) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);
     const float roughness = std::max(number_at(optics.from, p), number_at(optics.to, p));
     if (is_smooth(roughness)) return SmoothDielectricBsdf(*optics.surface, thickness, wavelengths);

@@ -1,9 +1,8 @@
-// What a scene says of a phase or a mesh, as plain values. A material is the optics of a surface, and of a clear one
-// also the medium inside: light travels in phases of clear materials, and ends at the surface of all others.
+// The description of a phase or a mesh in a scene, as plain values. A material is the optics of a surface and, if it is
+// clear, also the medium inside: light travels in phases of clear materials, and ends at the surface of all others.
 //
-// `roughness` is, but for what is diffuse, the α of GGX: 0 is polished, 0.1 satin, 0.5 matt; roughness.hpp says below
-// which a surface is treated as perfectly smooth. What the surface between two materials does is in
-// interface.hpp.
+// `roughness`, except that of diffuse materials, is the α of GGX: 0 is polished, 0.1 satin, 0.5 matt. roughness.hpp has
+// the threshold below which a surface is perfectly smooth. interface.hpp derives the surface between two materials.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +25,7 @@
 
 namespace phasetree::tracer {
 
-/// A film of some hundred nanometres on a surface, which shows colours by interference: thin_film.hpp.
+/// A film of some hundred nanometres on a surface, which shows interference colours: thin_film.hpp.
 struct SurfaceFilm {
     Number thickness = 0.0f;  ///< in nanometres
     float ior = 1.33f;
@@ -34,11 +33,11 @@ struct SurfaceFilm {
 
 /// Vacuum, air, water, glass.
 struct Clear {
-    float ior = 1.0f;   ///< the refractive index against vacuum, greater than 0
-    Medium interior{};  ///< what rays travel through inside
+    float ior = 1.0f;   ///< refractive index relative to vacuum, positive
+    Medium interior{};  ///< the medium through which rays travel inside
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
-    /// How the index changes with the wavelength, and then `ior` is that at the line d; not at all without it.
+    /// The dispersion of the index, in which case `ior` is that at the d line; nullopt for a constant index.
     std::optional<Dispersion> dispersion{};
 
     float ior_for(const Wavelengths* wavelengths) const {
@@ -52,16 +51,16 @@ struct Diffuse {
     std::optional<NormalPerturbation> perturbation{};
 };
 
-/// Metal, with the complex index against vacuum; metals.hpp has measured ones.
+/// Metal, with the complex index relative to vacuum; metals.hpp has measured ones.
 struct Conductor {
     glm::vec3 eta{1.0f};
     glm::vec3 k{0.0f};
     Number roughness = 0.0f;
     std::optional<SurfaceFilm> film{};
-    std::span<const MetalPoint> spectrum{};  ///< of a measured one, for light of wavelengths; it stays where it is
+    std::span<const MetalPoint> spectrum{};  ///< of a measured metal, for spectral light; not owned
     std::optional<NormalPerturbation> perturbation{};
-    std::optional<Grain> grain{};          ///< then `roughness` is that across it
-    std::optional<Texture> reflectance{};  ///< at normal incidence, instead of the index; then there is no film
+    std::optional<Grain> grain{};          ///< if set, `roughness` is that across it
+    std::optional<Texture> reflectance{};  ///< at normal incidence, instead of the index; excludes a film
 };
 
 /// A diffuse base under a clear coat: varnished or glazed.
@@ -73,26 +72,26 @@ struct Coated {
     std::optional<NormalPerturbation> perturbation{};
 };
 
-/// What shines by itself: embers, lava, a filament, a screen. Its surface sends the radiance `radiance` · `light` to
-/// all directions of a vacuum, and n² times that within a clear material of index n, as what is hot does: through
-/// smooth glass that touches it, it looks as bright as without the glass, but for what the glass reflects. What falls
-/// on it is reflected diffusely.
+/// An emissive surface: embers, lava, a filament, a screen. It emits the radiance `radiance` · `light` in all
+/// directions into vacuum, and n² times that inside a clear material of index n, as hot bodies do: through smooth glass
+/// that touches it, it looks as bright as without the glass, except for reflection losses. It reflects incident light
+/// diffusely.
 struct Glowing {
     Texture light = ConstantTexture{glm::vec3(1.0f)};
     float radiance = 1;
     Texture color = ConstantTexture{glm::vec3(0.0f)};
-    SharedLightSpectrum spectrum{};  ///< of the light, if it is known; then only the brightness of `light` counts
+    SharedLightSpectrum spectrum{};  ///< of the light, if known; then only the brightness of `light` is used
     std::string group{};             ///< of lights
     std::uint32_t group_number = 0;  ///< in Lights::groups()
 };
 
 struct Mixture;
 
-/// One of two materials at each place, neither clear nor glowing: paint and the metal under it, iron and rust. Where
-/// `amount` is between 0 and 1 both are there, as finely mixed as places can be told apart.
+/// One of two materials at each point, neither clear nor emissive: paint and the metal under it, iron and rust. Where
+/// `amount` is between 0 and 1, both are mixed as finely as positions can be resolved.
 struct Mix {
     std::shared_ptr<const Mixture> of{};
-    Number amount = 0.5f;  ///< how much of the second
+    Number amount = 0.5f;  ///< share of the second
 };
 
 /// Every kind of material.
@@ -102,8 +101,7 @@ struct Mixture {
     Material first, second;
 };
 
-/// Whether one of its textures, or of its numbers that change from place to place, is of a kind, or has one of the kind
-/// in it.
+/// Whether one of its textures, or of its varying numbers, is of a kind or contains one of the kind.
 template <class Wanted>
 bool has_texture(const Material& material) {
     return std::visit(
@@ -127,7 +125,7 @@ bool has_texture(const Material& material) {
         material);
 }
 
-/// Its map of normals, if it has one; of a mixture that of the first that has one.
+/// Its normal map, or null; for a mixture, the first one.
 inline const NormalMap* normal_map_of(const Material& material) {
     return std::visit(
         [](const auto& kind) -> const NormalMap* {
@@ -143,7 +141,7 @@ inline const NormalMap* normal_map_of(const Material& material) {
         material);
 }
 
-/// Whether some of it is metal.
+/// Whether part of it is metal.
 inline bool has_metal(const Material& material) {
     const Mix* const mix = std::get_if<Mix>(&material);
     return mix ? has_metal(mix->of->first) || has_metal(mix->of->second) : std::holds_alternative<Conductor>(material);
@@ -153,7 +151,7 @@ inline Material vacuum() {
     return Clear{};
 }
 
-/// Whether it shines, which a glowing one does not whose light is black everywhere.
+/// Whether it emits; false for an emissive material whose light is black everywhere.
 inline bool glows(const Material& material) {
     const Glowing* glowing = std::get_if<Glowing>(&material);
     if (!glowing) return false;
@@ -161,7 +159,7 @@ inline bool glows(const Material& material) {
     return !light || light->color != glm::vec3(0.0f);
 }
 
-/// Whether its surface shines, or the medium inside.
+/// Whether its surface emits, or the medium inside.
 inline bool shines(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
     return clear ? shines(clear->interior) : glows(material);

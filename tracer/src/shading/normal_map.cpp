@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 glm::vec3 NormalMap::normal_at(const TexturePoint& place) const {
     if (!place.mesh || place.mesh->tangent == glm::vec3(0.0f)) return place.normal;
     glm::vec3 n = 2.0f * image->at(place.mesh->uv * repeat) - 1.0f;
-    // An image that stands mirrored has its right side where the mesh has its left one.
+    // In a mirrored image, right is the mesh's left.
     n.x *= repeat.x < 0.0f ? -strength : strength;
     n.y *= (repeat.y < 0.0f) != green_down ? -strength : strength;
     const glm::vec3 mapped = n.x * place.mesh->tangent + n.y * place.mesh->bitangent + n.z * place.normal;

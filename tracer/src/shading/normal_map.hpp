@@ -1,10 +1,10 @@
-// Normal mapping: light is scattered as if the surface had the normals that an image has, and nothing is moved. Where
-// the image's red, green and blue are c, each in [0, 1], the normal is that of
+// Normal mapping: light is scattered as if the surface had the normals given by an image, without moving geometry.
+// Where the image's red, green and blue are c, each in [0, 1], the normal is that of
 //     n' = x T + y B + z N,   (x, y, z) = 2 c − 1,
-// in a frame of unit vectors: N is the surface's own shading normal, T points to the image's right and is made
+// in a frame of unit vectors. N is the surface's own shading normal, T points to the image's right and is made
 // perpendicular to N, and B is perpendicular to both, towards the image's upper edge. Seen from behind, n' is negated.
 //
-// T comes from the mesh (scene/mesh_tangents.hpp), because two triangles that share an edge must have the same there.
+// T comes from the mesh (scene/mesh_tangents.hpp) because two triangles that share an edge must have the same T there.
 //
 // Reference: Cohen, Olano & Manocha, Appearance-Preserving Simplification, SIGGRAPH 1998.
 #pragma once
@@ -30,7 +30,7 @@ struct NormalMap {
     glm::vec2 repeat{1.0f};
     float strength = 1.0f;
     bool green_down = false;
-    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+    std::shared_ptr<const TextureImage> image{};  // set once it is prepared
 
     template <class V>
     static void parameters(V&& v) {
@@ -47,8 +47,8 @@ struct NormalMap {
     }
     void prepare() { image = load_texture_image(file, ImageMeaning::numbers); }
 
-    /// The mapped normal at a place, of unit length, in the space of textures, on the side of place.normal; that
-    /// itself if the place has no tangent.
+    /// The mapped normal at a point, of unit length, in texture space, on the side of place.normal. Returns
+    /// place.normal if the point has no tangent.
     glm::vec3 normal_at(const TexturePoint& place) const;
 };
 

@@ -1,4 +1,4 @@
-// What turns the normal by which a surface scatters light, and moves nothing: bumps, or an image of normals.
+// Perturbation of shading normals without moving geometry: bumps, or a normal map.
 #pragma once
 
 #include <variant>
@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 using NormalPerturbation = std::variant<Bump, NormalMap>;
 
-/// The turned normal at a place, of unit length, in the space of textures; place.normal is the surface's own.
+/// The perturbed normal at a point, of unit length, in texture space; place.normal is the surface's own.
 inline glm::vec3 perturbed_normal(const NormalPerturbation& perturbation, const TexturePoint& place) {
     return std::visit([&](const auto& kind) { return kind.normal_at(place); }, perturbation);
 }

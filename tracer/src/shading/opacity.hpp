@@ -1,4 +1,4 @@
-// How much of a mesh is there at each place, as leaves and fences are cut out of rectangles by an image.
+// Partial coverage of a mesh, such as leaves and fences cut out of rectangles by an image.
 #pragma once
 
 #include <optional>

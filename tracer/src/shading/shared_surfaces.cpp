@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What was made with this key, or what `make` makes now.
+// Returns the value cached for this key, or makes it.
 template <class Made, class Key, class Make>
 auto found_or_made(Made& made, const Key& key, const Make& make) {
     const auto found = std::ranges::find(made, key, &Made::value_type::first);

@@ -1,4 +1,4 @@
-// Surfaces with their tables, each made once, however many interfaces have the like.
+// A cache of surfaces and their tables, shared by equal interfaces.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,11 @@
 
 namespace phasetree::tracer {
 
-/// It is used while a scene's interfaces are made, in one thread. Who makes those of one scene after another, which
-/// differ little, may keep it from one to the next.
+/// Used by one thread while a scene's interfaces are made. It may be kept between scenes that differ little.
 class SharedSurfaces {
   public:
-    /// To be called between scenes. Forgets those that nobody else has any more, and all dielectrics: they are made of
-    /// one another, so that their last bits would depend on the scenes before. Their films are kept.
+    /// Call this between scenes. Discards surfaces that are no longer in use elsewhere, and all dielectrics: they are
+    /// made from one another, so their last bits would depend on earlier scenes. Their films are kept.
     void begin_scene();
     std::shared_ptr<const DielectricSurface> dielectric(float ior_from, float ior_to,
                                                         const std::optional<ValueRange>& roughness,
@@ -33,7 +32,7 @@ class SharedSurfaces {
                                                  const std::optional<FilmOfSurface>& film);
 
   private:
-    // What a surface is made of. `ior_from` is that of the side from which it is seen.
+    // What a surface is made from. `ior_from` is that of the side from which it is seen.
     struct Dielectric {
         float ior_from, ior_to;
         std::optional<ValueRange> roughness;

@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// What of the film depends on the angle alone: r₁₂, r₂₃ of both polarisations, and q₂.
+// The part of the film's optics that depends only on the angle: r₁₂, r₂₃ of both polarisations, and q₂.
 struct Faces {
     Complex outer[2], inner[2], inside;
 
@@ -35,8 +35,8 @@ struct Faces {
         inside = q[1];
     }
 
-    // Whether nothing absorbs and nothing is reflected totally. Then the faces' coefficients have no phase, and Airy's
-    // sum is one of real numbers, with |e^{iδ}| = 1:  |a + b e^{iδ}|² = a² + b² + 2ab cos δ.
+    // Whether there is neither absorption nor total reflection. Then the faces' coefficients have no phase, and Airy's
+    // sum is real, with |e^{iδ}| = 1:  |a + b e^{iδ}|² = a² + b² + 2ab cos δ.
     bool is_real() const {
         const auto imaginary = [](const Complex& z) { return z.imag() != 0.0; };
         return !imaginary(inside) && !imaginary(outer[0]) && !imaginary(outer[1]) && !imaginary(inner[0]) &&
@@ -65,7 +65,7 @@ struct Faces {
 
 glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeight>& weights, double cos_theta,
                  double thickness) {
-    // Grazing light is all reflected; there the formulas are 0/0.
+    // All grazing light is reflected; the formulas would be 0/0.
     if (!(cos_theta > 0.0)) return glm::vec3(1.0f);
     const bool grey = layers.eta == glm::vec3(layers.eta.x) && layers.k == glm::vec3(layers.k.x);
     glm::dvec3 sum(0.0);
@@ -94,7 +94,8 @@ double thin_film_reflectance(double outside, double film, double behind_eta, dou
 
 ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness)
     : layers_(layers), least_(least_thickness) {
-    // R swings once in λ/(2 n₂), some 150 nm; linear interpolation over this step is off by less than a thousandth.
+    // R oscillates with the period λ/(2 n₂), some 150 nm; the error of linear interpolation over this step is less than
+    // a thousandth.
     constexpr float widest_step = 4.0f;
     const float range = greatest_thickness - least_thickness;
     const int intervals = range > 0.0f ? static_cast<int>(std::ceil(range / widest_step)) : 0;
@@ -106,7 +107,7 @@ ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_t
         for (std::size_t i = 0; i < cosines; ++i) {
             const double cosine = static_cast<double>(i) / (cosines - 1);
             table_.push_back(colour(layers, weights, cosine, thickness));
-            // The trapezoidal rule for 2 ∫ R μ dμ; both of its ends are there, and μ is 0 at the first.
+            // Trapezoidal rule for 2 ∫ R μ dμ. Both ends are included, and μ is 0 at the first.
             sum += 2.0 * cosine * glm::dvec3(table_.back()) * (i + 1 == cosines ? 0.5 : 1.0) / (cosines - 1.0);
         }
         averages_.emplace_back(sum);

@@ -1,5 +1,5 @@
-// A film thinner than some wavelengths of light on an interface: oil on water, the skin of a soap bubble, the oxide on
-// a metal. What is reflected at its two faces interferes, and so much the more or less as the wavelength has it.
+// A film thinner than a few wavelengths of light on an interface: oil on water, a soap bubble, the oxide on a metal.
+// The reflections of its two faces interfere, depending on the wavelength.
 //
 // With the indices n₁ outside, n₂ of the film and n₃ = η + ik behind it, qⱼ = √(nⱼ² − n₁² sin²θ) and the thickness d,
 //
@@ -7,12 +7,11 @@
 //     s: rⱼₖ = (qⱼ − qₖ)/(qⱼ + qₖ),   p: rⱼₖ = (nₖ² qⱼ − nⱼ² qₖ)/(nₖ² qⱼ + nⱼ² qₖ)
 //     R = (|rₛ|² + |rₚ|²)/2, for each colour the mean of R(λ) by colour_matching.hpp
 //
-// A film absorbs nothing: behind it arrives 1 − R. It is so thin that it displaces no ray; what is refracted goes where
-// it would without it. Indices do not change with the wavelength, but for a metal's.
-// Colours beyond what red, green and blue can show are clipped to [0, 1].
+// A film does not absorb: 1 − R is transmitted. It is too thin to displace rays; refraction is the same as without it.
+// Indices do not depend on the wavelength, except those of metals. Colours outside of the gamut are clipped to [0, 1].
 //
 // The colours of R are tabulated over cos θ in the medium outside and, if the thickness varies, over the thickness.
-// Light of wavelengths has R(λ) itself.
+// Spectral light uses R(λ) itself.
 //
 // References: Born & Wolf, Principles of Optics, 7th ed., 1.6.4; Belcour & Barla, A Practical Extension to Microfacet
 // Theory for the Modeling of Varying Iridescence, SIGGRAPH 2017 (why the spectrum must be integrated).
@@ -37,16 +36,16 @@ class ThinFilm {
 
     ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness);
 
-    /// R, for light that arrives outside at an angle of that cosine.
+    /// R for light that arrives outside at an angle with that cosine.
     glm::vec3 reflectance(float cos_theta, float thickness) const;
-    /// R at three wavelengths in nanometres, exactly, before a substance of these indices at each of them.
+    /// The exact R at three wavelengths in nanometres. `eta` and `k` are the indices behind the film at each of them.
     glm::vec3 reflectance_at(const glm::vec3& nanometres, const glm::vec3& eta, const glm::vec3& k, float cos_theta,
                              float thickness) const;
-    /// The same before what was given as `Layers`, if that is alike for all colours.
+    /// As above, with the indices of `Layers`, which must be the same for all colours.
     glm::vec3 reflectance_at(const glm::vec3& nanometres, float cos_theta, float thickness) const {
         return reflectance_at(nanometres, layers_.eta, layers_.k, cos_theta, thickness);
     }
-    /// 2 ∫ R μ dμ, the same under uniform light from outside.
+    /// 2 ∫ R μ dμ, the reflectance under uniform light from outside.
     glm::vec3 average(float thickness) const;
 
   private:
@@ -56,11 +55,11 @@ class ThinFilm {
 
     Layers layers_;
     float least_, step_ = 1.0f;
-    std::vector<glm::vec3> table_;     ///< rows of `cosines` from cos θ = 0 to 1, one a thickness
-    std::vector<glm::vec3> averages_;  ///< one a thickness
+    std::vector<glm::vec3> table_;     ///< rows of `cosines` values from cos θ = 0 to 1, one per thickness
+    std::vector<glm::vec3> averages_;  ///< one per thickness
 };
 
-/// R of one wavelength in nanometres, exactly; `behind_eta` + i `behind_k` is n₃.
+/// The exact R of one wavelength in nanometres; `behind_eta` + i `behind_k` is n₃.
 double thin_film_reflectance(double outside, double film, double behind_eta, double behind_k, double cos_theta,
                              double thickness, double wavelength);
 

@@ -1,4 +1,4 @@
-// Source: CIE 15:2004, Colorimetry, table T.4, in steps of 5 nm, between which section 7.2.3 has linear interpolation.
+// Source: CIE 15:2004, Colorimetry, table T.4, in steps of 5 nm. Section 7.2.3 specifies linear interpolation.
 #include "spectrum/colour_matching.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// How a spectrum becomes a colour: CIE's colour matching functions of 1931 for a field of 2 degrees, and Rec.709's red,
-// green and blue by them.
+// Converts spectra to colours: the CIE 1931 colour matching functions (2° observer), and the red, green and blue of
+// Rec.709.
 //
 // Reference: ITU-R BT.709-6, item 1.4 (the primaries, from which the matrix follows).
 #pragma once
@@ -20,14 +20,14 @@ inline glm::dvec3 rec709_from_xyz(const glm::dvec3& xyz) {
             0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
 }
 
-/// A wavelength, and how much it counts for red, green and blue.
+/// A wavelength, and its weights for red, green and blue.
 struct SpectralWeight {
     double wavelength;
     glm::dvec3 weight;
 };
 
-/// Weights by which light of D65 is as much red as green and blue: those of each colour add up to 1. Some are negative,
-/// as Rec.709's primaries do not hold all colours.
+/// Weights for which D65 is white: those of each colour add up to 1. Some are negative, because Rec.709's primaries do
+/// not span all colours.
 inline std::vector<SpectralWeight> spectral_weights() {
     constexpr double first = 380.0, last = 780.0, step = 2.0;
     std::vector<SpectralWeight> weights;

@@ -1,4 +1,4 @@
-// Source: CIE 15:2004, Colorimetry, table T.1, every second row. The rows between are linear between these.
+// Source: CIE 15:2004, Colorimetry, table T.1, every second row. The omitted rows follow by linear interpolation.
 #include "spectrum/daylight.hpp"
 
 #include <array>

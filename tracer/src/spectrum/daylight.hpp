@@ -1,9 +1,9 @@
-// CIE's illuminant D65: noon daylight, the white of Rec.709's screens.
+// CIE illuminant D65: noon daylight, and the white of Rec.709.
 #pragma once
 
 namespace phasetree::tracer {
 
-/// In proportion to power per nanometre, at a wavelength in nanometres: 100 at 560 nm.
+/// Relative power per nanometre, at a wavelength in nanometres: 100 at 560 nm.
 double daylight_at(double wavelength);
 
 }  // namespace phasetree::tracer

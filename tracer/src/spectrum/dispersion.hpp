@@ -1,8 +1,8 @@
-// How the refractive index changes with the wavelength, by Sellmeier's equation
-//     n² = 1 + Σ Bᵢ λ²/(λ² − Cᵢ),   λ and √Cᵢ in micrometres, in vacuum and air alike,
-// of which glasses.hpp has measured coefficients; or by Cauchy's, n = A + B/λ², from the two numbers by which glass is
-// sold: the index n_d at Fraunhofer's line d (587.56 nm), and Abbe's number V = (n_d − 1)/(n_F − n_C) with the lines
-// F (486.13 nm) and C (656.27 nm).
+// Dispersion: the refractive index by wavelength. By Sellmeier's equation,
+//     n² = 1 + Σ Bᵢ λ²/(λ² − Cᵢ),   λ and √Cᵢ in micrometres, without distinguishing vacuum and air,
+// with the measured coefficients of glasses.hpp; or by Cauchy's, n = A + B/λ², from the two numbers in glass
+// catalogues: the index n_d at Fraunhofer's d line (587.56 nm), and Abbe's number V = (n_d − 1)/(n_F − n_C) with the
+// lines F (486.13 nm) and C (656.27 nm).
 //
 // References: Born & Wolf, Principles of Optics, 7th ed., 2.3.4 and 4.7.1.
 #pragma once
@@ -22,7 +22,7 @@ class Dispersion {
     using Sellmeier = std::array<Term, 4>;
 
     explicit Dispersion(const Sellmeier& terms) : terms_(terms) {}
-    /// Cauchy's. Abbe's number is positive.
+    /// Cauchy's equation. Abbe's number must be positive.
     Dispersion(double index_at_d, double abbe_number) {
         constexpr double d = wavelength_of_d_line * 1e-3, f = 0.4861327, c = 0.6562725;
         b_ = (index_at_d - 1.0) / abbe_number / (1.0 / (f * f) - 1.0 / (c * c));
@@ -39,7 +39,7 @@ class Dispersion {
 
   private:
     Sellmeier terms_{};
-    double a_ = 0.0, b_ = 0.0;  ///< Cauchy's; a is 0 where Sellmeier's terms count
+    double a_ = 0.0, b_ = 0.0;  ///< Cauchy's; a is 0 if Sellmeier's terms apply
 };
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// Coefficients of Sellmeier's equation for the substances that scene files name.
+// Coefficients of Sellmeier's equation for the named substances of scene files.
 //
 // Sources:
 // - bk7, f2, sf11: Schott, optical glass data sheets (N-BK7, F2, N-SF11), 2017.

@@ -1,4 +1,4 @@
-// Clear substances whose dispersion was measured, by name.
+// Clear substances with measured dispersion, by name.
 #pragma once
 
 #include <optional>

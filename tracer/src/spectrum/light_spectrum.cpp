@@ -13,7 +13,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Between these D65 is known. A nanometre is finer than the points of D65; lines are spread over one or two.
+// D65 is known between these. Steps of a nanometre are finer than the table of D65; narrow lines are spread over one or
+// two steps.
 constexpr int first_nanometre = 380, last_nanometre = 780;
 
 Spectrum relative_to_daylight(const Spectrum& power) {
@@ -22,7 +23,7 @@ Spectrum relative_to_daylight(const Spectrum& power) {
         const double middle = nm + 0.5;
         means.push_back(power.mean_around(middle) / daylight_at(middle));
     }
-    // Divided by the greatest, the numbers are good floats whatever the unit is.
+    // Dividing by the maximum keeps the numbers in the range of floats, whatever their unit.
     const double greatest = *std::ranges::max_element(means);
     std::vector<Spectrum::Point> points;
     for (std::size_t i = 0; i < means.size(); ++i)
@@ -44,7 +45,8 @@ LightSpectrum::LightSpectrum(const Spectrum& power)
 LightSpectrum LightSpectrum::of_temperature(float kelvin) {
     std::vector<Spectrum::Point> points;
     const auto exponent = [&](double nm) { return planck_exponent(nm, static_cast<double>(kelvin)); };
-    // Divided by the power at 780 nm, all are good floats from 500 K on, which is the least that scene files may say.
+    // Dividing by the power at 780 nm keeps all numbers in the range of floats from 500 K on, the minimum in scene
+    // files.
     const double reference = exponent(last_nanometre);
     for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {
         const double ratio =

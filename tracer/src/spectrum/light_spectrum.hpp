@@ -1,12 +1,12 @@
-// How the power of a light is spread over the wavelengths: by measured points, or as what is hot shines, by Planck's
-// law (planck.hpp) at a temperature in kelvin: a candle has 1,900, a light bulb 2,700, a halogen lamp 3,000.
+// The spectral distribution of a light: measured points, or a black body by Planck's law (planck.hpp) at a temperature
+// in kelvin: a candle has 1,900, a light bulb 2,700, a halogen lamp 3,000.
 //
-// Only its shape counts. How bright the light is, is said as for any other, as a radiance in red, green and blue, of
-// which the luminance is kept and the colour replaced. Light of all spectra is relative to D65 (wavelength.hpp), so a
-// light of wavelengths has the luminance times
-//     S(λ)/D65(λ), scaled so that its luminance is 1,
-// and one of colours that spectrum's colour. What of that is negative, because red, green and blue cannot mix the
-// colour, is 0.
+// Only the shape of the spectrum is used. The brightness of the light is specified as for any other light, by a
+// radiance in red, green and blue: its luminance is kept and its colour replaced. Spectral light is relative to D65
+// (wavelength.hpp), so for a spectral path the light is the luminance times
+//     S(λ)/D65(λ), scaled to the luminance 1,
+// and for other paths it has the colour of that spectrum. Components that are negative, because red, green and blue
+// cannot mix the colour, are set to 0.
 //
 // Temperatures: Wyszecki & Stiles, Color Science, 2nd ed., 1982, section 1.2.
 #pragma once
@@ -20,29 +20,29 @@ namespace phasetree::tracer {
 
 class LightSpectrum {
   public:
-    /// `power` is per nanometre, in any unit, and above 0 somewhere in the visible; else visible() is false.
+    /// `power` is per nanometre, in any unit. If it is 0 in the whole visible range, visible() is false.
     explicit LightSpectrum(const Spectrum& power);
     static LightSpectrum of_temperature(float kelvin);
 
     bool visible() const { return visible_; }
-    /// Of luminance 1.
+    /// With luminance 1.
     const glm::vec3& colour() const { return colour_; }
-    /// S/D65 at a wavelength, of luminance 1.
+    /// S/D65 at a wavelength, with luminance 1.
     float relative_at(float nanometres) const { return relative_.at(nanometres); }
-    /// What a light of this spectrum sends that has the luminance of the colour `rgb`: at a path's wavelengths, or in
-    /// red, green and blue.
+    /// The emission with this spectrum and the luminance of the colour `rgb`, at a path's wavelengths, or in red, green
+    /// and blue.
     glm::vec3 light(const glm::vec3& rgb, const Wavelengths* wavelengths) const;
 
   private:
-    Spectrum relative_;  ///< S/D65, of luminance 1
+    Spectrum relative_;  ///< S/D65, with luminance 1
     glm::vec3 colour_;
     bool visible_;
 };
 
-/// None for a light that has only a colour.
+/// Null for a light that has only a colour.
 using SharedLightSpectrum = std::shared_ptr<const LightSpectrum>;
 
-/// The light of a colour as a path takes it, of this spectrum if there is one.
+/// The light of a colour in the components of a path, with the given spectrum unless that is null.
 inline glm::vec3 light_of(const glm::vec3& rgb, const SharedLightSpectrum& spectrum, const Wavelengths* wavelengths) {
     return spectrum ? spectrum->light(rgb, wavelengths) : for_light(rgb, wavelengths);
 }

@@ -1,5 +1,4 @@
-// A table of evenly spaced values, which is linear between these, and beyond the first and the last one is what it is
-// there.
+// Linear interpolation in a table of evenly spaced values, constant beyond both ends.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-/// The value at a position counted in steps from the first: 1.5 is halfway between the second and the third. T is
+/// The value at a position, in steps from the first value: 1.5 is halfway between the second and the third. T is
 /// double, or a vector of doubles.
 template <class T, std::size_t count>
 T linear_between(const std::array<T, count>& values, double position) {

@@ -1,4 +1,4 @@
-// Planck's law: what is hot sends at a wavelength λ in proportion to
+// Planck's law: the emission of a black body at a wavelength λ is proportional to
 //     B(λ, T) ∝ λ⁻⁵/(exp(c₂/(λ T)) − 1),   c₂ = 1.4388·10⁷ nm K,
 // at the temperature T in kelvin. Reference: CODATA 2018 (c₂).
 #pragma once
@@ -13,7 +13,7 @@ inline double planck_exponent(double nanometres, double kelvin) {
     return second_radiation_constant / (nanometres * kelvin);
 }
 
-/// B(λ, T) over B(λ, reference), temperatures in kelvin; 0 for 0 K.
+/// B(λ, T) over B(λ, reference), with temperatures in kelvin; 0 for 0 K.
 inline double planck_ratio(double nanometres, double kelvin, double reference) {
     if (!(kelvin > 0)) return 0;
     return std::expm1(planck_exponent(nanometres, reference)) / std::expm1(planck_exponent(nanometres, kelvin));

@@ -1,4 +1,4 @@
-// The table is what tracer/color/upsampling.py prints, which says how it is computed; the idea is that of Mallett &
+// The table is the output of tracer/color/upsampling.py, which documents the computation. The idea is that of Mallett &
 // Yuksel, Spectral Primary Decomposition for Rendering with sRGB Reflectance, EGSR 2019.
 #include "spectrum/primaries.hpp"
 

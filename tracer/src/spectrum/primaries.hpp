@@ -1,6 +1,6 @@
-// How a colour becomes a spectrum. What is given as red, green and blue is at the wavelength λ
+// Converts colours to spectra. At the wavelength λ, a colour given as red, green and blue is
 //     red ρ_r(λ) + green ρ_g(λ) + blue ρ_b(λ)
-// with three spectra ρ, one for each of Rec.709's primaries, that add up to 1, and whose own colours in D65 are exactly
+// with three spectra ρ, one for each of Rec.709's primaries. They add up to 1, and their own colours in D65 are exactly
 // red, green and blue: white stays white, no colour reflects more than all light, and the mean over wavelengths of
 // every colour is that colour.
 #pragma once

@@ -1,5 +1,5 @@
-// A number for each wavelength, as it was measured or as a scene file gives it: points, between which it is linear, and
-// beyond which it is what it is at the first and the last one.
+// A spectrum that is measured or given in a scene file: points with linear interpolation, constant beyond the first and
+// the last one.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,17 +16,17 @@ class Spectrum {
         float nanometres, value;
     };
 
-    /// One point at least. Wavelengths rise from each to the next.
+    /// There must be at least one point. Wavelengths must be increasing.
     explicit Spectrum(std::vector<Point> points);
 
     float at(float nanometres) const;
-    /// Its mean over the nanometre around a wavelength, so that lines narrower than a nanometre count, too.
+    /// The mean over the nanometre around a wavelength, so that lines narrower than a nanometre count, too.
     double mean_around(double nanometres) const;
-    /// At each of a path's wavelengths.
+    /// The values at each of a path's wavelengths.
     glm::vec3 at(const Wavelengths& wavelengths) const;
     float greatest() const;
-    /// Red, green and blue of white light, D65, times it: what is reflected, if it is a reflectance. Of colours that
-    /// are beyond what red, green and blue can mix some are negative.
+    /// Red, green and blue of D65 times the spectrum: the reflected colour, if it is a reflectance. Components are
+    /// negative for colours outside of the gamut.
     const glm::vec3& colour() const { return colour_; }
 
   private:

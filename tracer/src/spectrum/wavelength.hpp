@@ -1,9 +1,9 @@
-// One wavelength of light, chosen at random, and how much it counts for red, green and blue.
+// A randomly chosen wavelength of light, and its contribution to red, green and blue.
 //
-// With the wavelength λ chosen by the density p, and the light L(λ) found there, a path brings to each of the three
+// If the wavelength λ is chosen with the pdf p, and the light L(λ) is found there, a path contributes to each component
 //     L(λ) w(λ)/p(λ),   ∫ w dλ = 1,
-// where w is how much a wavelength counts for red, green or blue: CIE's colour matching functions, as Rec.709 has them,
-// times the white of its screens, CIE's illuminant D65. So L is relative to D65.
+// where w is the weight of a wavelength for red, green or blue: the CIE colour matching functions, converted to
+// Rec.709, times its white, the CIE illuminant D65. So L is relative to D65.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace phasetree::tracer {
 
-/// The wavelength of Fraunhofer's line d in nanometres, for which tables give indices.
+/// The wavelength of Fraunhofer's d line in nanometres, at which tables list indices.
 inline constexpr float wavelength_of_d_line = 587.5618f;
 
 struct Wavelength {
     float nanometres = wavelength_of_d_line;
     glm::vec3 primaries{1.0f / 3.0f};  ///< ρ of primaries.hpp at this wavelength
-    glm::vec3 response{1.0f};          ///< w/p: what light of this wavelength brings to red, green and blue
+    glm::vec3 response{1.0f};          ///< w/p: the contribution of light at this wavelength to red, green and blue
 };
 
-/// How wavelengths are chosen: p, the same within each nanometre.
+/// The distribution of wavelengths: a pdf p that is constant in each nanometre.
 class WavelengthDistribution {
   public:
-    /// In proportion to the sum of |w| over red, green and blue.
+    /// Proportional to the sum of |w| over red, green and blue.
     WavelengthDistribution();
-    /// In proportion to that sum times light(λ), how strong the light of a scene is relative to D65. It must be more
-    /// than 0 from 380 to 780 nm.
+    /// Proportional to that sum times light(λ), the strength of a scene's light relative to D65. It must be positive
+    /// from 380 to 780 nm.
     explicit WavelengthDistribution(const std::function<double(double)>& light);
 
-    /// The wavelength that u in [0, 1) chooses.
+    /// The wavelength chosen by u in [0, 1).
     Wavelength sample(float u) const;
     /// ∫ w f dλ.
     glm::dvec3 colour_of(const std::function<double(double)>& f) const;
@@ -45,13 +45,12 @@ class WavelengthDistribution {
     std::array<glm::vec3, cells> response_;
 };
 
-/// The wavelength that u chooses where nothing is known of the light.
+/// The wavelength chosen by u if nothing is known of the light.
 Wavelength sampled_wavelength(float u);
 
-/// ∫ w f dλ: the colour of D65 times f, which is asked in the middle of each nanometre between 380 and 780.
+/// ∫ w f dλ: the colour of D65 times f, which is evaluated at the centre of each nanometre between 380 and 780.
 glm::dvec3 colour_of(const std::function<double(double)>& f);
-/// ∫ |w| f dλ/∫ |w| dλ, with the sum of |w| over red, green and blue: the mean of f where nothing is known of the
-/// light.
+/// ∫ |w| f dλ/∫ |w| dλ, with the sum of |w| over red, green and blue: the mean of f if nothing is known of the light.
 double mean_of(const std::function<double(double)>& f);
 
 }  // namespace phasetree::tracer

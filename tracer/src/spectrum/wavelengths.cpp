@@ -12,7 +12,7 @@ Wavelengths Wavelengths::of_dispersed_colours(const Wavelength& hero) {
 Wavelengths Wavelengths::three(float u, const WavelengthDistribution& distribution) {
     Wavelengths all{glm::vec3(0.0f), glm::mat3(0.0f), glm::mat3(0.0f), glm::vec3(3.0f, 0.0f, 0.0f), true};
     for (int i = 0; i < 3; ++i) {
-        // What is left of 1 is less than 1 after rounding, too.
+        // The wrapped value is less than 1, even after rounding.
         const float at = u + static_cast<float>(i) / 3.0f;
         const Wavelength one = distribution.sample(at < 1.0f ? at : at - 1.0f);
         all.nanometres[i] = one.nanometres;

@@ -1,4 +1,4 @@
-// What tracing paths cost, as `phasetree render --stats` reports it.
+// The cost of tracing paths, as reported by `phasetree render --stats`.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 namespace phasetree::tracer {
 
 struct PathCounters {
-    TraceCounters trace;             ///< what the rays cost in the cells of the object
-    std::uint64_t rays = 0;          ///< all rays that were traced: those of paths and those that look for light
-    std::uint64_t paths = 0;         ///< begun at the camera
-    std::uint64_t interactions = 0;  ///< at which a path was scattered
+    TraceCounters trace;             ///< cost of the rays in the cells of the object
+    std::uint64_t rays = 0;          ///< all rays: those of paths, and shadow rays
+    std::uint64_t paths = 0;         ///< started at the camera
+    std::uint64_t interactions = 0;  ///< scattering events of paths
 
     PathCounters& operator+=(const PathCounters& other) {
         trace.visits += other.trace.visits;

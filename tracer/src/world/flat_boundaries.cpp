@@ -14,8 +14,8 @@ namespace {
 
 constexpr int rows = 32, rays_per_light = rows * rows;
 
-// A side is flat if it is met by so many rays at least, and by this share of all rays that enter. On the curved side of
-// a cylinder about a hundredth of the rays meet normals that count as one.
+// A side is flat if at least this many rays, and this share of all rays that enter, meet it. On the curved side of a
+// cylinder, about a hundredth of the rays meet normals that count as equal.
 constexpr int least_rays = 4;
 constexpr float least_share = 1.0f / 40;
 constexpr std::size_t max_directions = 256;
@@ -25,7 +25,7 @@ bool bends_light(const Scene& scene, Phase phase) {
     return clear && clear->ior != 1.0f;
 }
 
-// The directions in which rays from outside enter media that bend light, and how many rays each is met by.
+// The normals at which rays from outside enter refractive media, and the number of rays for each.
 class EnteredSides {
   public:
     void add(const Surface& surface) {
@@ -61,7 +61,7 @@ class EnteredSides {
     int entered_ = 0;
 };
 
-// The directions towards the brightest lights above the six sides of the object, each once.
+// The directions towards the brightest lights above the six sides of the object, without duplicates.
 std::vector<glm::vec3> directions_to_lights(const Lights& lights, const glm::vec3& centre) {
     std::vector<glm::vec3> directions;
     for (int axis = 0; axis < 3; ++axis)

@@ -1,4 +1,4 @@
-// An object's cells in a file, which keeps them from one rendering to the next.
+// A file that caches an object's cells between renderings.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace phasetree::tracer {
 
-/// Reads the object's cells from the file. If there is no such file, or if its cells are those of another object or
-/// damaged, the cells are built and the file is written. Throws CellsFileError for a file that is anything but cells,
-/// which is left alone, or that cannot be read or written; BuildCancelled and ModelError as building does.
+/// Reads the object's cells from the file. If the file does not exist, or has damaged cells or those of another object,
+/// the cells are built and the file is written. Throws CellsFileError if the file cannot be read or written, or if it
+/// is not a file of cells, in which case it is not changed. Throws BuildCancelled and ModelError as building does.
 std::shared_ptr<const InterfaceCells> kept_cells(const std::filesystem::path&, const Phased& object,
                                                  const CellOptions&);
 

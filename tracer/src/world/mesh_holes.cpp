@@ -19,7 +19,7 @@ bool stops(const Mesh& mesh, const RTCRay& ray, const RTCHit& hit) {
     return hash_to_unit(hash_of({ray.org_x, ray.org_y, ray.org_z}, of_direction)) < opacity;
 }
 
-// Embree's filter: what it makes 0 in `valid` is no hit.
+// Embree's filter: entries of `valid` that it sets to 0 are not hits.
 void pass_holes(const RTCFilterFunctionNArguments* arguments) noexcept {
     const Mesh& mesh = *static_cast<const Mesh*>(arguments->geometryUserPtr);
     for (unsigned i = 0; i < arguments->N; ++i) {
@@ -33,7 +33,7 @@ void pass_holes(const RTCFilterFunctionNArguments* arguments) noexcept {
 }  // namespace
 
 void leave_holes(RTCGeometry geometry, const Mesh& mesh) {
-    rtcSetGeometryUserData(geometry, const_cast<Mesh*>(&mesh));  // it is only read
+    rtcSetGeometryUserData(geometry, const_cast<Mesh*>(&mesh));  // never modified
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
     rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
 }

@@ -8,8 +8,8 @@ namespace phasetree::tracer {
 namespace {
 
 // Two vectors in the plane of a triangle with the sides `a` and `b`: the first has the dot product 1 with a and 0 with
-// b, the second 0 with a and 1 with b. A function that is linear in the triangle, and grows by α along a and by β along
-// b, has the gradient of α times the first and β times the second.
+// b, the second 0 with a and 1 with b. A linear function in the triangle that increases by α along a and by β along b
+// has the gradient α times the first plus β times the second.
 glm::mat2x3 dual_basis(const glm::vec3& a, const glm::vec3& b) {
     const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
     if (!(determinant > 0.0f)) return glm::mat2x3(0.0f);

@@ -19,7 +19,8 @@ void bounds_of_place(const RTCBoundsFunctionArguments* arguments) {
                          static_cast<const Places*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
 }
 
-// The transform into the space of what stands at a place of a list; `then` is where it is kept if that moves.
+// The transform into the space of the target at a place of a list. If the target moves, the transform is stored in
+// `then`.
 const Transform& inward_at(const Places& places, unsigned number, double time, Transform& then) {
     const PlaceInEmbree& place = places.list[number];
     if (!place.moves) return place.inward;
@@ -30,7 +31,7 @@ const Transform& inward_at(const Places& places, unsigned number, double time, T
     return then;
 }
 
-// Takes the ray into the space of what stands at a place, and back when this is destroyed.
+// Transforms the ray into the space of the target at a place, and back on destruction.
 class InwardRay {
   public:
     InwardRay(RTCRay& ray, PlacedQuery& query, const Transform& inward, std::uint32_t first_copy, const Target& target)
@@ -65,10 +66,10 @@ class InwardRay {
     std::uint32_t outer_first_copy_;
 };
 
-// What was found before is kept where nothing nearer is found. Of copies at the same distance the one with the lower
-// number counts, and a mesh counts before any copy, as Embree's triangles replace what is as near. So the order in
-// which Embree asks changes nothing. A crossing is known to a bracket only; therefore each copy is searched to the
-// ray's original end: stopping at the nearest hit so far could cut off a copy that is as near.
+// A previous hit is kept if nothing closer is found. Among copies at the same distance, the one with the lower number
+// wins, and a mesh precedes any copy, as Embree's triangles replace hits at the same distance. So the order in which
+// Embree visits places does not matter. Crossings are known only up to a bracket. Therefore each copy is searched to
+// the ray's original end: stopping at the closest hit so far could miss a copy at the same distance.
 void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
     const Places& places = *static_cast<const Places*>(arguments->geometryUserPtr);
@@ -103,8 +104,7 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     query.hit = copy_before;
 }
 
-// A point for which the objects that hold it are sought: where it is in the space of the list that is asked now, and
-// what was found so far.
+// A query for the objects that contain a point: the transform to the space of the current list, and the results so far.
 struct PointOnItsWay {
     const Places* places = nullptr;
     glm::dvec3 point{0};
@@ -115,14 +115,14 @@ struct PointOnItsWay {
 
 bool ask_place(RTCPointQueryFunctionArguments* arguments);
 
-// Asks the places whose boxes hold the point. They are the primitives of the first geometry of the scene.
+// Queries the places whose boxes contain the point. They are the primitives of the first geometry of the scene.
 void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     const glm::vec3 p(on_its_way.here(on_its_way.point));
     RTCPointQuery query{};
     query.x = p.x;
     query.y = p.y;
     query.z = p.z;
-    // The point was rounded on its way into this space, so boxes that nearly hold it are asked, too.
+    // The point was rounded when it was transformed into this space, so boxes that nearly contain it are queried, too.
     query.radius = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -152,10 +152,11 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
     return false;
 }
 
-// Two interfaces that touch may be found this many resolutions of the cells apart, plus this share of the coordinates.
+// Two touching interfaces may be found this many resolutions of the cells apart, plus this share of the coordinates.
 constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
 
-// Where what stands at a place that moves is while the shutter is open, and by how much it is made longer at most.
+// The bounds of the target at a moving place during the shutter interval, and the maximum factor by which it is
+// stretched.
 struct Sweep {
     Bounds bounds;
     double stretch;
@@ -258,7 +259,7 @@ RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p, float 
 Transform PlacedGeometry::to_object(std::uint32_t copy, float time) const {
     Transform here;
     for (const Places* places = root_.get(); places != nullptr;) {
-        // The last place whose first copy is not beyond this one: each place has one copy at least.
+        // The last place whose first copy is not after this one: each place has at least one copy.
         const auto next = std::ranges::upper_bound(places->list, copy, {}, &PlaceInEmbree::first_copy);
         const auto number = static_cast<unsigned>(next - places->list.begin() - 1);
         Transform then;

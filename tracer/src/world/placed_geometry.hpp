@@ -1,7 +1,7 @@
-// The objects of a scene and their places in Embree. A scene of Embree holds the cells of one object, or the places of
-// one group; a place is a primitive of a user geometry, which takes the ray into the space of what stands there and
-// has it traced in that one's scene. So any number of groups may be nested, which Embree's own instances allow only
-// where it was built for that.
+// The objects of a scene and their placements in Embree. An Embree scene contains the cells of one object, or the
+// places of one group. A place is a primitive of a user geometry, which transforms the ray into the space of its target
+// and traces it in the target's scene. So groups can be nested to any depth, which Embree's own instances allow only if
+// Embree was built for that.
 #pragma once
 
 #include <memory>
@@ -24,92 +24,93 @@ using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseEm
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseEmbree>;
 using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseEmbree>;
 
-/// Which copy a ray has met, or a point lies in.
+/// The copy that a ray has met, or that contains a point.
 struct Copy {
     std::uint32_t number = 0;  ///< scene/placed.hpp
     std::uint32_t object = 0;
-    Transform to_object{};  ///< from the scene to the object's tree
+    Transform to_object{};  ///< from scene space to the object's tree
 };
 
-/// What a ray brings along through places, and what it finds. Embree's context comes first, as in embree::Query.
+/// Inputs and results of a ray in places. Embree's context comes first, as in embree::Query.
 struct PlacedQuery {
     embree::Query query;
-    /// In: the copy at whose interface the ray starts, if it does.
+    /// In: the copy at whose interface the ray starts, if any.
     std::optional<StartInCopy> start{};
-    /// In: how far the ray goes.
+    /// In: the length of the ray.
     float far = 0;
-    /// Out: the copy that the hit is in, if the hit is one of a copy.
+    /// Out: the copy of the hit, if it is in a copy.
     Copy hit{};
 
-    // On the way down through nested places: the map from the scene to the space that the ray is in now; the ray in the
-    // scene's space, of unit direction (inner directions are not normalised, so that distances stay the scene's); and
-    // the number of the first copy below, which is the sum of PlaceInEmbree::first_copy over the places on the way.
+    // State while descending through nested places: the transform from scene space to the current space; the ray in
+    // scene space, with unit direction (inner directions are not normalised, so that distances remain those of the
+    // scene); and the number of the first copy below, which is the sum of PlaceInEmbree::first_copy over the places on
+    // the way.
     Transform here{};
     glm::dvec3 origin{0}, direction{0};
     std::uint32_t first_copy = 0;
-    /// In: a share of the time in which the shutter is open.
+    /// In: a share of the shutter interval.
     double time = 0;
 };
 
 class PlacedGeometry {
   public:
-    /// Refers to the objects, which must outlive it. `cells` are those of each object. Throws ModelError if what is
-    /// placed leaves the range of coordinates.
+    /// Refers to the objects, which must outlive it. `cells` are those of each object. Throws ModelError if a placed
+    /// object is outside of the range of coordinates.
     PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
                    std::vector<std::shared_ptr<const InterfaceCells>> cells);
     // Lists of places refer to it, and Embree to them.
     PlacedGeometry(const PlacedGeometry&) = delete;
     PlacedGeometry& operator=(const PlacedGeometry&) = delete;
 
-    /// The user geometry of the scene's places, which is committed. A query that meets it must be the first member of a
-    /// PlacedQuery.
+    /// The user geometry of the scene's places, which is committed. A query that can reach it must be the first member
+    /// of a PlacedQuery.
     RTCGeometry handle() const { return root_->geometry.get(); }
     const Bounds& bounds() const { return root_->bounds; }
     const std::vector<std::shared_ptr<const InterfaceCells>>& cells() const { return cells_; }
 
-    /// The objects that hold a point of the scene at a share of the time in which the shutter is open. `scene` is one
-    /// to which the geometry is attached as the first.
+    /// The objects that contain a point of the scene at a share of the shutter interval. `scene` must have the geometry
+    /// as its first one.
     RayObjects objects_at(RTCScene scene, const glm::vec3& p, float time) const;
 
-    /// From the scene to the space of a copy's object, at a share of the time in which the shutter is open. It takes
-    /// a binary search for each level of groups that the copy is in.
+    /// The transform from scene space to the space of a copy's object, at a share of the shutter interval. Takes a
+    /// binary search per level of groups that contain the copy.
     Transform to_object(std::uint32_t copy, float time) const;
 
-    /// How far apart two interfaces may be, in the scene's unit of length, to be one and the same as far as the cells
-    /// of this copy can tell near a point: two resolutions, and what coordinates round away.
+    /// The maximum distance, in the scene's unit of length, between two interfaces that cannot be distinguished near a
+    /// point given the cells of this copy: two resolutions plus the rounding of coordinates.
     double tolerance(std::uint32_t object, const Transform& to_scene, const glm::vec3& p) const;
-    /// The most that tolerance() is anywhere.
+    /// The maximum of tolerance() anywhere.
     double most_tolerance() const { return most_tolerance_; }
 
     struct Places;
-    /// What stands at a place: an object's cells, or the places of a group.
+    /// The target of a place: an object's cells, or the places of a group.
     struct Target {
         RTCScene scene = nullptr;
         Bounds bounds{};
-        const InterfaceCells* cells = nullptr;  ///< none of a group
+        const InterfaceCells* cells = nullptr;  ///< null for a group
         std::uint32_t object = 0;
-        const Places* places = nullptr;  ///< none of an object
-        double resolution = 0;           ///< the coarsest there, in its space
+        const Places* places = nullptr;  ///< null for an object
+        double resolution = 0;           ///< coarsest in it, in its space
     };
     struct PlaceInEmbree {
-        Transform inward;  ///< from the space of the list into that of what stands there, if it stands still
-        Bounds bounds;     ///< while the shutter is open
+        Transform inward;  ///< from the space of the list into that of the target, if it does not move
+        Bounds bounds;     ///< during the shutter interval
         std::uint32_t target = 0;
         bool moves = false;
-        std::uint32_t first_copy = 0;  ///< of what stands here, among those of the list
+        std::uint32_t first_copy = 0;  ///< number of the target's first copy among those of the list
     };
-    /// A list of places: what the callbacks read.
+    /// A list of places, as used by callbacks.
     struct Places {
         std::vector<PlaceInEmbree> list;
         const std::vector<Target>* targets = nullptr;
-        /// The scene's own places, of which `source` is the list that this one was made from: a place that moves has
-        /// its transform at a ray's time from there.
+        /// The scene's own places; `source` is the list from which this one was made. A moving place gets its transform
+        /// at a ray's time from there.
         const PlacedObjects* placed = nullptr;
         const std::vector<Place>* source = nullptr;
         Bounds bounds{};
-        double resolution = 0;  ///< the coarsest there, in the space of the list
+        double resolution = 0;  ///< coarsest in it, in the space of the list
         GeometryHandle geometry;
-        SceneHandle scene;  ///< which holds the geometry alone; none of the scene's own list
+        SceneHandle scene;  ///< contains only the geometry; null for the scene's own list
     };
 
   private:
@@ -119,7 +120,7 @@ class PlacedGeometry {
     std::vector<embree::CellGeometry> geometries_;
     std::vector<SceneHandle> scenes_;              ///< of the cells of each object
     std::vector<Target> targets_;                  ///< the objects, then the groups
-    std::vector<std::unique_ptr<Places>> groups_;  ///< callbacks have their addresses
+    std::vector<std::unique_ptr<Places>> groups_;  ///< pointers because callbacks keep their addresses
     std::unique_ptr<Places> root_;
     double most_tolerance_ = 0;
 };

@@ -1,5 +1,5 @@
-// A ray on its way through a scene. It carries the phase that it travels in, so that where it meets an interface both
-// sides are known, without a question about points that rounding may have put on the wrong side.
+// A ray, which carries the phase in which it travels. At an interface, both sides are therefore known without
+// classifying points, which rounding may have put on the wrong side.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,17 +9,17 @@
 
 namespace phasetree::tracer {
 
-/// The cell in which a ray that leaves a surface starts, and what that cell knows of the place. It saves time and
-/// changes no result; the default is that nothing is known.
+/// The cell in which a ray that leaves a surface starts, and what that cell knows of the point. It saves time without
+/// changing results; the default is that nothing is known.
 using StartHint = embree::StartHint;
 
 struct Ray {
     glm::vec3 origin{0};
-    glm::vec3 direction{0};  ///< of unit length
+    glm::vec3 direction{0};  ///< unit length
     Phase phase{};           ///< in which the ray starts
     StartHint hint{};
-    RayObjects in{};                     ///< of a scene of several objects, with `phase` that of the first
-    std::optional<StartInCopy> start{};  ///< of a ray that leaves an interface of one of several objects
+    RayObjects in{};                     ///< in a scene with several objects, with `phase` that of the first
+    std::optional<StartInCopy> start{};  ///< for a ray that leaves an interface of one of several objects
 };
 
 }  // namespace phasetree::tracer

@@ -1,5 +1,5 @@
-// The objects that a ray is in, of a scene that has several, with its phase in each, and the time at which it meets
-// them. Elsewhere a ray is in vacuum.
+// The objects that contain a ray in a scene with several, with its phase in each, and the ray's time. Outside of all
+// objects, a ray is in vacuum.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace phasetree::tracer {
 
-/// Copies of objects by their numbers (scene/placed.hpp), rising. Mostly a ray is in one or none; it is in two for a
-/// moment where objects touch, and in more only where they overlap, which they should not. Of more than `most` the
-/// last are forgotten.
+/// Copies of objects by increasing numbers (scene/placed.hpp). Usually a ray is in one or none. It is briefly in two
+/// where objects touch, and in more only where they overlap, which they should not. If there are more than `most`, the
+/// last ones are dropped.
 class RayObjects {
   public:
     static constexpr std::size_t most = 4;
 
-    /// None, at a share of the time in which the shutter is open.
+    /// No objects, at a share of the shutter interval.
     explicit RayObjects(float time) : time_(time) {}
     RayObjects() = default;
 
@@ -26,10 +26,10 @@ class RayObjects {
     std::size_t size() const { return size_; }
     std::uint32_t copy(std::size_t i) const { return copies_[i]; }
     Phase phase(std::size_t i) const { return phases_[i]; }
-    /// The phase of a ray: where objects overlap, the first of them is there.
+    /// The phase of a ray: where objects overlap, that of the first one.
     Phase phase() const { return size_ > 0 ? phases_[0] : phasetree::vacuum; }
 
-    /// From here on the ray is in this phase of a copy.
+    /// Sets the phase of the ray in a copy.
     void set(std::uint32_t copy, Phase phase) {
         std::size_t i = 0;
         while (i < size_ && copies_[i] < copy) ++i;
@@ -64,8 +64,8 @@ class RayObjects {
     float time_ = 0;
 };
 
-/// A ray that starts at an interface starts at one end of its bracket, which is in its phase. The world's coordinates
-/// may round that away, so the ray also has it in the coordinates of the copy.
+/// A ray from an interface starts at one end of its bracket, which is in its phase. Scene coordinates may round that
+/// away, so the ray also has its origin in the coordinates of the copy.
 struct StartInCopy {
     std::uint32_t copy = 0;
     glm::vec3 origin{0};

@@ -1,15 +1,15 @@
-// Rays through several objects.
+// Traces rays through several objects.
 //
-// Each object has an interface to the vacuum around it. Where two touch, a ray that leaves the one enters the other,
-// and what it should see is one interface between the phases of both. Cells know where their interfaces are to a
-// resolution, and coordinates are rounded, so the two are found a little apart, and in either order. They count as one
-// if they lie apart, across the interface, by no more than the sum of the two objects' tolerances
-// (PlacedGeometry::tolerance). A ray that leaves such an interface starts displaced from it by that distance, so that
-// neither object is in doubt of where it is. So an object, or a gap between two, that is thinner than that distance
-// along the ray may be passed unseen; interfaces of more than two objects at one place are joined two at a time.
+// Each object has an interface to the vacuum around it. Where two objects touch, a ray leaves one and enters the other,
+// and should see a single interface between both phases. Cells know their interfaces up to a resolution, and
+// coordinates are rounded, so the two interfaces are found slightly apart, and in either order. They count as one if
+// their distance across the interface is at most the sum of the two objects' tolerances (PlacedGeometry::tolerance). A
+// ray that leaves such an interface starts displaced from it by that distance, so that its phase in either object is
+// unambiguous. So an object, or a gap between two, that is thinner than that distance along the ray may be missed.
+// Interfaces of more than two objects at one point are joined in pairs.
 //
-// Objects should not overlap. Where they do, the first of those that a point is in is there, and the others' interfaces
-// are not seen.
+// Objects should not overlap. Where they do, the first of those that contain a point is there, and the interfaces of
+// the others are invisible.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,12 +23,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A tolerance is measured across an interface, and the ray is searched along its own direction. Where it grazes the
-// interface the way along it could be arbitrarily long, so the cosine between them counts as at least this.
+// A tolerance is measured across an interface, but the search is along the ray. At grazing incidence, the distance
+// along the ray could be arbitrarily long, so the cosine between them is at least this.
 constexpr double least_cosine = 1.0 / 64;
 
-// A ray passes at most so many unseen interfaces within a tolerance, so that it ends even where thousands of copies
-// stand at one place. How many it passes on its whole way is not limited.
+// A ray passes at most this many invisible interfaces within a tolerance, so that it ends even where thousands of
+// copies are at one point. The number over the whole ray is not limited.
 constexpr int most_unseen_at_one_place = 1000;
 
 std::array<embree::CarriedPhase, RayObjects::most> carried(const RayObjects& in) {
@@ -99,8 +99,9 @@ TracedGeometry::CrossingInScene TracedGeometry::crossing_in_scene(const PlacedQu
             .tolerance = placed_->tolerance(query.hit.object, to_scene, p_in)};
 }
 
-// What lies behind a crossing, and what of it belongs to it: the beginning of another object where the ray leaves the
-// last that it was in, and the end of one that it was in where it enters another.
+// Determines what lies behind a crossing, and the second crossing that belongs to it, if any: the start of another
+// object where the ray leaves the last one that contained it, or the end of an object that contained it where it enters
+// another.
 TracedGeometry::Met TracedGeometry::with_what_touches(const Ray& ray, const CrossingInScene& first,
                                                       PathCounters& counters) const {
     Met met{first, std::nullopt, ray.in};
@@ -136,8 +137,8 @@ Ray TracedGeometry::behind(const Ray& ray, const Met& met) {
 Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, double distance) const {
     const CrossingInScene& first = met.first;
     const Phase from = ray.in.phase(), to = met.behind.phase();
-    // The object that the ray enters is the one that it meets; its beginning may be found before the end of the other.
-    // If the ray enters none, it meets the one that it leaves.
+    // The ray meets the object that it enters; its start may be found before the end of the other. If the ray enters
+    // none, it meets the one that it leaves.
     const CrossingInScene& shown = met.joined && met.joined->crossing.to != phasetree::vacuum ? *met.joined : first;
     const auto [outside, inside] = from == to ? std::pair(phasetree::vacuum, phasetree::vacuum) : std::pair(from, to);
     Surface surface{.distance = static_cast<float>(distance),
@@ -178,9 +179,9 @@ Hit TracedGeometry::intersect_several(const Ray& ray, float far, PathCounters& c
             return surface;
         }
         const Met met = with_what_touches(rest, std::get<CrossingInScene>(next), counters);
-        // A path that is scattered goes on in the objects that its ray is in, and a density that varies is in the space
-        // of each object. So within a phase that scatters or varies, which both have a phase function, the path is told
-        // where the ray comes from one object into another, which is a surface that does nothing.
+        // A scattered path continues in the objects that contain its ray, and a varying density is in the space of each
+        // object. So within a phase that scatters or varies, which both have a phase function, a transition from one
+        // object to another is reported to the path as a surface without effect.
         const Phase from = rest.in.phase(), to = met.behind.phase();
         if (from != to || phase_function(std::get<Clear>(scene_.materials[from.index]).interior))
             return surface_of_several(rest, met, travelled + met.first.distance);

@@ -22,16 +22,16 @@ Blocked blocked_by(const Surface& surface) {
     return {surface.distance, surface.emitted() ? std::optional(surface) : std::nullopt};
 }
 
-// How often boxes are divided for a first look: such cells are there at once, also where a tree is so slow that good
-// ones take seconds.
+// The depth of division for a preview: such cells are built immediately, even for trees so slow that good cells take
+// seconds.
 constexpr int divisions_for_first_look = 5;
 
-// The geometries of the Embree scene: the object or the places of several, then the meshes in their order.
+// The geometries of the Embree scene: the object, or the places of several, then the meshes in order.
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
 
-// By how much a ray that leaves a mesh is moved off it: this share of the object's diagonal, or of the point's largest
-// coordinate (which counts as 1 m at least), whichever is more.
+// The offset of rays that leave a mesh: this share of the object's diagonal, or of the point's largest coordinate (at
+// least 1 m), whichever is greater.
 constexpr float relative_surface_epsilon = 1e-5f;
 
 std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, const WorldOptions& wanted) {
@@ -112,7 +112,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
       first_mesh_(static_cast<std::uint32_t>(std::max<std::size_t>(scene.placed.objects.size(), 1))),
       interfaces_(scene.materials, *shared),
       mesh_interfaces_(interfaces_of(scene.meshes, scene.materials, *shared)) {
-    // Without this flag Embree may miss a triangle that is met near its edge: exactness comes before speed.
+    // Without this flag, Embree may miss triangles hit near their edges.
     rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
     if (scene.placed.empty()) {
         tree_.emplace(device_.get(), cells_.front(), embree::CellGeometry::Options{.rays_carry_phases = true});
@@ -131,7 +131,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
     surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
 }
 
-// Fills in what the ray meets and returns whether there is anything.
+// Traces the ray and returns whether it meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
     query.elsewhere = ray.phase;  // the scene has one object
@@ -154,7 +154,7 @@ std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ra
                                                                    const glm::vec3& p_in,
                                                                    const glm::vec3& p_out) const {
     if (mesh_bounds_.empty() || !is_clear(scene_.materials[to.index])) return std::nullopt;
-    // The relative rounding error of the distances that Embree finds, and of coordinates.
+    // The relative rounding error of Embree's distances, and of coordinates.
     constexpr float rounding = 4e-7f;
     const float largest = std::max({std::abs(p_in.x), std::abs(p_in.y), std::abs(p_in.z)});
     const float depth = glm::length(p_out - p_in) + rounding * (distance + largest);
@@ -227,18 +227,18 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
     if (!mesh.normals.empty()) {
         const glm::vec3 mean = met.mean(mesh.normals);
         const float length = glm::length(mean);
-        // Triangles may lack normals that others of the mesh have.
+        // Some triangles of a mesh with normals may lack them.
         if (length > 0) {
             is_behind = glm::dot(mean, flat) < 0;
             const glm::vec3 n = (is_behind ? -mean : mean) / length;
-            // Where the ray grazes, the shading normal may face away from it, and the flat one is kept.
+            // At grazing incidence, the shading normal may face away from the ray; the geometric one is kept then.
             if (glm::dot(n, ray.direction) < 0) shading = n;
         }
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
     const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
-    // Where rays leave a mesh that is smooth. What touches it may be between the triangle and the surface that this
-    // stands for, and then they leave from the triangle.
+    // The origin of rays that leave a smooth mesh. If anything touches the mesh between the triangle and the smooth
+    // surface that it approximates, rays leave from the triangle instead.
     glm::vec3 leaves_from = origin;
     if (!mesh.normals.empty() && shading != flat) {
         const glm::vec3 smooth = origin + (met.point_of_smooth_surface(is_behind) - p);

@@ -1,5 +1,5 @@
-// The scene in Embree: the object as user geometry, or several in their places, the meshes beside it, and the optics of
-// all their surfaces.
+// The scene in Embree: the object as user geometry, or several in their places, the meshes, and the optics of all
+// surfaces.
 #pragma once
 
 #include <memory>
@@ -19,40 +19,40 @@
 
 namespace phasetree::tracer {
 
-/// How the cells of a scene's objects are built.
+/// The options for building the cells of a scene's objects.
 CellOptions cell_options(const Scene&, const WorldOptions&);
 
 class TracedGeometry {
   public:
-    /// Refers to the scene, which must outlive it. Throws ModelError for an object that cannot be traced, and
-    /// BuildCancelled once WorldOptions::cancelled says so.
+    /// Refers to the scene, which must outlive it. Throws ModelError if an object cannot be traced, and BuildCancelled
+    /// when WorldOptions::cancelled returns true.
     explicit TracedGeometry(const Scene& scene, const WorldOptions& = {});
 
-    /// What a ray meets first.
+    /// The closest hit of a ray.
     Hit intersect(const Ray& ray, PathCounters& counters) const;
-    /// What stands first in the way of light along a ray, before the distance `far`.
+    /// The first occluder of light along a ray, before the distance `far`.
     Visibility visibility(const Ray& ray, float far, PathCounters& counters) const;
 
-    /// The way that a ray goes through the medium of its phase. Where the medium's density varies, the way is in the
-    /// space of the first object that the ray is in. Its direction is not of unit length there, so that lengths are
-    /// the scene's.
+    /// The segment of a ray in the medium of its phase. If the medium's density varies, the segment is in the space of
+    /// the first object that contains the ray. Its direction does not have unit length there, so that lengths are those
+    /// of the scene.
     Way way_through_medium(const Ray& ray, float length, const Wavelengths* wavelengths = nullptr) const;
 
-    /// The phase at a point, at a share of the time in which the shutter is open.
+    /// The phase at a point, at a share of the shutter interval.
     Phase label(const glm::vec3& p, float time = 0) const { return inside(p, time).phase; }
-    /// The phase at a point, and the objects that it is in if the scene has several: as a ray has them that starts
-    /// there.
+    /// The phase at a point and, in a scene with several objects, those that contain it: the values for a ray that
+    /// starts there.
     struct Inside {
         Phase phase{};
         RayObjects in{};
     };
     Inside inside(const glm::vec3& p, float time = 0) const;
 
-    /// The object of a scene of one tree.
+    /// The object of a scene with one tree.
     const InterfaceCells& object() const { return *cells_.front(); }
     /// Every object, in the order of PlacedObjects::objects.
     const std::vector<std::shared_ptr<const InterfaceCells>>& objects() const { return cells_; }
-    /// Of all objects together: of numbers for each cell the greatest.
+    /// Of all objects together; for numbers per cell, the maximum.
     CellStatistics statistics() const;
     /// A box around all objects.
     const Bounds& bounds() const { return placed_ ? placed_->bounds() : object().bounds(); }
@@ -60,21 +60,21 @@ class TracedGeometry {
   private:
     TracedGeometry(const Scene& scene, const WorldOptions& options, const std::shared_ptr<SharedSurfaces>& shared);
 
-    /// A change of phase in one of several objects, as it lies in the scene.
+    /// A change of phase in one of several objects, in scene space.
     struct CrossingInScene {
-        Crossing crossing;  ///< in the object's space
+        Crossing crossing;  ///< in object space
         Copy copy;
         StartHint hint;
         double distance = 0;            ///< along the ray
         glm::vec3 p_in{0}, p_out{0};    ///< the ends of the bracket
-        glm::vec3 normal{0};            ///< of unit length, on the side the ray comes from
-        glm::vec3 normal_in_object{0};  ///< the same in the object's space
+        glm::vec3 normal{0};            ///< unit length, on the side from which the ray comes
+        glm::vec3 normal_in_object{0};  ///< the same in object space
         double tolerance = 0;           ///< PlacedGeometry::tolerance
     };
-    /// Two such within their tolerances, or one.
+    /// One crossing, or two within their tolerances.
     struct Met {
         CrossingInScene first;
-        std::optional<CrossingInScene> joined;  ///< another object begins where the one ends
+        std::optional<CrossingInScene> joined;  ///< set if another object starts where the first ends
         RayObjects behind;
 
         double apart() const { return joined ? first.tolerance + joined->tolerance : 0.0; }
@@ -82,15 +82,15 @@ class TracedGeometry {
     using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
 
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
-    /// The mesh that stands flush with an interface, if there is one and light goes on behind the interface, in the
-    /// phase `to`. The interface is known to lie between the points p_in, which is `distance` from the ray's origin,
-    /// and p_out. The ray would go on from p_out and could start behind the mesh, so a mesh between the two counts as
-    /// if it stood before the interface.
+    /// The mesh that is flush with an interface, if there is one and light continues behind the interface, in the phase
+    /// `to`. The interface is between the points p_in, which is `distance` from the ray's origin, and p_out. The ray
+    /// would continue from p_out and could start behind the mesh, so a mesh between the two counts as in front of the
+    /// interface.
     std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, Phase to, float distance, const glm::vec3& p_in,
                                                        const glm::vec3& p_out) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;
-    /// Whether nothing is between two points, of which the first is where the ray has come to.
+    /// Whether nothing is between two points. The ray has reached the first one.
     bool is_free(const Ray& ray, const glm::vec3& from, const glm::vec3& to) const;
 
     Hit intersect_several(const Ray& ray, float far, PathCounters& counters) const;
@@ -103,14 +103,14 @@ class TracedGeometry {
     const Scene& scene_;
     std::vector<std::shared_ptr<const InterfaceCells>> cells_;  ///< of each object
     DeviceHandle device_;
-    std::optional<embree::CellGeometry> tree_;  ///< of a scene of one tree
-    std::optional<PlacedGeometry> placed_;      ///< of a scene of several objects
+    std::optional<embree::CellGeometry> tree_;  ///< for a scene with one tree
+    std::optional<PlacedGeometry> placed_;      ///< for a scene with several objects
     SceneHandle embree_;
     std::vector<Bounds> mesh_bounds_;
-    std::uint32_t first_mesh_;  ///< the number of the first mesh, as Surface::object has it
+    std::uint32_t first_mesh_;  ///< number of the first mesh in Surface::object
     InterfaceTable interfaces_;
-    std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase the ray is in]
-    float surface_epsilon_;                   ///< least distance by which rays that leave a mesh are moved off it
+    std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase of the ray]
+    float surface_epsilon_;                   ///< minimum offset of rays that leave a mesh
 };
 
 }  // namespace phasetree::tracer

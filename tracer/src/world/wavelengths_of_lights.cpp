@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Returns what each light of a scene has: null for one without a spectrum.
+// The spectrum of each light of a scene: null for one without.
 std::vector<SharedLightSpectrum> spectra_of(const Scene& scene) {
     std::vector<SharedLightSpectrum> spectra(scene.lights.spectra());
     const auto add = [&](const Material& material) {
@@ -27,8 +27,8 @@ WavelengthDistribution wavelengths_of_lights(const Scene& scene) {
     const std::vector<SharedLightSpectrum> spectra = spectra_of(scene);
     if (std::ranges::none_of(spectra, [](const SharedLightSpectrum& spectrum) { return spectrum != nullptr; }))
         return {};
-    // Spectra have the luminance 1, by which a violet lamp would count a hundred times as much as a green one. Here
-    // each has the mean 1 instead. No spectrum is dark: scene files with such are rejected.
+    // Spectra have the luminance 1, which would give a violet lamp a hundred times the weight of a green one. They are
+    // scaled to the mean 1 here. No spectrum is black: such scene files are rejected.
     std::vector<double> scale;
     for (const SharedLightSpectrum& spectrum : spectra)
         scale.push_back(

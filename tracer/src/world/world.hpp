@@ -1,5 +1,5 @@
-// All that paths are traced in: the geometry, and what was found out about it with rays beforehand. It is complete once
-// it is constructed, and does not change, so that any number of threads may use it.
+// Everything in which paths are traced: the geometry, and data found by rays beforehand. It is immutable after
+// construction, so any number of threads may use it.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 class World {
   public:
-    /// Refers to the scene, which must outlive it. Throws as TracedGeometry's constructor does.
+    /// Refers to the scene, which must outlive it. Throws like TracedGeometry's constructor.
     explicit World(const Scene& scene, const WorldOptions& options = {})
         : geometry_(scene, options),
           flat_boundaries_(!options.is_first_look ? tracer::flat_boundaries(geometry_, scene)
@@ -30,13 +30,13 @@ class World {
     World& operator=(const World&) = delete;
 
     const TracedGeometry& geometry() const { return geometry_; }
-    /// The flat sides by which lights shine into the object.
+    /// The flat sides through which lights reach the inside of the object.
     const std::vector<FlatBoundary>& flat_boundaries() const { return flat_boundaries_; }
-    /// Whether anything in it refracts light of different wavelengths differently.
+    /// Whether any refraction in it depends on the wavelength.
     bool disperses() const { return disperses_; }
-    /// Whether paths have wavelengths, from the beginning on or from where they are dispersed.
+    /// Whether paths have wavelengths, from the start or from where they are dispersed.
     bool needs_wavelengths() const { return disperses_ || is_spectral_; }
-    /// Those of a path, which u in [0, 1) chooses.
+    /// The wavelengths of a path, chosen by u in [0, 1).
     Wavelengths wavelengths(float u) const {
         return is_spectral_ ? Wavelengths::three(u, distribution_)
                             : Wavelengths::of_dispersed_colours(sampled_wavelength(u));

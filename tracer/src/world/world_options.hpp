@@ -1,4 +1,4 @@
-// How the object of a scene is prepared for rays; what is not said here is as CellOptions has it.
+// Options for preparing a scene's objects; see CellOptions for those that are not documented here.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,17 @@ namespace phasetree::tracer {
 
 struct WorldOptions {
     BuildQuality quality = BuildQuality::medium;
-    /// Whether the world is for a first look, of few rays, which does not wait: it has few large cells, whatever the
-    /// quality, and the flat sides of the object are not looked for (flat_boundaries.hpp). Its pictures show the same,
-    /// with more noise.
+    /// Whether the world is for a quick preview with few rays. It has few large cells, whatever the quality, and the
+    /// object's flat sides are not determined (flat_boundaries.hpp). Pictures are the same except for more noise.
     bool is_first_look = false;
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
     std::size_t most_bytes = 0;
-    /// Cells that may be those of the scene's one tree. If they are, they are not built again.
+    /// Cells that may be those of the scene's one tree. If they are, they are not rebuilt.
     std::shared_ptr<const InterfaceCells> known_cells{};
-    /// Surfaces that were made before, which those of this scene are added to.
+    /// A cache of surfaces, which this scene extends.
     std::shared_ptr<SharedSurfaces> surfaces{};
-    std::optional<std::filesystem::path> kept_cells{};  ///< a file for the object's cells: see kept_cells.hpp
+    std::optional<std::filesystem::path> kept_cells{};  ///< cache file for the object's cells: see kept_cells.hpp
 };
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// How often something happened.
+// The number of events.
 #pragma once
 
 #include "film/bytes.hpp"

@@ -1,5 +1,5 @@
-// A choice that does not depend on the order: what the sample of the lowest number brought, among those that brought
-// anything. For what has no mean, such as a number that names something.
+// The value of the sample with the lowest number, among those that have one. Independent of the order of samples, and
+// suited to values that have no mean, such as IDs.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ class FirstValue {
         return values;
     }
 
-    // By bits, so that a NaN is equal to itself.
+    // Compares bits, so that a NaN is equal to itself.
     bool operator==(const FirstValue& other) const {
         for (std::size_t i = 0; i < N; ++i)
             if (std::bit_cast<std::uint32_t>(values_[i]) != std::bit_cast<std::uint32_t>(other.values_[i]))

@@ -1,16 +1,15 @@
-// Sums of real numbers whose addition is exact, and which therefore do not depend on the order: integers of 64, 128 or
-// 192 bits that count a fixed unit, 2^−Fraction. This is fixed-point arithmetic as in textbooks; what it is for here is
-// that integer addition is associative, which that of floating-point numbers is not (Goldberg: What Every Computer
-// Scientist Should Know About Floating-Point Arithmetic, ACM Computing Surveys 23(1), 1991). However the samples of a
-// pixel are shared among threads, machines and runs, their sum is the same to the last bit.
+// Exact sums of real numbers, which therefore do not depend on the order: integers of 64, 128 or 192 bits that count a
+// fixed unit, 2^−Fraction. Integer addition is associative; floating-point addition is not (Goldberg: What Every
+// Computer Scientist Should Know About Floating-Point Arithmetic, ACM Computing Surveys 23(1), 1991). However the
+// samples of a pixel are divided among threads, machines and runs, their sum is the same to the last bit.
 //
-// The error. A value is rounded to the nearest multiple of the unit, ties to even, before it is added; after that
-// nothing is lost. So the mean of any number of samples is off by half a unit at most. It depends on the value alone
-// how it is rounded.
+// Error. A value is rounded to the nearest multiple of the unit, ties to even, before it is added; after that, nothing
+// is lost. So the error of the mean of any number of samples is at most half a unit. Rounding depends only on the
+// value.
 //
-// The range. Of one value |v| < 2^limit_exponent is taken. A sum of 2^31 such values cannot overflow, because 32 bits
-// are kept for it (31, and the sign). What is larger is cut to the largest that is taken: by value, so that this does
-// not depend on the order either, and it is counted.
+// Range. Values with |v| < 2^limit_exponent are accepted. A sum of 2^31 such values cannot overflow, because 32 bits
+// are reserved for it (31, and the sign). Larger values are clamped to the limit and counted. Clamping does not depend
+// on the order of values, either.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +27,7 @@ namespace phasetree::tracer {
 template <std::size_t Words, int Fraction>
 class FixedSum {
   public:
-    /// The most samples of which a sum is sure not to overflow.
+    /// The maximum number of samples for which a sum cannot overflow.
     static constexpr std::uint32_t most_samples = std::uint32_t{1} << 31;
     static constexpr int limit_exponent = static_cast<int>(64 * Words) - 32 - Fraction;
 
@@ -41,7 +40,7 @@ class FixedSum {
             return;
         }
         if (exponent == 0) return;  // 0, or below 2^−1022
-        // |value| = mantissa · 2^(exponent − 1075), of which the unit counts mantissa · 2^shift.
+        // |value| = mantissa · 2^(exponent − 1075), which is mantissa · 2^shift units.
         const std::uint64_t mantissa = (bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52);
         const int shift = exponent - 1075 + Fraction;
         FixedSum term;
@@ -78,7 +77,7 @@ class FixedSum {
         std::size_t top = Words;
         while (top > 0 && magnitude.words_[top - 1] == 0) --top;
         if (top == 0) return 0;
-        // The 64 leading bits; whether anything lies below them goes into the last, which decides a tie.
+        // The 64 leading bits. The last one also records whether any lower bit is set, which decides a tie.
         const int zeros = std::countl_zero(magnitude.words_[top - 1]);
         std::uint64_t leading = magnitude.words_[top - 1] << zeros;
         bool below = false;
@@ -95,10 +94,10 @@ class FixedSum {
 
     bool operator==(const FixedSum&) const = default;
 
-    /// Most sums have few significant bytes between the signs above and the zeros below; only those are written, behind
-    /// a byte of the number of bytes written plus (bytes + 1) times that of zeros below. A byte above is left out if
-    /// the one below it says the same sign; of a negative number one byte is always left, because no byte at all means
-    /// 0. So equal sums have equal bytes.
+    /// Most sums have few significant bytes between the sign bytes above and the zero bytes below, and only those are
+    /// written. They follow a byte with the number of bytes written plus (bytes + 1) times the number of zero bytes
+    /// below. A byte above is omitted if the one below it implies the same sign. A negative number always keeps one
+    /// byte, because no bytes mean 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;
@@ -122,7 +121,7 @@ class FixedSum {
 
   private:
     static constexpr std::size_t bytes = 8 * Words;
-    // So that one byte can say both numbers.
+    // Such that one byte can encode both numbers.
     static constexpr std::size_t most_low = std::min<std::size_t>(bytes, (255 - bytes) / (bytes + 1));
 
     static constexpr std::array<std::uint64_t, Words> largest() {
@@ -147,20 +146,20 @@ class FixedSum {
     }
     std::uint64_t byte(std::size_t i) const { return (words_[i / 8] >> (8 * (i % 8))) & 0xff; }
     void set_byte(std::size_t i, std::uint64_t value) { words_[i / 8] |= value << (8 * (i % 8)); }
-    // What a byte's leading bit says that all above it are.
+    // The value of all bytes above, as implied by a byte's leading bit.
     std::uint64_t sign_of(std::size_t i) const { return byte(i) >> 7 ? 0xff : 0; }
 
     std::array<std::uint64_t, Words> words_{};  // two's complement, the lowest word first
 };
 
-/// Of radiances, positions, lengths. The unit is 2^−56 = 1.4·10⁻¹⁷, the limit 2^40 = 1.1·10¹². A float above 2^−33 =
-/// 1.2·10⁻¹⁰ in magnitude is a multiple of the unit, so it is not rounded at all; the radiance of a dim corner, 10⁻⁶,
+/// For radiances, positions, lengths. The unit is 2^−56 = 1.4·10⁻¹⁷, the limit 2^40 = 1.1·10¹². A float above 2^−33 =
+/// 1.2·10⁻¹⁰ in magnitude is a multiple of the unit, so it is not rounded at all. The radiance of a dim corner, 10⁻⁶,
 /// is exact, and so is that of a sun's disc, 10¹⁰.
 using ValueSum = FixedSum<2, 56>;
-/// Of products of two such values. The limit, 2^80, is the square of theirs; the square of a float above 2^−17 is
-/// exact, and that of 10⁻⁶ is known to 12 digits.
+/// For products of two such values. The limit, 2^80, is the square of theirs. The square of a float above 2^−17 is
+/// exact, and that of 10⁻⁶ has 12 correct digits.
 using SquareSum = FixedSum<3, 80>;
-/// Of weights from 0 to 1, in units of 2^−31.
+/// For weights from 0 to 1, in units of 2^−31.
 using WeightSum = FixedSum<1, 31>;
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// The sum of values and of their squares: the mean, and how far it may be from what more samples would give.
+// The sum of values and of their squares, which give the mean and its variance.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ class MeanAndVariance {
   public:
     void add(float value, FilmFaults& faults) {
         const auto v = static_cast<double>(value);
-        FilmFaults again;  // the square tells nothing new
+        FilmFaults again;  // the square has the same faults
         sum_.add(v, faults);
         squares_.add(v * v, again);  // exact: twice the 24 digits of a float
     }
@@ -22,9 +22,9 @@ class MeanAndVariance {
     }
 
     double mean(std::uint32_t samples) const { return sum_.value() / samples; }
-    /// The variance of the mean of so many independent samples, as they themselves estimate it,
+    /// The variance of the mean of this many independent samples, estimated from the samples themselves,
     ///     (Σv²/n − (Σv/n)²)/(n − 1),
-    /// with an error of about 2^−51 of the mean's square; 0 of a single sample.
+    /// with an error of about 2^−51 of the mean's square; 0 for a single sample.
     double variance_of_mean(std::uint32_t samples) const {
         if (samples < 2) return 0;
         const double m = mean(samples), of_values = squares_.value() / samples - m * m;

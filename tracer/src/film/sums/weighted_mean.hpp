@@ -1,5 +1,5 @@
-// One sum divided by another: a mean over those samples that have something to tell, such as the depth of what they
-// met, or one in which samples count by weights.
+// One sum divided by another: a mean over the samples that have a value, such as the depth of the surface they met, or
+// a weighted mean.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace phasetree::tracer {
 template <std::size_t N>
 class WeightedMean {
   public:
-    /// `weight` is from 0 to 1. The products of floats are exact in double precision. Values of which one is no finite
-    /// number are left out with their weight.
+    /// `weight` is from 0 to 1. The products of floats are exact in double precision. If any value is not finite, all
+    /// are skipped, along with their weight.
     void add(const std::array<float, N>& values, float weight, FilmFaults& faults) {
         for (const float v : values)
             if (!std::isfinite(v)) {
@@ -31,9 +31,9 @@ class WeightedMean {
         return *this;
     }
 
-    /// The sum of the weights: over the number of samples it is the share that had something to tell.
+    /// The sum of the weights. Divided by the number of samples, it is the share that had a value.
     double weight() const { return weight_.value(); }
-    /// `otherwise` where there was no weight at all.
+    /// `otherwise` if the sum of the weights is 0.
     std::array<float, N> mean(float otherwise) const {
         std::array<float, N> means;
         const double weight = weight_.value();

@@ -1,4 +1,4 @@
-// How much of a pixel belongs to each of several things that are named by numbers: what Cryptomatte is made of.
+// The weight of each of several IDs in a pixel; the basis of Cryptomatte.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class WeightsById {
         return *this;
     }
 
-    /// By rising numbers, each of them once.
+    /// By increasing IDs, each of them once.
     const std::vector<Entry>& entries() const { return entries_; }
 
     bool operator==(const WeightsById&) const = default;
@@ -38,7 +38,7 @@ class WeightsById {
     static WeightsById read(ByteReader& in) {
         WeightsById weights;
         const auto count = in.number<std::uint32_t>();
-        // Not reserved: an untrue count ends with the bytes, and takes no more memory than they do.
+        // Nothing is reserved: a wrong count ends with the bytes, and takes no more memory than they do.
         for (std::uint32_t i = 0; i < count; ++i) {
             Entry entry{in.number<std::uint32_t>(), WeightSum::read(in)};
             if (i > 0 && entry.id <= weights.entries_.back().id) throw BytesError("its numbers are in no order");

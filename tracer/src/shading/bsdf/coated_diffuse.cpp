@@ -14,13 +14,13 @@ CoatedDiffuseBsdf::CoatedDiffuseBsdf(const CoatingAlbedo::At& coating, const glm
     const glm::vec3 internal = coating.internal();
     glm::vec3 seen = rho * (1.0f - internal) / glm::max(glm::vec3{1.0f} - rho * internal, glm::vec3{1e-12f});
     for (int i = 0; i < 3; ++i) {
-        if (!(entering[i] > 1e-6f)) seen[i] = 0.0f;  // nothing reaches the base
+        if (!(entering[i] > 1e-6f)) seen[i] = 0.0f;  // no light reaches the base
         base_[i] = seen[i] > 0.0f ? seen[i] / entering[i] : 0.0f;
     }
     base_brightness_ = mean_of_channels(seen);
 }
 
-// In proportion to what the two layers reflect.
+// Proportional to the reflectance of the two layers.
 float CoatedDiffuseBsdf::coating_probability(const glm::vec3& reflected) const {
     const float coat = mean_of_channels(reflected);
     const float base = (1.0f - coat) * base_brightness_;

@@ -2,10 +2,11 @@
 //
 //   f = f_coat + T(o.z) T(i.z) / (π (1 − E_avg)) · ρ′,   ρ′ = ρ (1 − F_int) / (1 − ρ F_int),   T = 1 − E
 //
-// ρ′ is the base's albedo seen through the coating, with all reflections between the two: they darken and saturate its
-// colour. As (1 − F_int) = (1 − E_avg)/η², this is T T/η² · ρ/(π (1 − ρ F_int)), the form it is usually printed in. A
-// white base under a lossless coating reflects everything. f_coat is a mirror (delta) when the coating is smooth, GGX
-// when rough. Without any difference of index the coating vanishes and the base is plain Lambert.
+// ρ′ is the base's albedo seen through the coating, including all interreflections, which darken and saturate its
+// colour. As (1 − F_int) = (1 − E_avg)/η², this is T T/η² · ρ/(π (1 − ρ F_int)), the form in which it is usually
+// printed. A white base under a lossless coating reflects everything. f_coat is a specular (delta) reflection when the
+// coating is smooth, and GGX when it is rough. If both indices are equal, the coating vanishes and the base is plain
+// Lambert.
 //
 // Reference: Jakob, Mitsuba renderer, plugin documentation of "plastic" and "roughplastic", 2010; coating_albedo.hpp.
 #pragma once

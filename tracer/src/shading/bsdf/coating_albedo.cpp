@@ -24,7 +24,7 @@ glm::vec3 average_of(const Directional& directional) {
     return glm::clamp(glm::vec3(sum / static_cast<double>(steps)), 0.0f, 1.0f);
 }
 
-// The number of intervals into which a range is divided that are no wider than this.
+// The number of intervals, at most this wide, into which a range is divided.
 int intervals_of(const ValueRange& range, float widest) {
     const float width = range.greatest - range.least;
     return width > 0.0f ? static_cast<int>(std::ceil(width / widest)) : 0;
@@ -54,7 +54,7 @@ CoatingAlbedo::CoatingAlbedo(const DielectricSurface& surface, const ValueRange&
     }
 }
 
-// Mean over visible normals of F G₂/G₁: everything the rough coating reflects in one scattering.
+// Mean over visible normals of F G₂/G₁: the single-scattering albedo of the rough coating.
 CoatingAlbedo::Table CoatingAlbedo::table_of(float roughness) const {
     const Ggx ggx(roughness);
     Table table;

@@ -1,15 +1,16 @@
-// How much light a dielectric coating reflects, averaged as the layer below it needs.
+// The albedo of a dielectric coating, averaged as needed for the layer below it.
 //
-//   E(μ)   the coating's directional albedo from outside: Fresnel's F(μ) when smooth; when rough the GGX integral of F
+//   E(μ)   the coating's directional albedo from outside: Fresnel's F(μ) when smooth; when rough, the GGX integral of F
 //          over the visible normals, tabulated
 //   E_avg  = 2 ∫ E(μ) μ dμ, the albedo under uniform light
 //   F_int  = 1 − (1 − E_avg)/η², the part of diffuse light from inside that is reflected back inside, by reciprocity
 //
-// All that is not reflected at once gets to the base, also what meets microfacets again, so that nothing is lost.
+// All light that is not reflected at once reaches the base, including light that meets microfacets again, so that no
+// energy is lost.
 //
-// η is the coating's index relative to the clear medium it touches. Less than 1 is possible (varnish under a denser
-// liquid): then E is 1 beyond the critical angle, and the equations still hold. With a thin film on the coating, each
-// colour has an E of its own.
+// η is the coating's index relative to the adjacent clear medium. It may be less than 1 (varnish under a denser
+// liquid): then E is 1 beyond the critical angle, and the equations still hold. With a thin film on the coating, E
+// differs by colour.
 //
 // Reference for the reciprocity: Egan & Hilgeman, Optical Properties of Inhomogeneous Materials, 1979, chapter 6.
 #pragma once
@@ -29,11 +30,12 @@ class CoatingAlbedo {
     /// `roughness` is GGX's α; 0 is smooth.
     CoatingAlbedo(float eta, float roughness)
         : CoatingAlbedo(DielectricSurface(1.0f, eta), ValueRange{roughness, roughness}, ValueRange{}) {}
-    /// From the clear medium into the coating. Roughness varies over the surface in its range, and so does the
-    /// thickness of the film where the coating is smooth; where it is rough the film is as thick as the middle.
+    /// `surface` is the interface from the clear medium into the coating. Roughness varies over the surface in its
+    /// range, and so does the thickness of the film where the coating is smooth. Where it is rough, the film has the
+    /// middle thickness.
     CoatingAlbedo(const DielectricSurface& surface, const ValueRange& roughness, const ValueRange& film_thickness);
 
-    /// Of one place.
+    /// The albedo at one point.
     class At {
       public:
         float roughness() const { return roughness_; }
@@ -51,12 +53,11 @@ class CoatingAlbedo {
         const CoatingAlbedo* albedo_;
         float roughness_, thickness_;
         const Wavelengths* wavelengths_;
-        std::size_t below_ =
-            0;  ///< the table of the next lower roughness; part_ is the way to the one above, in [0, 1]
-        float part_ = 0.0f;
+        std::size_t below_ = 0;  ///< the table of the next lower roughness
+        float part_ = 0.0f;      ///< interpolation weight of the next table, in [0, 1]
         glm::vec3 average_{0.0f};
     };
-    /// Without wavelengths for red, green and blue. With a film, wavelengths have what its three colours have.
+    /// For red, green and blue if `wavelengths` is null. With a film, wavelengths are derived from its three colours.
     At at(float roughness, float thickness = 0.0f, const Wavelengths* wavelengths = nullptr) const {
         return At(*this, roughness, thickness, wavelengths);
     }
@@ -75,7 +76,7 @@ class CoatingAlbedo {
     DielectricSurface surface_;
     RoughnessNodes roughnesses_;  ///< of the tables
     float middle_thickness_;
-    std::vector<Table> tables_;               ///< none if the coating is nowhere rough
+    std::vector<Table> tables_;               ///< empty if the coating is nowhere rough
     std::vector<glm::vec3> smooth_averages_;  ///< where it is smooth, by the thickness of the film
     ValueRange thickness_;
 };

@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Of a metal that reflects everything: the part of the light that is not shadowed on its way out.
+// For a metal that reflects everything: the part of the light that is not shadowed on its way out.
 LossTable loss_table_of(const Ggx& ggx, bool has_grain) {
     const auto leaves = [&](const glm::vec3& wo, const glm::vec3& m) {
         const glm::vec3 wi = 2.0f * glm::dot(wo, m) * m - wo;
@@ -29,7 +29,7 @@ LossTable loss_table_of(const Ggx& ggx, bool has_grain) {
     });
 }
 
-// The part of light scattered several times that gets away at each further scattering: q.
+// q: the part of multiply scattered light that leaves the surface at each further scattering.
 float gets_away(float roughness) {
     return 1.0f / (1.0f + (0.5f + 0.2f * roughness) * roughness);
 }
@@ -50,7 +50,7 @@ auto mean_over_cosine(const Fresnel& fresnel) {
 constexpr float first_nanometre = 380.0f, nanometre_step = 5.0f;
 constexpr int spectrum_nodes = 81;
 
-// Between this many reflectances F̄ is taken to be linear.
+// F̄ is linear between this many reflectances.
 constexpr int reflectance_nodes = 129;
 
 }  // namespace
@@ -61,7 +61,7 @@ ConductorSurface::ConductorSurface(float ior, const glm::vec3& eta, const glm::v
                                    std::shared_ptr<const LossTables> losses)
     : ior_(ior), aspect_(aspect), eta_(eta / ior), k_(k / ior) {
     if (film) film_.emplace(ThinFilm::Layers{ior, film->ior, eta, k}, film->thickness.least, film->thickness.greatest);
-    // An index for red, green and blue is taken to be that at the wavelengths for which those of metals are given.
+    // Indices for red, green and blue are assumed to be those at the wavelengths to which the indices of metals refer.
     const std::array<MetalPoint, 3> by_colours{{{450, eta.z, k.z}, {550, eta.y, k.y}, {650, eta.x, k.x}}};
     if (spectrum.empty()) spectrum = by_colours;
     for (int i = 0; i < spectrum_nodes; ++i) {

@@ -51,7 +51,8 @@ DielectricSurface::Fresnel DielectricSurface::fresnel(float cos_theta, float thi
     const auto [reflectance, cos_transmitted] = fresnel_dielectric(cos_theta, eta_);
     if (!film_) return {glm::vec3(reflectance), cos_transmitted};
     if (reflectance == 1.0f) return {glm::vec3(1.0f), cos_transmitted};
-    // Both ways a film without losses reflects the same, so that one table, without an edge of total reflection, does.
+    // A lossless film reflects the same in both directions, so one table, without an edge of total reflection, is
+    // enough.
     const float cosine = eta_ < 1.0f ? cos_transmitted : cos_theta;
     if (wavelengths && wavelengths->is_spectral)
         return {film_->reflectance_at(wavelengths->nanometres, cosine, thickness), cos_transmitted};
@@ -74,7 +75,7 @@ DielectricSurface::Side DielectricSurface::side(const ValueRange& roughness) con
             });
         });
     };
-    // The midpoint rule in t = √μ; 2μ dμ = 4t³ dt.
+    // Midpoint rule in t = √μ; 2μ dμ = 4t³ dt.
     constexpr int steps = 4096;
     glm::dvec3 sum(0.0);
     for (int i = 0; i < steps; ++i) {

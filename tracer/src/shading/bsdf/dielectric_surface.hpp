@@ -1,12 +1,13 @@
-// What is the same all over an interface of two clear media, smooth or rough, with a thin film or without: how much it
-// reflects, and for a rough one the light that its BSDF has to give back after several scatterings (lost_energy.hpp).
+// The properties that are constant over an interface of two clear media, smooth or rough, with a thin film or without:
+// its reflectance and, for a rough interface, the energy that its BSDF must restore for multiple scattering
+// (lost_energy.hpp).
 //
 // Of the light that is scattered several times on one side, a, the part t_ab leaves through the surface to the other,
-// b. Reciprocity asks that t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. It
-// leaves the sum t_ab + t_ba free, which we set to (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform
-// light, as if each further scattering let through so much: a model, not a derivation. Neither part is more than 1. A
-// walk on the microsurface lets through up to 7 % of the light more than this from outside (η = 1.5), and up to 30 %
-// more or less from inside where α is 1.
+// b. Reciprocity requires t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. It
+// leaves the sum t_ab + t_ba free. It is set to (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform
+// light, as if each further scattering transmitted that much: a model, not a derivation. Neither part exceeds 1.
+// A random walk on the microsurface transmits more than this from outside (η = 1.5), by up to 7 % of the light, and up
+// to 30 % more or less from inside where α is 1.
 #pragma once
 
 #include <memory>
@@ -21,28 +22,28 @@
 
 namespace phasetree::tracer {
 
-/// (η_from/η_to)², by which radiance changes when it is refracted.
+/// (η_from/η_to)², the factor by which refraction changes radiance.
 float radiance_factor(float ior_from, float ior_to);
 
 class DielectricSurface {
   public:
-    /// `roughness` is that of GGX, for an interface that is rough somewhere. Where it is rough, a film whose thickness
-    /// varies is as thick as the middle of its range everywhere, so that the tables are right.
+    /// `roughness` is the α of GGX, for an interface that is rough somewhere. A film of varying thickness has the
+    /// middle of its range everywhere on a rough interface, so that the tables are right.
     DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness = {},
                       const std::optional<FilmOfSurface>& film = {});
-    /// The same, with its film from these.
+    /// As above, with its film taken from `films`.
     DielectricSurface(float ior_from, float ior_to, const std::optional<ValueRange>& roughness,
                       const std::optional<FilmOfSurface>& film, ThinFilms& films);
 
-    /// The same, met from the other side. It shares all tables.
+    /// The same interface, met from the other side. It shares all tables.
     DielectricSurface reversed() const;
 
     float eta() const { return eta_; }  ///< η_to/η_from
     float radiance_factor() const { return radiance_factor_; }
-    /// Equal indices, and nothing between: light goes on as if there were no interface.
+    /// Equal indices without a film: light continues as if there were no interface.
     bool is_none() const { return eta_ == 1.0f && !film_; }
     bool has_film() const { return film_ != nullptr; }
-    /// The thickness that the film counts with where the interface is rough: the middle of its range.
+    /// The thickness of the film where the interface is rough: the middle of its range.
     float middle_thickness() const { return middle_thickness_; }
 
     struct Fresnel {
@@ -51,12 +52,13 @@ class DielectricSurface {
     };
     /// For red, green and blue.
     Fresnel fresnel(float cos_theta, float thickness) const;
-    /// For light of wavelengths, or of colours without any: a film reflects exactly what it does at each wavelength.
+    /// For spectral light, or for colours if `wavelengths` is null. A film reflects the exact amount at each
+    /// wavelength.
     Fresnel fresnel(float cos_theta, float thickness, const Wavelengths* wavelengths) const;
 
-    /// Of the lobes after several scatterings at a place of that roughness.
+    /// The multiple-scattering lobes at a point with that roughness.
     struct Multiple {
-        LossTables::At from, to;     ///< seen from the side of wo, and from the other
+        LossTables::At from, to;     ///< on the side of wo, and on the other side
         glm::vec3 transmitted;       ///< t_ab
         glm::vec3 transmitted_back;  ///< t_ba
     };
@@ -73,7 +75,7 @@ class DielectricSurface {
     float eta_;
     float radiance_factor_, radiance_factor_back_;
     float middle_thickness_;
-    std::shared_ptr<const ThinFilm> film_;  ///< seen from the rarer medium
+    std::shared_ptr<const ThinFilm> film_;  ///< seen from the medium with the lower index
     std::shared_ptr<const Side> from_, to_;
 };
 

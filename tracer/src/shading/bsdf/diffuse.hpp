@@ -1,4 +1,4 @@
-// Lambert's law: f = ρ/π. Sampled by the cosine, so that the weight is ρ.
+// Lambert's law: f = ρ/π. Sampled proportional to the cosine, so that the weight is ρ.
 #pragma once
 
 #include <glm/vec2.hpp>

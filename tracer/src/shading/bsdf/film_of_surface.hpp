@@ -1,4 +1,4 @@
-// What a surface is told of its thin film and of its roughness when it is made, both of which may vary over it.
+// The ranges of film thickness and roughness with which a surface is made. Both may vary over the surface.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace phasetree::tracer {
 
-/// From the least to the greatest value that a parameter of a surface has anywhere on it.
+/// The range of a parameter over a surface.
 struct ValueRange {
     float least = 0.0f, greatest = 0.0f;
 
@@ -16,8 +16,8 @@ struct ValueRange {
     bool operator==(const ValueRange&) const = default;
 };
 
-/// Roughnesses at which there are tables for a range of them. What is lost at an angle depends on the ratio of
-/// roughness and cosine, so they are the closer the smaller: evenly in the eighth root.
+/// The roughnesses of the tables for a range. The loss at an angle depends on the ratio of roughness and cosine, so
+/// nodes are denser for small roughness: they are equidistant in the eighth root.
 class RoughnessNodes {
   public:
     explicit RoughnessNodes(const ValueRange& range) : first_(root(range.least)), step_(root(range.greatest) - first_) {
@@ -32,7 +32,7 @@ class RoughnessNodes {
         const float r2 = r * r;
         return (r2 * r2) * (r2 * r2);
     }
-    /// The node below, and how far it is to the next; there is a next unless there is one node alone.
+    /// The node below, and the fraction towards the next; there is a next node unless there is only one.
     struct Place {
         std::size_t below;
         float part;

@@ -31,8 +31,8 @@ std::array<glm::vec3, nodes> row_of(const Albedo& albedo) {
     return row;
 }
 
-// The row below some |sin φ| and how far it is to the next. Rows are dense near 0, where the roughness along a
-// direction changes fastest, if it is much less along the grain than across.
+// The row below some |sin φ|, and the fraction towards the next. Rows are dense near 0, where the roughness along a
+// direction changes fastest if it is much less along the grain than across.
 struct AzimuthPlace {
     std::size_t below;
     float part;
@@ -43,7 +43,7 @@ AzimuthPlace azimuth_place(float sin_phi, std::size_t rows) {
     return {below, position - static_cast<float>(below)};
 }
 
-// Catmull and Rom's cubic through four equidistant values; `part` goes from 0 at b to 1 at c.
+// Catmull-Rom spline through four equidistant values; `part` is 0 at b and 1 at c.
 glm::vec3 cubic_through(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d, float part) {
     return b + 0.5f * part * (c - a + part * (2.0f * a - 5.0f * b + 4.0f * c - d + part * (3.0f * (b - c) + d - a)));
 }
@@ -56,8 +56,7 @@ LossTable::LossTable(const std::function<glm::vec3(float)>& directional_albedo) 
 }
 
 LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_albedo) {
-    // E is computed at few azimuths, since each costs an integral, and the rows between them are interpolated by
-    // cubics.
+    // E is computed at few azimuths because each costs an integral. The rows between them are interpolated by cubics.
     constexpr std::size_t coarse = 13, rows_per_known = (azimuths - 1) / (coarse - 1);
     std::vector<Row> known;
     for (std::size_t k = 0; k < coarse; ++k) {
@@ -75,7 +74,7 @@ LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_a
             rows[k][j] = glm::clamp(cubic_through(a, b, c, d, part), 0.0f, 1.0f);
         }
     }
-    // The mean over φ. One quarter of the turn is enough, because the others mirror it.
+    // The mean over φ. A quarter turn is enough by symmetry.
     constexpr int steps = 1024;
     Row mean;
     mean.fill(glm::vec3(0.0f));
@@ -89,7 +88,7 @@ LossTable::LossTable(const std::function<glm::vec3(float, float)>& directional_a
 }
 
 LossTable::LossTable(std::vector<Row> rows, const Row& mean) : rows_(std::move(rows)) {
-    // The midpoint rule in t = √μ; 2μ dμ = 4t³ dt.
+    // Midpoint rule in t = √μ; 2μ dμ = 4t³ dt.
     constexpr int steps = 32;
     glm::dvec3 sum(0.0);
     cumulative_[0] = 0.0f;
@@ -106,7 +105,7 @@ LossTable::LossTable(std::vector<Row> rows, const Row& mean) : rows_(std::move(r
         density_[bin] = mean_of_channels(glm::vec3(in_bin / weight));
     }
     average_ = glm::vec3(sum);
-    // Where nothing is lost the lobe is never chosen; it is Lambert's then.
+    // Without losses the lobe is never chosen; its pdf is then Lambert's.
     if (!(mean_of_channels(average_) > 0.0f)) density_.fill(1.0f);
     for (std::size_t bin = 0; bin + 1 < nodes; ++bin) {
         const float low = cosine_at(static_cast<double>(bin) / (nodes - 1));

@@ -1,19 +1,19 @@
-// Microfacet models follow light for one scattering only, so a rough surface loses the light that would be scattered
-// again. This file tabulates that loss and has the lobe that gives the light back.
+// Compensation of multiple scattering. Microfacet models account for one scattering only, so a rough surface loses the
+// light that would be scattered again. This file tabulates that loss and provides the lobe that restores it.
 //
-//   1 − E(ω)    the part of the light along ω that single scattering loses: it would meet the surface again. It depends
-//               on μ = cos θ and, where the surface has a grain along x, on |sin φ|
+//   1 − E(ω)    the part of the light along ω that single scattering loses because it would meet the surface again. It
+//               depends on μ = cos θ and, if the surface has a grain along x, on |sin φ|
 //   L̄           1/π ∫ (1 − E(ω)) μ dω, the same under uniform light
 //
-// Light that has been scattered several times has forgotten where it came from, so it is given back by
-// f = c (1 − E(o)) (1 − E(i)) / (π L̄). This is reciprocal, and its albedo is exactly c (1 − E(o)) of the table, because
-// L̄ is computed from the same table: with c = 1 a lossless surface reflects all light, but for the error of E in the
-// table. E is integrated numerically from the very microfacets that are sampled. The lobe is sampled with a density
-// proportional to s(μ) μ, where s is constant between two nodes of μ: the mean of 1 − E there, over all φ and the
-// colour channels.
+// Light that has been scattered several times has lost its direction, so it is restored by f = c (1 − E(o)) (1 − E(i))
+// / (π L̄). This is reciprocal, and its albedo is exactly c (1 − E(o)) of the table because L̄ is computed from the
+// same table: with c = 1, a lossless surface reflects all light, up to the error of E in the table. E is integrated
+// numerically over the same microfacets that are sampled. The lobe is sampled with a pdf proportional to s(μ) μ, where
+// s is constant between two nodes of μ: the mean of 1 − E there, over all φ and the colour channels.
 //
 // References: Kelemen & Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001 (the
-// lobe); Kulla & Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017 (it as lost energy).
+// lobe); Kulla & Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017 (its use for lost
+// energy).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@
 
 namespace phasetree::tracer {
 
-/// A table of 1 − E(ω) for one roughness, for each colour channel.
+/// A table of 1 − E(ω) for one roughness and each colour channel.
 class LossTable {
   public:
     /// Makes the table of a surface without a grain; the function returns E(μ).
@@ -35,12 +35,12 @@ class LossTable {
     /// Makes the table of a surface with a grain along x; the function returns E(μ, |sin φ|).
     explicit LossTable(const std::function<glm::vec3(float, float)>& directional_albedo);
 
-    /// The first is only for a surface without a grain.
+    /// The first overload requires a surface without a grain.
     glm::vec3 at(float cos_theta) const;
     glm::vec3 at(const glm::vec3& w) const;
     const glm::vec3& average() const { return average_; }
 
-    /// A direction with z > 0 of the lobe, and its density.
+    /// Samples a direction with z > 0 of the lobe; pdf() is its pdf.
     glm::vec3 sample(const glm::vec2& u) const;
     float pdf(float cos_theta) const;
 
@@ -59,14 +59,14 @@ class LossTable {
     std::array<float, nodes> cumulative_;
 };
 
-/// 1 − E(μ) over a range of roughness; of one roughness alone, if the range is empty.
+/// 1 − E(μ) over a range of roughness, or for one roughness if the range is empty.
 class LossTables {
   public:
-    /// `table` returns the table of a roughness; it is called on several threads at once.
+    /// `table` returns the table of a roughness; it is called concurrently.
     LossTables(const ValueRange& roughness, const std::function<LossTable(float)>& table);
 
-    /// The losses at one roughness, interpolated between the two tables next to it. Directions are sampled from the
-    /// nearer one.
+    /// The losses at one roughness, interpolated between the two nearest tables. Directions are sampled from the nearer
+    /// one.
     class At {
       public:
         At(const LossTable& below, const LossTable& above, float part) : below_(&below), above_(&above), part_(part) {}

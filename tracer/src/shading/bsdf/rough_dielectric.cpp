@@ -122,7 +122,8 @@ float RoughDielectricBsdf::reverse_pdf(const glm::vec3& wo, const glm::vec3& wi)
     const float again = mean_of_channels(multiple_.to.at(-wi.z));
     float sum = again * transmitted_back_ * multiple_.from.pdf(wo.z);
     if (const std::optional<glm::vec3> m = microfacet(wo, wi)) {
-        // Fresnel's reflectance at the microfacet is the same from both sides. The density of once(), with 1/η for η.
+        // Fresnel's reflectance at the microfacet is the same from both sides. This is the pdf of once(), with 1/η for
+        // η.
         const float cos_o = glm::dot(wo, *m), denominator = cos_o + eta_ * glm::dot(wi, *m);
         const float transmittance =
             1.0f - mean_of_channels(surface_->fresnel(cos_o, surface_->middle_thickness()).reflectance);

@@ -5,8 +5,8 @@
 //   reflection,   m ∥ wo + wi:    f = F D G₂ / (4 |o.z| |i.z|)
 //   transmission, m ∥ wo + η wi:  f = (1 − F) D G₂ |o·m| |i·m| / (|o.z| |i.z| (o·m + η i·m)²)
 //
-// and what is scattered more than once, by lost_energy.hpp with a, b the sides of wo and behind, and t as
-// dielectric_surface.hpp has it:
+// plus multiple scattering (lost_energy.hpp), with a the side of wo, b the side behind, and t of
+// dielectric_surface.hpp:
 //
 //   reflection:    f = (1 − t) (1 − E_a(o)) (1 − E_a(i)) / (π L̄_a)
 //   transmission:  f = t (1 − E_a(o)) (1 − E_b(i)) / (π L̄_b)
@@ -30,30 +30,30 @@ namespace phasetree::tracer {
 class RoughDielectricBsdf {
   public:
     /// The surface is shared by all points of an interface and must outlive the BSDF; `roughness` is within its range.
-    /// Light of wavelengths is scattered as red, green and blue are that look like it, which makes a difference with a
-    /// film: so what is scattered once and what is scattered more often stay together all of the light.
+    /// The reflectance for spectral light is derived from that for red, green and blue, so that single and multiple
+    /// scattering together conserve energy. This makes a difference only with a film.
     RoughDielectricBsdf(const DielectricSurface& surface, float roughness, const Wavelengths* wavelengths = nullptr);
 
     std::optional<BsdfSample> sample(const glm::vec3& wo, float u_lobe, const glm::vec2& u) const;
     glm::vec3 evaluate(const glm::vec3& wo, const glm::vec3& wi) const;
     float pdf(const glm::vec3& wo, const glm::vec3& wi) const;
-    /// As Bsdf::reverse_pdf().
+    /// See Bsdf::reverse_pdf().
     float reverse_pdf(const glm::vec3& wo, const glm::vec3& wi) const;
     bool is_delta() const { return false; }
     bool passes_through() const { return false; }
 
   private:
-    /// f |cos θi|, and the density with which it is sampled.
+    /// f |cos θi|, and the pdf with which it is sampled.
     struct Scattered {
         glm::vec3 value{0.0f};
         float pdf = 0.0f;
     };
 
-    /// The microfacet normal that takes wo to wi, on the side of wo; nothing if no microfacet does.
+    /// The microfacet normal that scatters wo to wi, on the side of wo; nullopt if no microfacet does.
     std::optional<glm::vec3> microfacet(const glm::vec3& wo, const glm::vec3& wi) const;
-    /// By one scattering, at a microfacet with this normal.
+    /// Single scattering at a microfacet with this normal.
     Scattered once(const glm::vec3& wo, const glm::vec3& wi, const glm::vec3& m) const;
-    /// By one scattering (none, if no microfacet is given) and by several.
+    /// Single scattering (none, without a microfacet) plus multiple scattering.
     Scattered scattered(const glm::vec3& wo, const glm::vec3& wi, const std::optional<glm::vec3>& m) const;
 
     const DielectricSurface* surface_;
@@ -61,8 +61,8 @@ class RoughDielectricBsdf {
     Ggx ggx_;
     float eta_;
     DielectricSurface::Multiple multiple_;
-    float transmitted_;       ///< probability of transmission after several scatterings
-    float transmitted_back_;  ///< the same of light that comes from the other side
+    float transmitted_;       ///< probability of transmission in multiple scattering
+    float transmitted_back_;  ///< the same for light from the other side
 };
 
 }  // namespace phasetree::tracer

@@ -1,16 +1,16 @@
-// Clay, plaster, sandstone, dust: small diffuse facets that hide and light each other, so that a ball of it is flatter
-// and brighter at its rim than Lambert's, as the full moon is.
+// Clay, plaster, sandstone, dust: small diffuse facets that shadow and light each other, so that a ball looks flatter
+// and brighter at its rim than a Lambertian one, like the full moon.
 //
 //     f = f_once + f_ms
 //     f_once = ρ/π (A + r A s/t),   s = o·i − o.z i.z,   t = max(o.z, i.z) where s > 0, else 1
 //     A = 1/(1 + (1/2 − 2/(3π)) r)
 //
-// f_once is what is scattered once (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], of which 0
-// is Lambert's law. Of light at an angle θ a white surface reflects by it
+// f_once is single scattering (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], where 0 is
+// Lambert's law. Of light at an angle θ, a white surface reflects by it
 //     E(θ) = A + r A G(θ)/π,   G = sin θ (θ − sin θ cos θ) + 2/3 (tan θ (1 − sin³θ) − sin θ)
-// and of uniform light Ē = A (1 + r (2/3 − 28/(15 π))). What is left has been scattered more than once:
+// and of uniform light Ē = A (1 + r (2/3 − 28/(15 π))). The rest has been scattered more than once:
 //     f_ms = ρ′/π (1 − E(o)) (1 − E(i))/(1 − Ē),   ρ′ = ρ² Ē/(1 − ρ (1 − Ē))
-// so that a white surface reflects all light, and a coloured one looks the more saturated the rougher it is.
+// so that a white surface reflects all light, and a coloured one is the more saturated the rougher it is.
 //
 // References: Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994; Portsmouth, Kutz & Hill, EON:
 // A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 14(1), 2025.
@@ -61,7 +61,7 @@ class RoughDiffuseBsdf {
         return albedo_ * (a_ * (1.0f + roughness_ * s / t)) +
                multiple_ * ((1.0f - white_albedo_once(wo.z)) * (1.0f - white_albedo_once(wi.z)));
     }
-    /// Returns E by the cosine c; tan θ (1 − sin³θ) is written so that it is exact where light grazes.
+    /// Returns E for the cosine c. tan θ (1 − sin³θ) is written such that it is precise at grazing angles.
     float white_albedo_once(float c) const {
         const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
         const float g = sine * (std::acos(cosine) - sine * cosine) +

@@ -1,5 +1,5 @@
-// A polished metal: mirror reflection, weighted by what conductor_surface.hpp has of it: Fresnel's equations for the
-// complex index relative to the clear medium it touches, or those of a thin film on it.
+// A polished metal: specular reflection, weighted by the reflectance of conductor_surface.hpp: Fresnel's equations for
+// the complex index relative to the adjacent clear medium, or those of a thin film on it.
 #pragma once
 
 #include <glm/vec2.hpp>

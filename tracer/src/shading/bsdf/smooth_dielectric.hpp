@@ -1,12 +1,12 @@
 // A perfectly smooth interface between two clear media: Fresnel reflection and Snell refraction.
 //
-// Reflection is chosen with probability F, so its weight is exactly 1, and that of refraction exactly the factor of
-// radiance (η_from/η_to)². The factors of entering and leaving are rounded once each from the exact squares; their
-// product is 1 within an ulp. Below a thin film, which reflects some colours more than others, F is the mean of the
+// Reflection is chosen with probability F, so its weight is exactly 1, and that of refraction is exactly the radiance
+// factor (η_from/η_to)². The factors of entering and leaving are rounded once each from the exact squares; their
+// product is 1 within an ulp. With a thin film, which reflects some colours more than others, F is the mean of the
 // colours, and the weights are their quotients.
 //
-// Equal indices without a film are no interface at all to light: the ray goes straight on, and the path need not count
-// it as an event.
+// Equal indices without a film are no interface for light: the ray goes straight on, and the path need not count it as
+// an event.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -21,7 +21,7 @@ namespace phasetree::tracer {
 class SmoothDielectricBsdf {
   public:
     SmoothDielectricBsdf(float ior_from, float ior_to);
-    /// The surface is shared by all points of an interface and must outlive the BSDF; the thickness of its film is in
+    /// The surface is shared by all points of an interface and must outlive the BSDF. The thickness of its film is in
     /// nanometres, and within the surface's range.
     explicit SmoothDielectricBsdf(const DielectricSurface& surface, float thickness = 0.0f,
                                   const Wavelengths* wavelengths = nullptr);

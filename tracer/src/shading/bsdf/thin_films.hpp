@@ -1,4 +1,4 @@
-// Films with their tables, each made once, however many surfaces have the like.
+// A cache of thin films and their tables, shared by equal surfaces.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace phasetree::tracer {
 
-/// A film depends on its layers and thicknesses alone, so it may be kept from one scene to the next. Not for several
-/// threads.
+/// Films depend only on their layers and thicknesses, so the cache may be kept from one scene to the next. Not
+/// thread-safe.
 class ThinFilms {
   public:
     std::shared_ptr<const ThinFilm> film(const ThinFilm::Layers& layers, const ValueRange& thickness) {
@@ -23,7 +23,7 @@ class ThinFilms {
         made_.emplace_back(key, film);
         return film;
     }
-    /// Forgets those that nobody else has any more.
+    /// Discards films that are no longer in use elsewhere.
     void forget_unused() {
         std::erase_if(made_, [](const auto& one) { return one.second.use_count() == 1; });
     }

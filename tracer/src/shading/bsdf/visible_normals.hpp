@@ -1,5 +1,4 @@
-// The mean of a function over the microfacet normals that a direction sees, by a quadrature that is the same every
-// time.
+// The mean of a function over the microfacet normals visible from a direction, by a deterministic quadrature.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@ struct FibonacciLattice {
     std::uint32_t samples, before;
 };
 
-/// `function(wo, m)` gives a glm::vec3; the normals' azimuths cover this part of a full turn.
+/// `function(wo, m)` returns a glm::vec3. The azimuths of the normals cover `turns` of a full turn.
 template <class Function>
 glm::vec3 mean_over_visible_normals(const Ggx& ggx, const glm::vec3& wo, const Function& function,
                                     const FibonacciLattice& lattice = {4181, 2584}, float turns = 1.0f) {
@@ -34,12 +33,11 @@ glm::vec3 mean_over_visible_normals(const Ggx& ggx, const glm::vec3& wo, const F
     return glm::vec3(sum / static_cast<double>(samples));
 }
 
-/// `function(wo, m)` gives a glm::vec3. The surface has no grain, `wo` is at that angle to its normal, and what the
-/// function gives must be the same on both sides of the plane of wo and the normal.
+/// `function(wo, m)` returns a glm::vec3. The surface has no grain, `wo` is at that angle to its normal, and the result
+/// must be symmetric about the plane of wo and the normal.
 template <class Function>
 glm::vec3 mean_over_visible_normals(const Ggx& ggx, float cos_theta, const Function& function) {
-    // Of the normal's azimuth one side of the plane is enough: the other mirrors it, so that this is as good as twice
-    // as many points all around.
+    // By symmetry, normals on one side of the plane are enough, which is equivalent to twice as many points all around.
     const glm::vec3 wo{std::sqrt(std::max(0.0f, 1.0f - cos_theta * cos_theta)), 0.0f, cos_theta};
     return mean_over_visible_normals(ggx, wo, function, {2584, 1597}, 0.5f);
 }

@@ -1,4 +1,4 @@
-// Two colours in alternate cubes: squares on any plane along two axes.
+// Two colours in alternating cubes, which show as squares on any plane parallel to two axes.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,7 +14,7 @@ struct CheckerTexture {
     glm::vec3 even{0.8f};
     glm::vec3 odd{0.2f};
     float size = 1.0f;       // edge of a cube
-    glm::vec3 origin{0.0f};  // a corner of an even cube; a plane to be checkered should pass between corners
+    glm::vec3 origin{0.0f};  // a corner of an even cube; a checkered plane should pass between corners
 
     template <class V>
     static void parameters(V&& v) {

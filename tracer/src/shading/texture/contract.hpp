@@ -1,4 +1,4 @@
-// What a texture must provide: a colour at every place of a surface. texture.hpp has the list of all kinds.
+// Requirements on a texture, which gives a colour for every point of a surface. texture.hpp lists all kinds.
 #pragma once
 
 #include <concepts>
@@ -9,12 +9,13 @@
 
 namespace phasetree::tracer {
 
-/// * at(p): the reflectance at p in linear Rec.709, each channel in [0, 1]. p is a position in the object's own space,
-///   in the scene's unit of length, for a solid texture, and a TexturePoint for others. Coordinates are below 10⁹ in
+/// * at(p): the reflectance at p in linear Rec.709, each channel in [0, 1]. p is a position in object space, in the
+///   scene's unit of length, for a solid texture, and a TexturePoint for others. Coordinates are below 10⁹ in
 ///   magnitude.
 ///
-/// A texture that knows more of a colour than red, green and blue also has
-/// * at(p, wavelengths): the reflectance at a path's wavelengths. Of other textures a colour is taken that looks alike.
+/// A texture with more information on a colour than red, green and blue also has
+/// * at(p, wavelengths): the reflectance at a path's wavelengths. For other textures, a spectrum of the same colour is
+///   used.
 template <class T>
 concept TextureKind = std::copyable<T> &&(
     requires(const T& texture, const glm::vec3& p) {

@@ -1,6 +1,6 @@
-// Colours driven by a field of the tree: sand that is dark near water, edges that are worn. A ramp makes colours, or
-// other textures, of the field's value, which is a distance: negative inside of the field's solid, and for the field
-// `merge` of an object, that to the nearest of some of its phases.
+// Colours controlled by a field of the tree: sand that is dark near water, edges that are worn. A ramp maps the field's
+// value to colours or other textures. The value is a distance, negative inside the field's solid; for the field `merge`
+// of an object, it is the distance to the nearest of some of its phases.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ struct FieldTexture {
 
     Field of{};
     TextureRamp ramp{};
-    FieldValue value{};  // of the field, once it is prepared
+    FieldValue value{};  // set once the field is prepared
 
     template <class V>
     static void parameters(V&& v) {

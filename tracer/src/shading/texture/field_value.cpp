@@ -8,7 +8,7 @@ FieldValue::FieldValue(const Field& field) : evaluator_(std::make_shared<const E
 
 float FieldValue::at(const glm::vec3& p) const {
     if (evaluator_ == nullptr) return 0.0f;
-    // A field is recorded as the object of phase 1.
+    // A field is recorded as the object with phase 1.
     return evaluator_->distances(p, Evaluator::thread_workspace())[1];
 }
 

@@ -11,9 +11,9 @@ namespace phasetree::tracer {
 
 class FieldValue {
   public:
-    /// Of no field: 0 everywhere.
+    /// Without a field: 0 everywhere.
     FieldValue() = default;
-    /// Throws ModelError for a field that cannot be recorded.
+    /// Throws ModelError if the field cannot be recorded.
     explicit FieldValue(const Field& field);
 
     float at(const glm::vec3& p) const;

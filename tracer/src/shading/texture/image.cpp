@@ -13,7 +13,7 @@ glm::vec3 ImageTexture::at(const TexturePoint& point) const {
     glm::vec3 sum(0.0f);
     float weights = 0.0f;
     const auto add = [&](float cosine, const glm::vec2& uv) {
-        // At blend 0 the greatest of the three still counts.
+        // At blend 0, the greatest of the three still has a weight.
         const float weight = std::max(cosine - least, 0.0f) + (cosine >= std::max({n.x, n.y, n.z}) ? 1e-6f : 0.0f);
         if (!(weight > 0.0f)) return;
         sum += weight * image->at({uv.x, uv.y * image->aspect()});

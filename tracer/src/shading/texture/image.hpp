@@ -1,8 +1,8 @@
-// An image on all sides of a solid: projected along the three axes and mixed where the surface slants.
+// Triplanar projection: an image projected on a solid along the three axes, blended where the surface is oblique.
 //
-// With the normal n, m = max |nᵢ| and the blend b, the projection along axis i weighs max(|nᵢ| − (1 − b) m, 0): at b =
-// 0 only the nearest axis counts, at b = 1 each by |nᵢ|. The image is repeated without end. Along x its right is +y,
-// along y and z it is +x; its top is +z, along z it is +y.
+// With the normal n, m = max |nᵢ| and the blend b, the projection along axis i has the weight max(|nᵢ| − (1 − b) m, 0).
+// At b = 0 only the nearest axis counts, and at b = 1 each has the weight |nᵢ|. The image repeats infinitely. Along x
+// its right is +y, along y and z it is +x; its top is +z, along z it is +y.
 //
 // Reference: Geiss, Generating Complex Procedural Terrains Using the GPU, GPU Gems 3, 2007, section 1.5 (triplanar
 // projection).
@@ -24,9 +24,9 @@ struct ImageTexture {
 
     std::filesystem::path file{};
     float size = 1.0f;       // width of the image in the scene
-    glm::vec3 origin{0.0f};  // where its lower left corner is
+    glm::vec3 origin{0.0f};  // position of its lower left corner
     float blend = 0.3f;
-    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+    std::shared_ptr<const TextureImage> image{};  // set once it is prepared
 
     template <class V>
     static void parameters(V&& v) {

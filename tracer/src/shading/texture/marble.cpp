@@ -14,7 +14,7 @@ glm::vec3 MarbleTexture::at(const glm::vec3& position) const {
     const glm::vec3 warp{fractal_noise(p, 5, hash(seed, 1u)), fractal_noise(p, 5, hash(seed, 2u)),
                          fractal_noise(p, 5, hash(seed, 3u))};
     const glm::vec3 q = p + 0.6f * warp;
-    // How wide and how strong a vein is changes along it.
+    // The width and strength of a vein vary along it.
     const float strength = glm::smoothstep(-0.35f, 0.55f, gradient_noise(0.7f * p, hash(seed, 4u)));
     const float distance = std::abs(gradient_noise(0.8f * q, hash(seed, 5u)));
     const float main_vein = strength * std::exp(-distance / (0.012f + 0.05f * strength));

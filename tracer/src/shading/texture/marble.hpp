@@ -1,5 +1,5 @@
-// A ground colour crossed by veins: thin sheets where a warped noise passes through zero, between broad clouds of a mix
-// of the two colours.
+// A base colour crossed by veins: thin sheets where a warped noise passes through zero, between broad clouds that mix
+// the two colours.
 //
 // Reference: Ebert, Musgrave, Peachey, Perlin & Worley, Texturing and Modeling, 3rd ed., 2003 (marble by turbulence).
 #pragma once

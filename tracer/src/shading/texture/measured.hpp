@@ -1,5 +1,4 @@
-// A colour that was measured: the share of light that is reflected at each wavelength. Light of red, green and blue is
-// reflected by the colour that it has in daylight, D65.
+// A measured colour: the reflectance at each wavelength. Paths in red, green and blue use its colour in daylight, D65.
 #pragma once
 
 #include <glm/common.hpp>
@@ -10,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-/// A list of points, [[wavelength, value], …], of which the wavelengths rise.
+/// A list of points, [[wavelength, value], …], with increasing wavelengths.
 struct SpectrumParameter : Parameter {};
 
 struct MeasuredTexture {

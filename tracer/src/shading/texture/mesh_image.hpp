@@ -1,5 +1,5 @@
-// An image on a mesh by the mesh's own texture coordinates, of which (0, 0) is the image's lower left corner and (1, 1)
-// its upper right one; beyond, it is repeated.
+// An image on a mesh, by the mesh's own texture coordinates: (0, 0) is the image's lower left corner and (1, 1) its
+// upper right one. The image repeats beyond.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct MeshImageTexture {
 
     std::filesystem::path file{};
     glm::vec2 repeat{1.0f};
-    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+    std::shared_ptr<const TextureImage> image{};  // set once it is prepared
 
     template <class V>
     static void parameters(V&& v) {
@@ -28,7 +28,7 @@ struct MeshImageTexture {
     }
     void prepare() { image = load_texture_image(file); }
 
-    // A mesh without coordinates is rejected where the scene is read.
+    // The reader of scenes rejects meshes without coordinates.
     glm::vec3 at(const TexturePoint& p) const { return image->at((p.mesh ? p.mesh->uv : glm::vec2(0.0f)) * repeat); }
 };
 

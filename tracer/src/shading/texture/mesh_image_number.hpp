@@ -1,4 +1,4 @@
-// A number for each place of an image on a mesh, such as a map of its roughness.
+// A number that varies over a mesh by an image, such as a roughness map.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct MeshImageNumber {
     std::string channel_name{"red"};
     glm::vec2 repeat{1.0f};
     glm::vec2 range{0.0f, 1.0f};
-    std::shared_ptr<const TextureImage> image{};  // once it is prepared
+    std::shared_ptr<const TextureImage> image{};  // set once it is prepared
 
     template <class V>
     static void parameters(V&& v) {
@@ -55,7 +55,7 @@ struct MeshImageNumber {
     float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
     float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
 
-    glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, once it is prepared
+    glm::vec2 of_image{0.0f, 1.0f};  // the range of the image's values, set once it is prepared
     int channel = 0;                 // of the image, from its name
     bool is_squared = false;         // of glTF's roughness; scene files do not say it
     ImageCoordinates coordinates{};  // of glTF's images; scene files do not say them

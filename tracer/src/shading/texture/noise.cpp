@@ -19,7 +19,7 @@ struct Lattice {
     glm::vec3 inside;      // in [0, 1]
 };
 
-// Far outside of what floats resolve, and for what is no number, everything is one cube.
+// Values far beyond the resolution of floats, and NaN, are all in one cube.
 Lattice locate(const glm::vec3& p) {
     const auto split = [](float value, float& inside) {
         if (!(std::abs(value) < 1e9f)) {
@@ -38,15 +38,15 @@ Lattice locate(const glm::vec3& p) {
     return lattice;
 }
 
-// One multiplication an axis before the finaliser, with the constants of Teschner, Heidelberger, Müller, Pomerantes &
+// One multiplication per axis before the finaliser, with the constants of Teschner, Heidelberger, Müller, Pomerantes &
 // Gross, Optimized Spatial Hashing for Collision Detection of Deformable Objects, 2003. `seed` is itself a hash.
 std::uint32_t hash_cube(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed) {
     return mix_bits(seed ^ (static_cast<std::uint32_t>(x) * 73856093u) ^ (static_cast<std::uint32_t>(y) * 19349663u) ^
                     (static_cast<std::uint32_t>(z) * 83492791u));
 }
 
-// Towards the middle of one of a cube's twelve edges, as Perlin chose them: of four in a row ±x ± y, ±x ± z, ±y ± z.
-// Without branches, which nobody could guess.
+// Dot product with the direction to the centre of one of a cube's twelve edges, as in Perlin's noise: in groups of
+// four, ±x ± y, ±x ± z, ±y ± z. Without branches, which would be unpredictable.
 float along_gradient(std::uint32_t bits, float x, float y, float z) {
     const std::uint32_t edge = bits % 12u;
     const float first = edge < 8u ? x : y, second = edge < 4u ? y : z;
@@ -84,7 +84,7 @@ float fractal_noise(const glm::vec3& p, int octaves, std::uint32_t seed) {
     for (int octave = 0; octave < octaves; ++octave) {
         sum += amplitude * gradient_noise(q, hash(seed, static_cast<std::uint32_t>(octave)));
         amplitude *= 0.5f;
-        // Not exactly doubled, so that the zeros of the octaves do not fall together.
+        // Not exactly doubled, so that the zeros of the octaves do not coincide.
         q = q * 2.03f + glm::vec3{0.37f, 0.71f, 0.53f};
     }
     return sum;
@@ -111,11 +111,11 @@ Cell cellular_noise(const glm::vec3& p, std::uint32_t seed) {
             next = squared;
         }
     };
-    // The cubes beside p first; of the others few are as near as the second point found there.
+    // The cubes next to p first. Of the others, few are as near as the second point found there.
     const auto side = [](float inside) { return inside < 0.5f ? -1 : 1; };
     const int si = side(l.inside.x), sj = side(l.inside.y), sk = side(l.inside.z);
     for (int corner = 0; corner < 8; ++corner) look_in(corner & 1 ? si : 0, corner & 2 ? sj : 0, corner & 4 ? sk : 0);
-    // How far away the cubes are that lie i before or behind, squared.
+    // Squared distance to the cubes at offset i.
     const auto squared_gap = [](int i, float inside) {
         const float gap = i < 0 ? inside - static_cast<float>(i + 1) : i > 0 ? static_cast<float>(i) - inside : 0.0f;
         return gap * gap;
@@ -130,8 +130,8 @@ Cell cellular_noise(const glm::vec3& p, std::uint32_t seed) {
         }
     };
     look_around(1, [&](int i, int j, int k) { return i != -si && j != -sj && k != -sk; });
-    // Cubes beyond those are more than 1 away. Two points are always within √3, that of p's own cube and that of the
-    // one across its nearest face, so none lies beyond the next layer of cubes, which is 2 away.
+    // Cubes beyond those are more than 1 away. Two points are always within √3: that of p's own cube and that of the
+    // cube across its nearest face. So no relevant cube lies beyond the next layer, which is 2 away.
     if (next > 1.0f)
         look_around(2, [](int i, int j, int k) { return std::max({std::abs(i), std::abs(j), std::abs(k)}) < 2; });
     return {std::sqrt(nearest), std::sqrt(next), nearest_id};

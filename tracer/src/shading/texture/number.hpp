@@ -1,5 +1,5 @@
-// A number of a material, such as its roughness, that may be another at each point: it may follow a field of the tree,
-// as the colours of field.hpp do, an image on a mesh, or be another for each copy, as those of per_copy.hpp.
+// A number of a material, such as its roughness, that may vary: by a field of the tree, like the colours of field.hpp,
+// by an image on a mesh, or per copy, like those of per_copy.hpp.
 #pragma once
 
 #include <type_traits>
@@ -22,7 +22,7 @@ struct FieldNumber {
 
     Field of{};
     std::vector<NumberStop> ramp{};
-    FieldValue value{};  // of the field, once it is prepared
+    FieldValue value{};  // set once the field is prepared
 
     template <class V>
     static void parameters(V&& v) {
@@ -39,12 +39,12 @@ struct FieldNumber {
     float greatest() const { return greatest_of(ramp); }
 };
 
-/// Those that a scene file names instead of a number.
+/// Those that scene files can use instead of a number.
 using NumberTextures = TypeList<FieldNumber, MeshImageNumber, PerCopyNumber>;
 
 using Number = std::variant<float, FieldNumber, MeshImageNumber, PerCopyNumber>;
 
-/// What of_texture makes of the number, or the number itself if it is the same everywhere.
+/// The result of of_texture for a varying number; a constant number is returned unchanged.
 template <class OfTexture>
 float of_number(const Number& number, const OfTexture& of_texture) {
     return std::visit(

@@ -1,6 +1,6 @@
-// Copies of one object that do not look all the same. Each copy that a scene's "instances" place gets a random number
-// in [0, 1), which is a hash of the copy's number and a seed, and is the same everywhere on the copy. What is there
-// once, and every mesh, has the number of the first copy.
+// Variation among copies of one object. Each copy placed by a scene's "instances" has a random number in [0, 1), a hash
+// of the copy's number and a seed, which is constant over the copy. Objects that exist once, and all meshes, have the
+// number of the first copy.
 #pragma once
 
 #include <algorithm>

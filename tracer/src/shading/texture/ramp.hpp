@@ -1,4 +1,4 @@
-// How numbers become other numbers, or colours: stops, between which it is linear, and beyond which it is constant.
+// Piecewise-linear ramps from numbers to numbers or colours. Beyond the first and last stop they are constant.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 
 namespace phasetree::tracer {
 
-/// Two neighbouring stops, and how far a value is from the first towards the second, in [0, 1].
+/// Two neighbouring stops, and the fraction of the way from the first to the second, in [0, 1].
 struct BetweenStops {
     std::size_t below, above;
     float part;
 };
 
-/// `stops` have a member `at` that never falls; there is one at least.
+/// `stops` have a non-decreasing member `at`; there is at least one.
 template <class Stop>
 BetweenStops between_stops(std::span<const Stop> stops, float value) {
     const auto after = std::ranges::find_if(stops, [&](const Stop& stop) { return stop.at > value; });

@@ -1,4 +1,4 @@
-// A ramp that makes a number of a number.
+// A ramp from numbers to numbers.
 #pragma once
 
 #include <algorithm>

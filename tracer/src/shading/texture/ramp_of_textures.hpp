@@ -1,4 +1,4 @@
-// A ramp that makes a colour, or another texture, of a number. Two textures are mixed in linear light.
+// A ramp from numbers to colours or other textures. Two textures are mixed in linear light.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,14 +11,14 @@
 
 namespace phasetree::tracer {
 
-/// The texture from this value on, until the next; texture.hpp has the member that is left out here.
+/// The texture from this value up to the next stop. Defined in texture.hpp because it contains a texture.
 struct TextureStop;
 using TextureRamp = std::shared_ptr<const std::vector<TextureStop>>;
 
-/// A list of stops, [[value, colour or number], …], of which the values rise.
+/// A list of stops, [[value, colour or number], …], with increasing values.
 struct RampParameter : Parameter {};
 
-/// The ramp's colour for a value, at a place, as color_at() has it.
+/// The ramp's colour for a value, at a point; see color_at() of a texture.
 glm::vec3 color_at(const TextureRamp& ramp, float value, const TexturePoint& p, const Wavelengths* wavelengths);
 
 }  // namespace phasetree::tracer

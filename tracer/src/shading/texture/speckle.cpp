@@ -21,9 +21,9 @@ glm::vec3 SpeckleTexture::at(const glm::vec3& position) const {
     } else if (mineral > 0.92f) {
         result = glm::mix(result, glm::vec3{0.85f, 0.83f, 0.78f}, 0.6f * contrast);  // clear quartz
     }
-    // Light does not get between the grains.
+    // Gaps between grains are dark.
     result *= glm::mix(1.0f, glm::smoothstep(0.0f, 0.22f, cell.next - cell.nearest), 0.7f * contrast);
-    // Broad, faint changes of tone, as sand has from lying.
+    // Broad, faint variations of tone, like those of sand.
     result *= 1.0f + 0.12f * contrast * fractal_noise(0.06f * p, 3, hash(seed, 14u));
     return glm::clamp(result, 0.0f, 1.0f);
 }

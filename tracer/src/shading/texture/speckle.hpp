@@ -1,5 +1,5 @@
-// Grains, as of sand: cells of cellular noise, each with a colour and a brightness of its own, darker in the gaps
-// between them. Some grains are of a dark mineral and some nearly white.
+// Grains, such as sand: cells of cellular noise, each with its own colour and brightness, and darker gaps between them.
+// Some grains are of a dark mineral and some are nearly white.
 //
 // Reference: Worley, A Cellular Texture Basis Function, SIGGRAPH 1996.
 #pragma once
@@ -15,9 +15,9 @@ struct SpeckleTexture {
     static constexpr KindInfo info{"speckle", "Grains, as of sand: each has a colour and a brightness of its own."};
 
     glm::vec3 color{0.58f, 0.42f, 0.24f};
-    glm::vec3 other{0.70f, 0.57f, 0.39f};  // grains are mixed from the two
-    float grain = 0.01f;                   // mean distance of grains
-    float contrast = 0.5f;                 // 0: all grains alike; 1: very mixed
+    glm::vec3 other{0.70f, 0.57f, 0.39f};  // grains mix the two colours
+    float grain = 0.01f;                   // mean distance between grains
+    float contrast = 0.5f;                 // 0: all grains are equal; 1: very mixed
     std::uint32_t seed = 0;
 
     template <class V>

@@ -23,13 +23,13 @@
 
 namespace phasetree::tracer {
 
-// Those that a scene file names, with their parameters: one list, from which the reader, the reference and the schema
-// follow. A colour by itself is the constant one.
+// Textures in scene files, with their parameters: the list from which the reader, the reference and the schema are
+// generated. A bare colour is the constant texture.
 using NamedTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture,
                                MeshImageTexture, VertexColorTexture, MeasuredTexture, PerCopyTexture>;
 
-/// A kind of texture, once its contract has been asked of it. If it does not meet that, the message names the kind and
-/// the member.
+/// Checks a kind of texture against its concept. If the check fails, the compiler's message names the kind and the
+/// member.
 template <class Kind>
 struct CheckedTexture {
     static_assert(TextureKind<Kind>);
@@ -50,10 +50,9 @@ struct TextureStop {
     Texture texture;
 };
 
-/// The texture's colour at a place, as a path takes it, for any place whatever: TextureKind's at() is asked within its
-/// limits only.
+/// The texture's colour at any point, in the components of a path. Calls TextureKind's at() only within its limits.
 inline glm::vec3 color_at(const Texture& texture, TexturePoint point, const Wavelengths* wavelengths = nullptr) {
-    // Where floats resolve no texture any more, and for what is no position, it is the colour of the origin.
+    // Positions beyond the resolution of floats, and NaN, have the colour of the origin.
     const glm::vec3& p = point.position;
     if (!(std::abs(p.x) < 1e9f && std::abs(p.y) < 1e9f && std::abs(p.z) < 1e9f)) point.position = glm::vec3(0.0f);
     return std::visit(
@@ -81,8 +80,8 @@ inline glm::vec3 color_at(const Texture& texture, TexturePoint point, const Wave
         texture);
 }
 
-/// Whether a texture is, or has in it, one of a kind. A MeshImageTexture can only be on a mesh whose file has texture
-/// coordinates, a VertexColorTexture on one whose file has colours.
+/// Whether a texture is of a kind, or contains one. A MeshImageTexture requires a mesh whose file has texture
+/// coordinates, a VertexColorTexture one whose file has colours.
 template <class Wanted>
 bool has_kind(const Texture& texture) {
     return std::visit(

@@ -1,4 +1,4 @@
-// A place on a surface, as textures see it.
+// A point on a surface, as seen by textures.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer {
 
-/// What a mesh's corners say of a place. The gradients are those along the surface, per unit of length.
+/// Attributes interpolated from a mesh's vertices. The gradients are along the surface, per unit length.
 struct MeshCoordinates {
     glm::vec2 uv{0.0f};                 ///< texture coordinates
     glm::mat2x3 gradients{0.0f};        ///< ∇u and ∇v
@@ -26,16 +26,16 @@ struct MeshCoordinates {
 };
 
 struct TexturePoint {
-    glm::vec3 position;                  ///< in the object's own space, in the scene's unit of length
-    glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< of unit length, to either side
+    glm::vec3 position;                  ///< in object space, in the scene's unit of length
+    glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< unit length, on either side
     std::optional<MeshCoordinates> mesh{};
-    std::uint32_t copy = 0;  ///< of the object (scene/placed.hpp); 0 of one that is there once
+    std::uint32_t copy = 0;  ///< number of the copy of the object (scene/placed.hpp); 0 for an object that exists once
 
     TexturePoint(const glm::vec3& p) : position(p) {}
     TexturePoint(const glm::vec3& p, const glm::vec3& n, const std::optional<MeshCoordinates>& coordinates)
         : position(p), normal(n), mesh(coordinates) {}
 
-    /// A place nearby on the surface, which is taken to be flat.
+    /// A nearby point on the surface, which is assumed to be flat.
     TexturePoint moved(const glm::vec3& by) const {
         TexturePoint there = *this;
         there.position += by;

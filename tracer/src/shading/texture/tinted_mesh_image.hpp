@@ -1,8 +1,8 @@
-// The colour that glTF gives to a place of a mesh: a factor, times an image by the mesh's texture coordinates, times
-// the colours of its vertices. Scene files do not name it; meshes from glTF files have it.
+// The base colour of a glTF mesh: a factor, times an image by the mesh's texture coordinates, times the colours of its
+// vertices. Only meshes from glTF files have it; scene files cannot use it.
 //
-// glTF's colour c is that which is seen under a clear coat. The base of a coat that reflects the part F of diffuse
-// light back inside is seen as c = ρ (1 − F) / (1 − ρ F) (bsdf/coated_diffuse.hpp), so it has ρ = c / (1 − F + c F).
+// glTF's colour c is the colour seen under a clear coat. Under a coat that reflects the part F of diffuse light back
+// inside, the base is seen as c = ρ (1 − F) / (1 − ρ F) (bsdf/coated_diffuse.hpp), so ρ = c / (1 − F + c F).
 #pragma once
 
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-// The colours of a mesh's vertices, as scans have them; between vertices they are interpolated linearly.
+// Vertex colours of a mesh, such as those of scans, interpolated linearly.
 #pragma once
 
 #include <glm/common.hpp>
@@ -16,7 +16,7 @@ struct VertexColorTexture {
     template <class V>
     static void parameters(V&&) {}
 
-    // A mesh without colours is rejected where the scene is read. Bumps ask for places a little outside of triangles.
+    // The reader of scenes rejects meshes without colours. Bumps evaluate points slightly outside of triangles.
     glm::vec3 at(const TexturePoint& p) const {
         return p.mesh ? glm::clamp(p.mesh->color, glm::vec3(0.0f), glm::vec3(1.0f)) : glm::vec3(1.0f);
     }
