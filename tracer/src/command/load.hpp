@@ -55,8 +55,7 @@ auto made_of_tree(const Document& document, F&& make) {
 // Prints a warning to standard error if the scene's object is hard to trace (TraceableObject::warning).
 void print_warning(const std::string& file, const std::string& warning);
 
-// The object's program. Throws SceneError if it is too large: a few nested repetitions can stand for billions of
-// shapes.
+// The object's program. Throws SceneError if it is too large: a few nested shapes can stand for billions.
 Program record_tree(const Document& document, const Phased& object);
 
 }  // namespace phasetree::tracer

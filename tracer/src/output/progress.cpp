@@ -51,7 +51,7 @@ std::string count_text(std::uint64_t n) {
 int share(std::uint64_t done, std::uint64_t total, int parts) {
     if (done >= total) return parts;
     const double exact = static_cast<double>(done) / static_cast<double>(total) * parts;
-    // 5 % of 100 must be 5, although 0.05 · 100 may round to just below.
+    // 5 of 100 is one of 20 parts, although 0.05 · 20 may round to just below 1.
     const int rounded = static_cast<int>(exact + 1e-9);
     return std::min(rounded, parts - 1);
 }
