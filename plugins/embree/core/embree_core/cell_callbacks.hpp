@@ -1,6 +1,6 @@
 #pragma once
 
-/// What an RTCGeometry whose primitives are an object's cells does when Embree calls it.
+/// Embree's callbacks for an RTCGeometry whose primitives are an object's cells.
 
 #include <algorithm>
 #include <new>
@@ -10,7 +10,7 @@
 
 namespace phasetree::embree {
 
-/// Gives Embree a box.
+/// Writes a box for Embree.
 inline void write_bounds(RTCBounds& out, const Bounds& box) {
     out.lower_x = box.low.x;
     out.lower_y = box.low.y;
@@ -20,13 +20,13 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
     out.upper_z = box.high.z;
 }
 
-/// For a single ray whose context is a Query. The hit's normal is not evaluated: Ng is against the ray.
+/// For a single ray whose context is a Query. Does not evaluate the hit's normal: Ng is opposite to the ray.
 void intersect_cell_for_query(const InterfaceCells&, const RTCIntersectFunctionNArguments*) noexcept;
 void occluded_cell_for_query(const InterfaceCells&, const RTCOccludedFunctionNArguments*) noexcept;
 
-/// For any packet and any context. Calls carried(i) for the phase that lane i carries, if it does, and hit(i, crossing,
-/// ray as seen) for each lane whose ray crosses an interface in the cell; for no more of them where memory ends, since
-/// nobody could be told.
+/// For any packet and any context. Calls carried(i) for the phase that lane i carries, if any, and hit(i, crossing, ray
+/// as seen) for each lane whose ray crosses an interface in the cell. If memory runs out, the remaining lanes are
+/// skipped, because the error cannot be reported.
 template <class Arguments, class Carried, class Hit>
 void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCRayN* rays, Carried&& carried,
                    Hit&& hit) noexcept try {
@@ -41,7 +41,7 @@ void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCR
 } catch (const std::bad_alloc&) {
 }
 
-/// Writes the packet's hits, and tells report(i, crossing, length of the lane's direction) of each.
+/// Writes the packet's hits, and calls report(i, crossing, length of the lane's direction) for each.
 template <class Carried, class Report>
 void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFunctionNArguments& arguments,
                                Carried&& carried, Report&& report) noexcept {
@@ -50,7 +50,7 @@ void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFu
     each_crossing(cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const SeenRay& seen) {
         const glm::vec3 normal = -cells.normal(cell, crossing, seen.traced.direction).unit;
         float& far = RTCRayN_tfar(rays, n, i);
-        // Rounding shall not put a hit outside of the ray.
+        // Rounding must not put a hit outside the ray.
         far = std::clamp(crossing.t_in / seen.length, std::min(RTCRayN_tnear(rays, n, i), far), far);
         write_hit(RTCRayHitN_HitN(arguments.rayhit, n), n, i, crossing, normal, cell, arguments.geomID,
                   *arguments.context);
@@ -58,7 +58,7 @@ void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFu
     });
 }
 
-/// Marks the rays of the packet that cross an interface in the cell as occluded.
+/// Marks those rays of the packet that cross an interface in the cell as occluded.
 template <class Carried>
 void occluded_cell_for_packet(const InterfaceCells& cells, const RTCOccludedFunctionNArguments& arguments,
                               Carried&& carried) noexcept {

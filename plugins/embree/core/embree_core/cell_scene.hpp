@@ -4,16 +4,16 @@
 
 namespace phasetree::embree {
 
-/// An object's cells in an Embree scene of their own: rays find their first crossing, whole and in order. Immutable;
-/// any thread may trace.
+/// An object's cells in an Embree scene of their own, in which rays find their crossings once each and in order.
+/// Immutable; any thread may trace.
 ///
-/// Cells as primitives of the host's own scene (CellGeometry) are faster, by a tenth to a third. But Embree asks
-/// cells in any order and each knows only its own span of the ray. That tells which crossing is the first; it cannot
-/// tell a filter function each crossing once, because cells reach into each other, nor which phase a ray is in that a
-/// filter has let through. A scene within makes both simple.
+/// Cells as primitives of the host's own scene (CellGeometry) are faster, by a tenth to a third. However, Embree visits
+/// cells in any order, and each cell knows only its own span of the ray. That determines the first crossing. It does
+/// not allow a filter function to see each crossing once, because cells overlap, nor does it give the phase of a ray
+/// after a filter has let it through. A separate scene makes both simple.
 class CellScene {
   public:
-    /// Throws EmbreeError. Clears the thread's error code of the device.
+    /// Throws EmbreeError. Clears the device's error code for the calling thread.
     CellScene(RTCDevice device, std::shared_ptr<const InterfaceCells> cells);
     ~CellScene();
     CellScene(const CellScene&) = delete;
@@ -26,7 +26,7 @@ class CellScene {
         Crossing crossing;
     };
     std::optional<Hit> first_crossing(const UnitRay&, std::optional<Phase> carried) const;
-    /// Whether there is any.
+    /// Whether the ray has any crossing.
     bool any_crossing(const UnitRay&, std::optional<Phase> carried) const;
 
   private:

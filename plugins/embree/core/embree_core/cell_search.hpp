@@ -9,9 +9,9 @@
 
 namespace phasetree::embree {
 
-/// A ray as cells see it. Embree brings the same one from cell to cell, so it is made ready once.
+/// A ray as cells see it. Embree passes the same ray from cell to cell, so it is prepared only once.
 struct SeenRay {
-    glm::vec3 origin{0}, direction{0};  ///< as they were given
+    glm::vec3 origin{0}, direction{0};  ///< as given
     float length = 0;                   ///< of the direction; 0 if the ray cannot hit anything
     TracedRay traced;
 
@@ -21,15 +21,15 @@ struct SeenRay {
           direction(given.dir_x, given.dir_y, given.dir_z),
           length(usable_length(origin, direction)),
           traced(length > 0 ? TracedRay(origin, unit_direction(direction, length)) : TracedRay()) {}
-    /// Whether it is this ray to the last bit.
+    /// Whether this is the given ray, bit for bit.
     bool is(const RTCRay& given) const {
         return std::memcmp(&origin, &given.org_x, sizeof origin) == 0 &&
                std::memcmp(&direction, &given.dir_x, sizeof direction) == 0;
     }
 };
 
-/// The first crossing of a ray within a cell, from the ray's tnear to its tfar. Everything that traces an object
-/// through Embree comes here.
+/// The first crossing of a ray within a cell, from the ray's tnear to its tfar. All tracing of objects through Embree
+/// uses this function.
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
                                            const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
@@ -38,9 +38,9 @@ inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned
     if (!(near <= far)) return crossing;
     crossing = cells.first_crossing(cell, seen.traced, near, far, carried, leaving_hint, counters);
     if (!crossing) return crossing;
-    // Of a ray that starts at an interface, rounding may put the crossing a little before the start.
+    // For a ray that starts at an interface, rounding may put the crossing slightly before the start.
     crossing->t_in = std::max(crossing->t_in, near);
-    if (!(crossing->t_in <= far)) crossing.reset();  // it was so but for rounding
+    if (!(crossing->t_in <= far)) crossing.reset();  // only rounding put it within the ray
     return crossing;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Embree's own header, and what differs between Embree 3 and Embree 4, in one place.
+/// Includes Embree's header, and hides the differences between Embree 3 and Embree 4.
 
 #if PHASETREE_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>

@@ -6,7 +6,7 @@
 
 namespace phasetree::embree {
 
-/// Embree refused to make something: which error it gave, or none if it does not tell.
+/// Embree failed to create an object. Has Embree's error code, or none if Embree did not report one.
 class EmbreeError : public std::runtime_error {
   public:
     EmbreeError(RTCError code, const char* what);
@@ -16,7 +16,7 @@ class EmbreeError : public std::runtime_error {
     RTCError code_;
 };
 
-/// Throws what the thread's last calls of Embree for the device have to complain of.
+/// Throws if Embree recorded an error for the device in the calling thread.
 void throw_device_error(RTCDevice device, const char* what);
 
 }  // namespace phasetree::embree

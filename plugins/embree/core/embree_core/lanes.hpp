@@ -1,20 +1,20 @@
 #pragma once
 
-/// Packets of rays, lane by lane: what callbacks read of them and write to them.
+/// Access to the lanes of ray packets in callbacks.
 
 #include "embree_core/rays.hpp"
 #include "phasetree/model/crossing.hpp"
 
 namespace phasetree::embree {
 
-/// The ray of a lane; nothing if it cannot hit anything.
+/// The ray of a lane; nullopt if it cannot hit anything.
 inline std::optional<UnitRay> unit_ray(RTCRayN* rays, unsigned n, unsigned i) {
     return UnitRay::of({RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
                        {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
                        RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i));
 }
 
-/// Writes a change of phase as a lane's hit: the phases in u and v, the cell in primID, and where in the scene it is.
+/// Writes a change of phase as a lane's hit: the phases in u and v, the cell in primID, and the geometry and instance.
 /// `normal` is on the side that the ray comes from.
 inline void write_hit(RTCHitN* hits, unsigned n, unsigned i, const Crossing& crossing, const glm::vec3& normal,
                       unsigned cell, unsigned geometry, const Context& context) {
@@ -33,7 +33,7 @@ inline void write_hit(RTCHitN* hits, unsigned n, unsigned i, const Crossing& cro
     }
 }
 
-/// Says that a lane's occlusion ray has hit something, as Embree wants it said.
+/// Marks a lane's occlusion ray as occluded, in Embree's convention.
 inline void write_occlusion(RTCRayN* rays, unsigned n, unsigned i) {
     RTCRayN_tfar(rays, n, i) = -std::numeric_limits<float>::infinity();
 }

@@ -5,8 +5,8 @@
 
 namespace phasetree::embree {
 
-/// Lines through an object by its cells, for meshes of its phases. The cells must have been built without
-/// CellOptions::opaque, or crossings are missing where opaque phases meet. The scene must outlive what is returned.
+/// Traces lines through an object's cells, for meshing its phases. The cells must have been built without
+/// CellOptions::opaque; otherwise crossings between opaque phases are missing. The scene must outlive the result.
 LineTracer line_tracer(const CellScene& scene);
 
 }  // namespace phasetree::embree

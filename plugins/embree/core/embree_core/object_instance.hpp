@@ -6,27 +6,28 @@
 
 namespace phasetree::embree {
 
-/// Which of the objects in a scene: a geometry, and the instances within which a ray meets it, the outermost first. So
-/// two instances of one geometry are two objects, and a ray can be in different phases of them.
+/// Identifies an object in a scene by its geometry and the instances through which a ray reaches it, outermost first.
+/// Two instances of one geometry are thus two objects, and a ray can be in different phases of them.
 struct ObjectInstance {
-    /// Embree's IDs of instances; RTC_INVALID_GEOMETRY_ID behind the last one.
+    /// Embree's instance IDs, followed by RTC_INVALID_GEOMETRY_ID.
     using Path = std::array<unsigned, RTC_MAX_INSTANCE_LEVEL_COUNT>;
 
     unsigned geometry = RTC_INVALID_GEOMETRY_ID;
     Path instances = outside();
 #if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
-    Path instance_primitives = outside();  ///< which instance of an array; Embree has 0 for those that are in none
+    Path instance_primitives = outside();  ///< indices within instance arrays; Embree uses 0 for instances that are not
+                                           ///< in an array
 #endif
 
     bool operator==(const ObjectInstance&) const = default;
 
-    /// The path of an object that is in no instance.
+    /// The path of an object that is not in an instance.
     static constexpr Path outside() {
         Path path{};
         path.fill(RTC_INVALID_GEOMETRY_ID);
         return path;
     }
-    /// The object that a callback is asked for, and the one that a ray has hit.
+    /// The object that a callback was called for, and the object that a ray has hit.
     static ObjectInstance of(const Context& context, unsigned geometry) {
         return at(context, geometry);
     }

@@ -7,8 +7,8 @@
 
 namespace phasetree::embree {
 
-/// An object prepared for rays, with a device of its own: for those who trace rays and render nothing. Immutable; any
-/// thread may trace.
+/// An object prepared for rays, with a device of its own, for programs that trace rays without rendering. Immutable;
+/// any thread may trace.
 class PreparedObject {
   public:
     /// Throws ModelError for an object that cannot be traced, BuildCancelled, and EmbreeError.

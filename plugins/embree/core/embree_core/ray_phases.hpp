@@ -10,25 +10,26 @@
 
 namespace phasetree::embree {
 
-/// The phase of one object that a ray is in and carries from hit to hit.
+/// A phase of one object that a ray is in and carries from hit to hit.
 struct CarriedPhase {
     ObjectInstance object;
     Phase phase;
 };
 
-/// The phases that a ray is in, one for each object, which it carries from hit to hit. Objects may overlap; a
-/// hit changes the phase of its own object and of no other.
+/// The phases that a ray is in, one per object, which it carries from hit to hit. Objects may overlap; a hit changes
+/// only the phase of its own object.
 class RayPhases {
   public:
-    /// The ray carries nothing: every object takes the phase at the ray's start, which costs an evaluation and is not
-    /// certain within a resolution of an interface.
+    /// The ray carries nothing: every object uses the phase at the ray's start. This costs an evaluation, and is
+    /// unreliable within a resolution of an interface.
     RayPhases() = default;
-    /// The ray is in this phase of all objects that set() does not list: vacuum, say, where it starts outside of all.
+    /// The ray is in this phase of all objects without a phase from set(), for example in the vacuum if it starts
+    /// outside all objects.
     explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
 
-    /// The phase for an object; nothing where it is that at the ray's start.
+    /// The phase of an object; nullopt if it is the one at the ray's start.
     std::optional<Phase> of(const ObjectInstance& object) const { return find(carried_, elsewhere_, object); }
-    /// From here on the ray is in this phase of an object.
+    /// Sets the phase of an object that the ray is in from here on.
     void set(const ObjectInstance& object, Phase phase) {
         const auto known = std::ranges::find(carried_, object, &CarriedPhase::object);
         if (known == carried_.end())

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rays as Embree has them, and rays as tracing wants them.
+/// Rays in Embree's format, and in the form used for tracing.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,7 +12,7 @@
 
 namespace phasetree::embree {
 
-/// Makes `ray` a ray for Embree: at time 0, with every bit of its mask set. It must be all zero.
+/// Initialises a ray for Embree: time 0, all bits of the mask set. It must be all zero.
 inline void set_ray(RTCRay& ray, const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
     ray.org_x = origin.x;
     ray.org_y = origin.y;
@@ -32,8 +32,8 @@ inline RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float 
     return ray;
 }
 
-/// The same with a hit that has found nothing yet. The ray is written in place: to copy one that has just been written
-/// member by member would wait until those are in the cache, which shows in the time that a ray takes.
+/// As above, with an empty hit. Writes the ray in place: copying a freshly written ray member by member would wait
+/// until its members are in the cache, which noticeably slows down tracing.
 inline RTCRayHit rayhit_of(const glm::vec3& origin, const glm::vec3& direction, float near = 0,
                            float far = std::numeric_limits<float>::infinity()) {
     RTCRayHit rayhit{};
@@ -51,15 +51,15 @@ inline bool is_hit(const RTCRayHit& rayhit) {
     return rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-/// The length of a ray's direction, or 0 if the ray cannot hit anything: its numbers are not finite, or it has no
-/// direction.
+/// The length of a ray's direction, or 0 if the ray cannot hit anything, because its numbers are not finite or its
+/// direction is zero.
 inline float usable_length(const glm::vec3& origin, const glm::vec3& direction) {
     const float length = glm::length(direction);
     const bool is_finite = std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z);
     return is_finite && std::isfinite(length) ? length : 0.f;
 }
 
-/// A direction of that length as a unit vector. One that is a unit vector but for rounding stays as it is: to divide it
+/// Normalises a direction of this length. A direction that is a unit vector up to rounding stays unchanged: dividing it
 /// by its rounded length would move the samples of a ray that starts at a crossing off the crossing's bracket.
 inline glm::vec3 unit_direction(const glm::vec3& direction, float length) {
     return std::abs(length - 1) < 1e-6f ? direction : direction / length;
@@ -69,9 +69,9 @@ inline glm::vec3 unit_direction(const glm::vec3& direction, float length) {
 struct UnitRay {
     glm::vec3 origin{0}, direction{0};
     float near = 0, far = 0;
-    float length = 1;  ///< of the direction as it was given: a distance divided by it is in the units of that ray
+    float length = 1;  ///< of the original direction: a distance divided by it is in units of the original ray
 
-    /// Nothing for a ray that cannot hit anything: also for one that ends before it begins.
+    /// nullopt for a ray that cannot hit anything, including one that ends before it begins.
     static std::optional<UnitRay> of(const glm::vec3& origin, const glm::vec3& direction, float t_near, float t_far) {
         UnitRay ray;
         ray.origin = origin;
