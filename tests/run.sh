@@ -29,7 +29,7 @@ while [ $# -gt 0 ]; do
             shift
             minutes=${1:-}
             if ! [[ $minutes =~ ^[1-9][0-9]*$ ]]; then
-                say "tests/run.sh: --fuzz is followed by a number of minutes"
+                say "tests/run.sh: --fuzz requires a number of minutes"
                 exit 2
             fi
             shift
@@ -44,7 +44,7 @@ while [ $# -gt 0 ]; do
             break
             ;;
         *)
-            say "tests/run.sh: unknown argument \"$1\"; it knows --long, --asan, --tsan, --fuzz MINUTES and, for ctest, -- ARGUMENTS"
+            say "tests/run.sh: unknown argument \"$1\"; use --long, --asan, --tsan, --fuzz MINUTES, or -- ARGUMENTS for ctest"
             exit 2
             ;;
     esac
@@ -70,9 +70,9 @@ fuzz_one() {
         >"$found/log" 2>&1
     local status=$?
     if [ $status -eq 0 ]; then
-        say "$target: nothing found in $(awk '/number_of_executed_units/ { print $2 }' "$found/log") inputs"
+        say "$target: no findings in $(awk '/number_of_executed_units/ { print $2 }' "$found/log") inputs"
     else
-        say "$target: FOUND something; the input and the log are in $found"
+        say "$target: FAILED; the input and the log are in $found"
         grep -aE 'ERROR:|runtime error:|broken promise:' "$found/log" | head -n 5 >&2
     fi
     return $status

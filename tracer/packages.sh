@@ -54,7 +54,7 @@ install_packages() {
     shift
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         packages_absent=("$@")
-        packages_problem="This system has no apt. Install these packages, or the same libraries from elsewhere."
+        packages_problem="This system does not have apt. Install these packages, or the same libraries from another source."
         return
     fi
     mapfile -t missing < <(missing_packages "$@")
@@ -72,7 +72,7 @@ install_packages() {
     twice as_root "${apt[@]}" update >"$log" 2>&1 || true
     if ! twice as_root "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
         tail -n 15 "$log" >&2
-        packages_problem="apt could not install them; see above, and $log for all of its output."
+        packages_problem="apt could not install them; see above, and $log for its full output."
         if grep -q 'Unable to locate package' "$log" && grep -qi '^ID=ubuntu' /etc/os-release 2>/dev/null; then
             packages_problem+=" They are in Ubuntu's \"universe\": sudo add-apt-repository universe"
         fi
@@ -112,7 +112,7 @@ configure() {
 name_packages() {
     [ -n "$packages_problem" ] || return 0
     say
-    say "These packages are not installed (they are named as on Debian and Ubuntu):"
+    say "These packages are not installed (names as on Debian and Ubuntu):"
     say "    ${packages_absent[*]}"
     say "$packages_problem"
 }
@@ -138,7 +138,7 @@ build() {
     # Print from the first error on, or the end of the log if no error is recognised.
     awk '/^FAILED:|CMake Error|error:/ { found = 1 } found && ++lines <= 60 { print } END { exit !found }' "$log" >&2 ||
         tail -n 20 "$log" >&2
-    say "The build failed; all of its output is in $log"
+    say "The build failed; see $log for its full output"
     return 1
 }
 

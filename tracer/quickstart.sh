@@ -20,6 +20,6 @@ phasetree=$root/build/quickstart/tracer/phasetree
 "$phasetree" render "$root/scenes/hourglass.json" -o hourglass.exr -o hourglass.png "$@" || exit $?
 
 echo
-echo "The hourglass:   $PWD/hourglass.png"
-echo "in linear light: $PWD/hourglass.exr"
-echo "Next:            $phasetree render --help"
+echo "Picture:      $PWD/hourglass.png"
+echo "Linear light: $PWD/hourglass.exr"
+echo "Next:         $phasetree render --help"

@@ -63,7 +63,7 @@ endif()
 
 # Counts with gcov how often each line in these folders runs; see tests/coverage.sh. Everything else is compiled as
 # usual.
-set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/io;tracer/src/scene …")
+set(PHASETREE_COVERAGE "" CACHE STRING "Folders to measure line coverage of: lib/src/io;tracer/src/scene …")
 if(PHASETREE_COVERAGE)
     add_link_options(--coverage)
 endif()
