@@ -15,8 +15,8 @@ using Run = std::function<int()>;
 
 inline constexpr int only_a_tree = 3;
 // Exit codes of a run ended by SIGTERM or SIGHUP (1 if there is nothing to resume from), and by Ctrl-C. The first is
-// EX_TEMPFAIL of sysexits.h, which tells batch systems that the job may be retried. The second is what shells report
-// for a program ended by SIGINT.
+// EX_TEMPFAIL of sysexits.h, by which batch systems recognise that the job may be retried. The second is what shells
+// report for a program ended by SIGINT.
 inline constexpr int resume_me = 75, interrupted_by_person = 130;
 
 void add_render(CLI::App& app, Run& run);

@@ -26,7 +26,7 @@ class FilmFileWriter {
 };
 
 /// Writes a film to which other threads may be adding samples. It is marked as finished if it has all samples of its
-/// header, or if `is_finished` says so, because pixels may have stopped by their noise. Throws OutputError, which names
+/// header, or if `is_finished` is set, because pixels may have stopped by their noise. Throws OutputError, which names
 /// the file and leaves an existing file unchanged.
 void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film,
                 bool is_finished = false);

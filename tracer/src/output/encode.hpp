@@ -32,9 +32,9 @@ Format format_of(const std::filesystem::path& path);
 ///   EXR   scene-linear 32-bit float RGB and all other channels under their names, ZIP-compressed; the transform is not
 ///         applied. Attributes: phasetree:scene, phasetree:samplesPerPixel, phasetree:seed (as text, because EXR has no
 ///         64-bit integers), Software, chromaticities.
-///   PNG   8 bits, dithered (quantise.hpp), tagged sRGB if the display is
-///   JPEG  the same 8 bits and tag, quality 95, chroma not subsampled
-///   TIFF  16 bits, ZIP-compressed
+///   PNG   8 bits, dithered (quantise.hpp), tagged sRGB if the display is.
+///   JPEG  the same 8 bits and tag, quality 95, chroma not subsampled.
+///   TIFF  16 bits, ZIP-compressed.
 /// If the image has a channel "A" and a black background, which is recognised by pixels without coverage, PNG and TIFF
 /// store it as a fourth channel. Their colours are divided by it, as these formats expect. Throws OutputError with the
 /// reason, without the path.

@@ -15,7 +15,7 @@
 
 namespace phasetree::tracer {
 
-/// Used in place of an index into PlacedObjects::moving.
+/// Used instead of an index into PlacedObjects::moving.
 inline constexpr std::uint32_t stands_still = 0xFFFFFFFF;
 
 struct PlacedObject {
@@ -93,7 +93,7 @@ struct PlacedObjects {
     }
 };
 
-/// Exclusive upper bound of copy numbers, and the maximum total length of all lists of places.
+/// Exclusive upper bound of copy numbers, and the maximum number of places in all lists.
 inline constexpr std::uint64_t most_copies = 1'000'000'000, most_places = 20'000'000;
 
 /// The objects of a scene file without their materials, which are read from the listed sources.

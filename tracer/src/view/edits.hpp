@@ -14,7 +14,7 @@ namespace phasetree::tracer::view {
 
 /// Changes to a phase's material. Members without a value change nothing, and neither do those that the material lacks.
 struct Look {
-    bool is_clear = false;  ///< make the phase clear, whatever it is, so that light travels inside
+    bool is_clear = false;  ///< make the phase clear, regardless of its material, so that light travels inside
     /// The reflectance; for a clear phase, the fraction of white light left after half the diagonal of the object's
     /// box.
     std::optional<glm::vec3> color{};

@@ -208,7 +208,7 @@ class Search {
     const Metric metric_;
     const double tolerance_;
     const float rounding_;      // rounding error of a distance, as estimated by the cells
-    const double near_enough_;  // in the world; the search ends when the bounds differ by no more
+    const double near_enough_;  // in the world; difference of the bounds at which the search ends
     const PhaseSet opaque_;
 
     Closest best_;

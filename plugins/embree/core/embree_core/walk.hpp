@@ -10,7 +10,7 @@ class Walk {
     Walk(const CellScene& scene, const UnitRay& ray, std::optional<Phase> carried)
         : scene_(scene), rest_(ray), carried_(carried), far_(static_cast<double>(ray.far)) {}
 
-    /// The next crossing, with distances from the original ray's origin; nullopt if there are no more.
+    /// The next crossing, with distances from the original ray's origin; nullopt at the end.
     std::optional<CellScene::Hit> next();
 
   private:
