@@ -40,8 +40,7 @@ inline std::string bytes_of(std::uint32_t n) {
     return {static_cast<char>(n >> 24), static_cast<char>(n >> 16), static_cast<char>(n >> 8), static_cast<char>(n)};
 }
 
-constexpr std::size_t kind_at = 25, header_end = 33;  // offsets in a file; the header's last four bytes are its
-                                                      // checksum
+constexpr std::size_t kind_at = 25, header_end = 33;  // offsets in a file; the header ends with its checksum
 
 }  // namespace png
 

@@ -14,8 +14,7 @@ namespace phasetree::tracer {
 
 /// Where and how to show progress.
 struct ProgressOutput {
-    using Clock = std::chrono::steady_clock;  ///< monotonic, so that setting the computer's time does not affect the
-                                              ///< estimate
+    using Clock = std::chrono::steady_clock;  ///< monotonic: setting the computer's time must not move the estimate
 
     std::ostream* stream = nullptr;  ///< null for no output
     bool terminal = false;

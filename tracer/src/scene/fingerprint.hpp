@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 /// time at which the document is read.
 std::uint64_t fingerprint(const Document& document);
 
-/// The settings of "render" that affect a sample with a given number, as names and values. Excludes the number of
+/// The settings of "render" that affect the sample with a given number, as names and values. Excludes the number of
 /// samples, the size of the picture, and how it is displayed.
 std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings);
 

@@ -11,9 +11,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-// More balls are better targets, but choosing among them takes longer. Halving the boxes doubles their number along a
-// rod thinner than they are, and quadruples it on a surface. Growth below 3 is taken for a rod, where smaller balls are
-// filled better.
+// More balls allow better aiming, but choosing among them takes longer. Halving the boxes doubles their number along a
+// rod thinner than they are, and quadruples it on a surface. Growth below 3 is taken for a rod, which may have more
+// balls because it fills smaller balls better.
 constexpr std::size_t most_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
 constexpr float finest = 1e-4f;  // as a fraction of the object's diagonal

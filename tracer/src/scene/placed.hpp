@@ -21,15 +21,13 @@ inline constexpr std::uint32_t stands_still = 0xFFFFFFFF;
 struct PlacedObject {
     std::string name;
     Phased tree;      ///< in its own space; uses the scene's phase numbers
-    Transform first;  ///< its own transform, applied before that of each place; if it moves, at the opening of the
-                      ///< shutter
+    Transform first;  ///< its own transform, applied before those of places; at shutter opening if it moves
     std::uint32_t moving = stands_still;  ///< index of this transform in PlacedObjects::moving
 };
 
 /// The placement of an object or a group.
 struct Place {
-    Transform transform{};  ///< from the object or group to the space of the list; if the place moves, applied before
-                            ///< the motion
+    Transform transform{};  ///< from the object or group to the list's space; applied before any motion
     std::uint32_t of = 0;   ///< number of an object, or of a group
     bool is_group = false;
     std::uint32_t moving = stands_still;  ///< index in PlacedObjects::moving of the motion applied after `transform`

@@ -15,8 +15,7 @@ struct ObjectInstance {
     unsigned geometry = RTC_INVALID_GEOMETRY_ID;
     Path instances = outside();
 #if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
-    Path instance_primitives = outside();  ///< indices within instance arrays; Embree uses 0 for instances that are not
-                                           ///< in an array
+    Path instance_primitives = outside();  ///< indices in instance arrays; 0 for instances outside arrays
 #endif
 
     bool operator==(const ObjectInstance&) const = default;
