@@ -40,7 +40,7 @@ struct RenderSettings {
     float photon_radius = 2;  // gathering radius in the first pass, in pixels
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform
-    glm::vec2 shutter{0.0f};          // opening and closing in seconds, relative to the time at which it is read
+    glm::vec2 shutter{0.0f};          // opening and closing, in seconds relative to the time of the scene
 };
 
 // The objects of a scene, without materials, lights and surroundings.
