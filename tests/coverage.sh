@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Prints how many lines the tests run of the folders that read what comes from outside, and which lines they do not.
+# Prints line coverage of the tests for each folder with code that reads external input.
 #
 #   bash tests/coverage.sh [--lines] [-- CTEST_ARGUMENT…]
 #
-#   --lines  also each line that no test runs
-#   --       what follows goes to ctest instead of the choice of tests that matter to these folders
+#   --lines  also print each line that no test runs
+#   --       pass the remaining arguments to ctest, instead of selecting the tests that matter for these folders
 #
-# Builds in build/coverage, where those folders alone are compiled to count; -DPHASETREE_COVERAGE= names others. Needs
-# gcov, which comes with GCC.
+# Builds in build/coverage, where only those folders are instrumented; -DPHASETREE_COVERAGE= selects others. Requires
+# gcov, which is part of GCC.
 set -uo pipefail
 
 # shellcheck source=SCRIPTDIR/../tracer/packages.sh
@@ -36,11 +36,11 @@ configure coverage || exit 1
 build coverage || exit 1
 directory="$root/build/coverage"
 find "$directory" -name '*.gcda' -delete
-# What is compiled to count is so slow that tests of what is quick may fail. Their lines have run all the same.
+# Instrumented code is so slow that tests of speed may fail. Their lines are counted anyway.
 status=0
 (cd "$root" && ctest --test-dir "$directory" --output-on-failure --timeout 3000 "${tests[@]}") || status=1
 
-# A line counts as run if any compilation of it was; gcov tells of each by itself.
+# A line counts as run if it ran in any compilation; gcov reports each compilation separately.
 find "$directory" -name '*.gcda' | while IFS= read -r data; do
     (cd "$directory" && gcov --stdout --relative-only --source-prefix "$root" "$data" 2>/dev/null)
 done | awk -F: -v show="$lines" '

@@ -9,11 +9,11 @@
 # The names are those of Debian 12, Debian 13 and Ubuntu 24.04. The test packaging/listed_packages fails if the build or
 # the tests use a file of a package that is neither listed nor a dependency of a listed one.
 
-# The repository.
+# The repository's root.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 
-# What the command and the libraries are built with. libopenvdb-dev does not depend on libboost-dev, but its headers include
-# Boost's. openimageio-tools contains files that OpenImageIO's CMake package requires.
+# Packages for building the command and the libraries. libopenvdb-dev does not depend on libboost-dev, but its headers
+# include Boost's. openimageio-tools contains files that OpenImageIO's CMake package requires.
 packages_to_build=(g++ cmake ninja-build pkg-config ccache libembree-dev libopenimageio-dev openimageio-tools
     libopencolorio-dev libtbb-dev libglm-dev libhwy-dev nlohmann-json3-dev libcli11-dev libfmt-dev
     libcpp-httplib-dev zlib1g-dev libopenvdb-dev libboost-dev libharfbuzz-dev
@@ -25,23 +25,23 @@ packages_to_test=("${packages_to_build[@]}" clang doctest-dev dpkg-dev file pybi
 # shellcheck disable=SC2034
 packages_to_fuzz=("${packages_to_build[@]}" clang libclang-rt-dev)
 
-# Why packages could not be installed, and which; empty when all are there.
+# Why packages could not be installed, and their names; empty if all are installed.
 packages_problem=
 packages_absent=()
 
 say() { printf '%s\n' "$*" >&2; }
 
-# as_root COMMAND…: sudo drops the environment, so what apt needs of it is set behind sudo.
+# as_root COMMAND…: sudo drops the environment, so the variables for apt are set after sudo.
 as_root() {
     local sudo=()
     [ "$(id -u)" -eq 0 ] || sudo=(sudo)
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive NEEDRESTART_MODE=a "$@"
 }
 
-# twice COMMAND…: a mirror that is being updated, or a dropped connection, is well a few seconds later.
+# twice COMMAND…: retries after a few seconds, in case a mirror is being updated or a connection was dropped.
 twice() { "$@" || { sleep 5 && "$@"; }; }
 
-# missing_packages NAME…: those that are not installed, one per line.
+# missing_packages NAME…: prints the packages that are not installed, one per line.
 missing_packages() {
     local name
     for name in "$@"; do
@@ -49,13 +49,13 @@ missing_packages() {
     done
 }
 
-# install_packages LOG NAME…: installs the packages that are missing, if any. Never fails; sets packages_problem.
+# install_packages LOG NAME…: installs missing packages, if any. Never fails; sets packages_problem instead.
 install_packages() {
     local log=$1 missing
     shift
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         packages_absent=("$@")
-        packages_problem="This system has no apt. Install these packages, or the same libraries from elsewhere."
+        packages_problem="This system does not have apt. Install these packages, or the same libraries from another source."
         return
     fi
     mapfile -t missing < <(missing_packages "$@")
@@ -67,21 +67,21 @@ install_packages() {
     fi
     say "Installing ${missing[*]} …"
     mkdir -p "$(dirname "$log")"
-    # A fresh machine may be busy with its own upgrade: wait for it instead of failing. Continue when a source list cannot
-    # be fetched: the packages may come from another one.
+    # A fresh machine may be busy with its own upgrade, so wait for the lock instead of failing. Continue if a source
+    # list cannot be fetched, because the packages may come from another one.
     local apt=(apt-get -qq -o DPkg::Lock::Timeout=600)
     twice as_root "${apt[@]}" update >"$log" 2>&1 || true
     if ! twice as_root "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
         tail -n 15 "$log" >&2
-        packages_problem="apt could not install them; see above, and $log for all of its output."
+        packages_problem="apt could not install them; see above, and $log for its full output."
         if grep -q 'Unable to locate package' "$log" && grep -qi '^ID=ubuntu' /etc/os-release 2>/dev/null; then
             packages_problem+=" They are in Ubuntu's \"universe\": sudo add-apt-repository universe"
         fi
     fi
 }
 
-# configure PRESET: runs CMake's configure step; on failure shows what CMake said and, if packages are missing, which.
-# Libraries from elsewhere are named as CMake wants it: CMAKE_PREFIX_PATH=/opt/embree bash tests/run.sh.
+# configure PRESET: runs CMake's configure step. If it fails, prints CMake's output and the missing packages, if any.
+# Libraries from elsewhere are specified as usual for CMake: CMAKE_PREFIX_PATH=/opt/embree bash tests/run.sh.
 configure() {
     local preset=$1 directory="$root/build/$1" log="$root/build/$1/configure.log" generator=
     mkdir -p "$directory"
@@ -90,13 +90,13 @@ configure() {
         name_packages
         return 1
     fi
-    # The presets name Ninja, and a folder keeps what it was configured with; where ninja is not installed make serves.
+    # The presets use Ninja, and a build folder keeps its generator. If ninja is not installed, use make.
     local has_ninja=
     ! command -v ninja >/dev/null && ! command -v ninja-build >/dev/null || has_ninja=yes
     generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$directory/CMakeCache.txt" 2>/dev/null)
     if ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$directory/CMakeCache.txt" 2>/dev/null ||
         { [ "$generator" = Ninja ] && [ -z "$has_ninja" ]; }; then
-        # There is none, or the repository was moved or is mounted elsewhere and CMake would refuse the old cache.
+        # There is no cache, or CMake would reject it because the repository was moved or is mounted elsewhere.
         rm -rf "$directory/CMakeCache.txt" "$directory/CMakeFiles"
         generator=Ninja
         [ "$has_ninja" ] || generator="Unix Makefiles"
@@ -106,19 +106,19 @@ configure() {
         name_packages
         return 1
     fi
-    # Optional libraries that are installed but broken (tracer/cmake/optional_dependency.cmake).
+    # Report optional libraries that are installed but broken (tracer/cmake/optional_dependency.cmake).
     sed -n 's/^-- \(Building without .*: a test program fails to build: .*\)/\1/p' "$log" >&2
 }
 
 name_packages() {
     [ -n "$packages_problem" ] || return 0
     say
-    say "These packages are not installed (they are named as on Debian and Ubuntu):"
+    say "These packages are not installed (names as on Debian and Ubuntu):"
     say "    ${packages_absent[*]}"
     say "$packages_problem"
 }
 
-# How many compilers at a time: one a core, and 2 GB of free memory for each.
+# The number of parallel compilers: one per core, if there are 2 GB of free memory for each.
 build_jobs() {
     local cores memory
     cores=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)
@@ -128,22 +128,22 @@ build_jobs() {
     echo $((memory < cores ? memory : cores))
 }
 
-# build PRESET [TARGET]: a line of progress on the terminal (every ten per cent elsewhere), the rest in the log, and of
-# a failed build what the compiler said.
+# build PRESET [TARGET]: shows progress in one line of a terminal, or elsewhere every ten per cent, and writes the full
+# output to the log. If the build fails, prints the compiler's messages.
 build() {
     local log="$root/build/$1/build.log" build=(cmake --build --preset "$1" --parallel "$(build_jobs)")
     [ $# -lt 2 ] || build+=(--target "$2")
     if (cd "$root" && NINJA_STATUS='[%p] ' "${build[@]}") 2>&1 | tee "$log" | show_percent; then
         return 0
     fi
-    # From the first error on; of what has none that looks like one, the end.
+    # Print from the first error on, or the end of the log if no error is recognised.
     awk '/^FAILED:|CMake Error|error:/ { found = 1 } found && ++lines <= 60 { print } END { exit !found }' "$log" >&2 ||
         tail -n 20 "$log" >&2
-    say "The build failed; all of its output is in $log"
+    say "The build failed; see $log for its full output"
     return 1
 }
 
-# Reads ninja's (NINJA_STATUS above) and make's "[ 15%] …" lines.
+# Reads the "[ 15%] …" lines of ninja (NINJA_STATUS above) and make.
 show_percent() {
     local line last=-1 terminal=
     [ ! -t 2 ] || terminal=yes

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# From a fresh clone to a picture: installs what the build needs (on Debian and Ubuntu), builds the phasetree command and
-# renders the hourglass into the current directory, as hourglass.exr (linear light) and hourglass.png (to look at).
+# From a fresh clone to a picture: installs what the build needs (on Debian and Ubuntu), builds the phasetree command,
+# and renders the hourglass into the current directory, as hourglass.exr (linear light) and hourglass.png (for viewing).
 #
 #   bash tracer/quickstart.sh [ARGUMENT…]
 #
-# The arguments go to "phasetree render" instead of --time 2m --denoise: --spp 16 is a quick look, --size 1920x1080
-# --time 20m a large picture. The more cores there are, the less noise there is after that time.
+# The arguments replace --time 2m --denoise of "phasetree render": use --spp 16 for a quick preview, or --size 1920x1080
+# --time 20m for a large picture. More cores give less noise in the same time.
 set -uo pipefail
 
 # shellcheck source=SCRIPTDIR/packages.sh
@@ -20,6 +20,6 @@ phasetree=$root/build/quickstart/tracer/phasetree
 "$phasetree" render "$root/scenes/hourglass.json" -o hourglass.exr -o hourglass.png "$@" || exit $?
 
 echo
-echo "The hourglass:   $PWD/hourglass.png"
-echo "in linear light: $PWD/hourglass.exr"
-echo "Next:            $phasetree render --help"
+echo "Picture:      $PWD/hourglass.png"
+echo "Linear light: $PWD/hourglass.exr"
+echo "Next:         $phasetree render --help"

@@ -1,22 +1,23 @@
-# Writes version.cpp, which says what build of phasetree a program is. Run by each build whose sources have changed:
+# Writes version.cpp, which contains the build identity of phasetree. Every build whose sources have changed runs it:
 #   cmake -DSOURCE=… -DBINARY=… -DOUTPUT=…/version.cpp -DVERSION=0.9.0 -DCOMPILER="GNU 12.2.0" -DPROCESSOR=x86_64
 #         [-DGIT=git] -P build_identity.cmake
-# DEPENDENCIES=FILE also writes everything that was read, for ninja and make; TEMPLATE=FILE replaces src/version.cpp.in.
+# DEPENDENCIES=FILE also writes a list of everything that was read, for ninja and make. TEMPLATE=FILE replaces
+# src/version.cpp.in.
 #
-# The identity hashes the content of the files that decide what the libraries and the command compute, the compiler and
-# the processor architecture. It does not depend on git: a checkout, an archive and a changed copy of either have the
-# same identity exactly if these files are equal. The compiler counts because it evaluates functions of constants itself
-# and brings its own standard library. The architecture counts because the C library's functions differ: atan2f and
-# log1pf, for example, round differently on arm64. Flags do not count, because results must not depend on optimisation,
-# and flags may hold paths.
+# The identity is a hash of the compiler, the processor architecture, and the content of all files that affect the
+# results of the libraries and the command. It does not depend on git: a checkout, an archive and a modified copy of
+# either have the same identity exactly if these files are equal. The compiler is included because it evaluates
+# functions of constants itself and has its own standard library. The architecture is included because the functions of
+# the C library differ: atan2f and log1pf, for example, round differently on arm64. Flags are not included, because
+# results must not depend on optimisation, and flags may contain paths.
 cmake_minimum_required(VERSION 3.25)
 
-# The folders and the kinds of files that are compiled, embedded, or read by the build. Documents are not.
+# The folders and the kinds of files that the build compiles, embeds or reads. Documents are not included.
 set(folders lib tracer plugins/embree)
 set(kinds c h cpp hpp inl in cmake css html js map ocio)
 set(names "CMakeLists.txt")
 
-# What of these lies in the folders; and all folders, whose times tell when a file is added or removed.
+# These files in the folders; and all folders, whose modification times change when a file is added or removed.
 set(files CMakeLists.txt)
 set(read "")
 list(JOIN kinds "|" pattern)
@@ -46,7 +47,7 @@ endforeach()
 string(SHA256 IDENTITY "${text}")
 string(SUBSTRING "${IDENTITY}" 0 12 IDENTITY)
 
-# git(RESULT ARGUMENT…): what git prints, or nothing if it fails.
+# git(RESULT ARGUMENT…): the output of git, or nothing if it fails.
 function(git result)
     execute_process(COMMAND "${GIT}" --no-optional-locks -C "${SOURCE}" ${ARGN}
         OUTPUT_VARIABLE output ERROR_QUIET RESULT_VARIABLE status)
@@ -56,14 +57,14 @@ function(git result)
     set(${result} "${output}" PARENT_SCOPE)
 endfunction()
 
-# The commit: `git archive` writes it into commit.txt; in a checkout git knows it.
+# The commit. `git archive` writes it to commit.txt; in a checkout, git provides it.
 file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/commit.txt" COMMIT REGEX "^[0-9a-f]+$")
 if(COMMIT STREQUAL "" AND GIT)
-    # Set where git runs a hook.
+    # git sets this when it runs a hook.
     unset(ENV{GIT_DIR})
     unset(ENV{GIT_WORK_TREE})
     unset(ENV{GIT_INDEX_FILE})
-    # If the sources are a folder of another repository, its commits say nothing about them.
+    # If the sources are a folder of another repository, its commits do not identify them.
     git(place rev-parse --show-prefix --git-path logs/HEAD)
     if(place MATCHES "^\n([^\n]+)\n$")
         cmake_path(ABSOLUTE_PATH CMAKE_MATCH_1 BASE_DIRECTORY "${SOURCE}" OUTPUT_VARIABLE log)
@@ -89,7 +90,7 @@ endif()
 if(NOT TEMPLATE)
     set(TEMPLATE "${CMAKE_CURRENT_LIST_DIR}/../src/version.cpp.in")
 endif()
-# Leaves a file alone that would not change.
+# Does not touch the file if its content is unchanged.
 configure_file("${TEMPLATE}" "${OUTPUT}" @ONLY)
 if(DEPENDENCIES)
     list(TRANSFORM read REPLACE "([ #])" "\\\\\\1")

@@ -1,4 +1,4 @@
-# What every target of the project is compiled with.
+# Compile options of all targets.
 #
 # -ffp-contract=off: a label must not depend on whether the compiler fused a multiplication with an addition, so that
 # the scalar evaluator, every SIMD width and the generated GLSL agree bit for bit.
@@ -27,18 +27,18 @@ if(PHASETREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(phasetree_options INTERFACE)
-# GCC 12 sees overlapping copies in std::string that are not there (its bug 105651).
+# GCC 12 reports overlapping copies in std::string that do not exist (its bug 105651).
 set(quiet "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     set(quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif()
-# Where a branch would cost more, code uses | and & between booleans on purpose.
+# The code deliberately combines booleans with | and & where a branch would cost more.
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     list(APPEND quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical>)
 endif()
 
-# In a unity build files of a target are compiled several at a time, and a local name would be said to hide one of another
-# file's.
+# A unity build compiles several files of a target at a time, so a local name would be reported to hide one of another
+# file.
 if(CMAKE_UNITY_BUILD)
     list(APPEND quiet $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>)
 endif()
@@ -55,18 +55,19 @@ if(PHASETREE_SANITIZE)
     add_link_options(-fsanitize=${sanitizers})
 endif()
 
-# Everything is told of to the fuzzers, which alone link libFuzzer: see tests/fuzz.
+# Instruments all code for the fuzzers, which alone link libFuzzer; see tests/fuzz.
 option(PHASETREE_FUZZ "Build the libFuzzer programs of tests/fuzz; Clang only" OFF)
 if(PHASETREE_FUZZ)
     add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
-# How often each line of these folders runs, for gcov: see tests/coverage.sh. All else is compiled as before.
-set(PHASETREE_COVERAGE "" CACHE STRING "Folders whose lines are counted: lib/src/io;tracer/src/scene …")
+# Counts with gcov how often each line in these folders runs; see tests/coverage.sh. Everything else is compiled as
+# usual.
+set(PHASETREE_COVERAGE "" CACHE STRING "Folders to measure line coverage of: lib/src/io;tracer/src/scene …")
 if(PHASETREE_COVERAGE)
     add_link_options(--coverage)
 endif()
-# phasetree_count_lines(TARGET): those of its sources that lie in one of the folders.
+# phasetree_count_lines(TARGET): counts the lines of those of its sources that are in one of the folders.
 function(phasetree_count_lines target)
     get_target_property(sources ${target} SOURCES)
     foreach(folder ${PHASETREE_COVERAGE})

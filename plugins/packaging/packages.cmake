@@ -1,5 +1,5 @@
-# cpack -G DEB: one package with the command, the libraries and what is needed to link them, installed in /usr. Other
-# generators (cpack -G TGZ) pack what `cmake --install` puts into a folder, and that folder may be anywhere.
+# cpack -G DEB: a single package with the command, the libraries and the files needed to link them, installed in /usr.
+# Other generators (cpack -G TGZ) pack what `cmake --install` installs, for use in any folder.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME phasetree)
 set(CPACK_PACKAGE_VENDOR phasetree)
@@ -23,10 +23,10 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# The headers include theirs.
+# Their headers are included by ours.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libembree-dev, libglm-dev, libfmt-dev, libtbb-dev, libhwy-dev, pkgconf")
 
-# What packages of others' programs depend on that link these libraries; and who tells the dynamic linker of them.
+# The dependencies of other packages that link these libraries, and the trigger that updates the dynamic linker's cache.
 set(shlibs "")
 foreach(major ${PHASETREE_EMBREE_MAJORS})
     string(APPEND shlibs "libphasetree_embree${major} ${PROJECT_VERSION_MAJOR} phasetree (>= ${PROJECT_VERSION})\n")
@@ -35,7 +35,7 @@ file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/shlibs" "${shlibs}")
 file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_BINARY_DIR}/shlibs;${CMAKE_CURRENT_BINARY_DIR}/triggers")
 
-# What is particular to a generator is said when cpack runs; it is then, too, that the programs must be there.
+# Settings for individual generators are made when cpack runs, which is also when the programs must be installed.
 configure_file(cpack.cmake.in cpack.cmake @ONLY)
 set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_BINARY_DIR}/cpack.cmake")
 include(CPack)

@@ -1,10 +1,10 @@
-# Configures this project with an Embree that is in none of the system's folders, which is what somebody has who built it,
-# and looks at what would be installed: programs that find that Embree by themselves, and packages that tell others where
-# it is. Nothing is built. Run by CTest:
+# Configures this project with an Embree outside the system's folders, as if the user had built it, and checks what
+# would be installed: programs must find that Embree by themselves, and packages must tell others where it is. Builds
+# nothing. Run by CTest:
 #   cmake -DSOURCE=… -DWORK=… -DMAJOR=3 -DGENERATOR=Ninja -DLIBRARY=… -DINCLUDE=… -P elsewhere.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Outside the project: CMake takes folders within it from the run path.
+# Outside the project, because CMake removes folders inside it from the run path.
 set(temporary "$ENV{TMPDIR}")
 if(NOT IS_DIRECTORY "${temporary}")
     set(temporary /tmp)
@@ -26,7 +26,7 @@ function(expect file)
     endforeach()
 endfunction()
 
-# The Embree that there is, in that folder.
+# The installed Embree, in that folder.
 file(GLOB files "${LIBRARY}/libembree${MAJOR}.so*")
 foreach(file ${files})
     get_filename_component(file_name "${file}" NAME)
@@ -72,6 +72,6 @@ expect("${WORK}/install.cmake"
 expect("${packaging}/libraries/phasetreeConfig.cmake"
     "find_path\\(PHASETREE_[^\n]*HINTS \"${folder}/include\"" "find_library\\(PHASETREE_[^\n]*HINTS \"${folder}/lib\"")
 expect("${packaging}/libraries/phasetree-embree${MAJOR}.pc" "Cflags:[^\n]* -I${folder}/include" "Libs:[^\n]* -L${folder}/lib -lembree")
-# cpack says that a package cannot depend on that one.
+# cpack reports that a package cannot depend on it.
 expect("${packaging}/cpack.cmake" "set\\(embree_folders \"${folder}/lib\"\\)")
 file(REMOVE_RECURSE "${prefix}" "${WORK}")

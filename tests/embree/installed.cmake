@@ -1,5 +1,5 @@
-# Installs to a fresh prefix and builds and runs the examples from there, as somebody else's project would; and looks at
-# what the installed libraries export. Run by CTest:
+# Installs to a fresh prefix, then builds and runs the examples from there as an external project would, and checks the
+# exported symbols of the installed libraries. Run by CTest:
 #   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DCONFIG=Release -DGENERATOR=Ninja -P installed.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -9,7 +9,7 @@ file(REMOVE_RECURSE "${WORK}")
 set(prefix "${WORK}/prefix")
 run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${prefix}" --config "${CONFIG}")
 
-# What there must be.
+# Required files.
 file(GLOB_RECURSE installed RELATIVE "${prefix}" "${prefix}/*")
 expect("${installed}" include/phasetree/phasetree_embree.h include/phasetree/phasetree_embree.hpp include/phasetree/embree/hit.h
     include/phasetree/model/handle.hpp libphasetree_embree${MAJOR}.so libphasetree.a cmake/phasetree/phasetreeConfig.cmake
@@ -35,7 +35,7 @@ foreach(link ${links})
     endif()
 endforeach()
 
-# Nothing but the interface is exported.
+# Only the interface is exported.
 file(GLOB_RECURSE library "${prefix}/*/libphasetree_embree${MAJOR}.so")
 run(nm -D --defined-only "${library}")
 string(REGEX MATCHALL "[^\n]+" symbols "${output}")
@@ -49,7 +49,7 @@ foreach(symbol ${symbols})
     endif()
 endforeach()
 
-# By CMake. The sanitizers of this build, if any, must be in those programs, too.
+# With CMake. The sanitizers of this build, if any, must also be in those programs.
 set(examples "${prefix}/share/doc/phasetree/examples")
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}" -B "${WORK}/examples" -DCMAKE_PREFIX_PATH=${prefix} -DEMBREE=${MAJOR}
     -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS=-Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
@@ -67,14 +67,14 @@ foreach(name renderer stock)
         message(FATAL_ERROR "${name}.ppm has ${size} bytes")
     endif()
 endforeach()
-# An error is told, not crashed on.
+# An error is reported and does not crash the program.
 execute_process(COMMAND "${WORK}/examples/phases" /no/such.json RESULT_VARIABLE status ERROR_VARIABLE errors)
 if(NOT status EQUAL 1)
     message(FATAL_ERROR "phases of a missing file ended with ${status}")
 endif()
 expect("${errors}" "/no/such.json")
 
-# Whichever Embree is there, where nobody says which: the newest of those installed.
+# Without a choice, the newest installed Embree is used.
 file(GLOB_RECURSE majors "${prefix}/*/phasetree-embree?.cmake")
 list(SORT majors ORDER DESCENDING)
 list(GET majors 0 newest)
@@ -82,7 +82,7 @@ string(REGEX REPLACE ".*embree([34])\\.cmake$" "phasetree::embree\\1" newest "${
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}" -B "${WORK}/examples-default" -DCMAKE_PREFIX_PATH=${prefix})
 expect("${output}" "The examples use ${newest}\n")
 
-# By pkg-config.
+# With pkg-config.
 find_program(pkg_config pkg-config)
 find_program(compiler NAMES cc gcc clang)
 if(pkg_config AND compiler)

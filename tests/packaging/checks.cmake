@@ -1,6 +1,6 @@
-# What the tests of packaging share.
+# Functions shared by the packaging tests.
 
-# Runs a command, which must succeed; what it prints is in `output`, and in `errors`.
+# Runs a command that must succeed. Its output is in `output` and `errors`.
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(NOT status EQUAL 0)
@@ -11,7 +11,7 @@ function(run)
     set(errors "${errors}" PARENT_SCOPE)
 endfunction()
 
-# Runs a command, which must fail.
+# Runs a command that must fail.
 function(run_failing)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(status EQUAL 0)

@@ -1,5 +1,6 @@
-# cpack -G DEB: that it refuses where what it needs is missing; and else that the package depends on all that its programs
-# are linked with, has its libraries where Debian wants them, and works from another folder. Run by CTest:
+# cpack -G DEB: it must fail if a program that it needs is missing; otherwise the package must depend on everything that
+# its programs are linked with, have its libraries where Debian requires them, and work from another folder. Run by
+# CTest:
 #   cmake -DBUILD=… -DWORK=… -DMAJOR=3 -DARCHITECTURE=x86_64-linux-gnu -DCPACK=… -P debian.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
@@ -19,7 +20,7 @@ if(missing)
     return()
 endif()
 
-# As if these were not installed: cpack looks only into a folder with links to the others.
+# Simulates missing programs: cpack only searches a folder with links to the others.
 set(path "$ENV{PATH}")
 set(folders "")
 foreach(program ${needs})
@@ -53,7 +54,7 @@ foreach(absent "dpkg-shlibdeps" "file" "dpkg-shlibdeps;file")
     endif()
 endforeach()
 
-# The package as it should be.
+# A correct package.
 run(${cpack})
 file(GLOB package "${WORK}/package/*.deb")
 set(root "${WORK}/root")
@@ -76,7 +77,7 @@ foreach(program ${programs})
     foreach(library ${needed})
         string(REGEX REPLACE "NEEDED +" "" library "${library}")
         execute_process(COMMAND dpkg-query -S "*/${library}" OUTPUT_VARIABLE owner ERROR_QUIET)
-        # A library that no package brought, say an Embree of somebody's own, cannot be depended on.
+        # A package cannot depend on a library that was not installed from a package, such as a custom Embree.
         string(REGEX MATCHALL "(^|\n)[a-z0-9.+-]+" owners "${owner}")
         set(is_owned FALSE)
         foreach(owner ${owners})
@@ -105,7 +106,7 @@ if(EXISTS "${root}/usr/bin/phasetree")
     expect("${output}" "sand")
 endif()
 
-# An example, by pkg-config and by CMake, with the package in that folder.
+# Builds an example with pkg-config and with CMake, using the package in that folder.
 set(source "${root}/usr/share/doc/phasetree/examples/phases.c")
 set(ENV{LD_LIBRARY_PATH} "${libraries}")
 find_program(pkg_config pkg-config)

@@ -1,15 +1,15 @@
-# What is installed of headers stands by itself: each header that one of them includes, or names in a comment, is
-# installed with it. Run by CTest:
+# Installed headers must be self-contained: each header that one of them includes, or names in a comment, must be
+# installed too. Run by CTest:
 #   cmake -DBUILD=… -DWORK=… -DCONFIG=Release -DSOURCE=… -P headers.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 
-# Of others: a header that ours may name and that comes with Embree.
+# A header of Embree, which ours may name.
 set(known_elsewhere rtcore.h)
-# Where headers lie that are the project's own and are not for others.
+# The folders of the project's private headers.
 set(private_folders lib/src plugins/embree/core plugins/embree/src tracer/src)
 
-# complaints(FOLDER OUT): what is wrong with the headers of an include folder, one line each.
+# complaints(FOLDER OUT): the problems with the headers of an include folder, one per line.
 function(complaints folder out)
     set(wrong "")
     file(GLOB_RECURSE headers RELATIVE "${folder}" "${folder}/*")
@@ -59,7 +59,7 @@ if(found)
     message(FATAL_ERROR "Of the headers that are installed:\n${found}")
 endif()
 
-# plant(TEXT COMPLAINT): a header with this text among them is complained of.
+# plant(TEXT COMPLAINT): adding a header with this text must cause this complaint.
 function(plant text complaint)
     file(WRITE "${include}/phasetree/planted.hpp" "${text}\n")
     complaints("${include}" found)

@@ -1,5 +1,5 @@
-# Which changes make another build, and which commit a build names: lib/cmake/build_identity.cmake, run on copies of the
-# sources. Run by CTest:
+# Checks which changes alter the build identity, and which commit a build names, by running
+# lib/cmake/build_identity.cmake on copies of the sources. Run by CTest:
 #   cmake -DSOURCE=… -DPROCESSOR=x86_64 -DCOMMAND=…/phasetree -P identity.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
@@ -51,7 +51,7 @@ function(expect_other what)
     set(commit "${commit}" PARENT_SCOPE)
 endfunction()
 
-# The program that was built is of the sources as they are, wherever they lie. Its compiler may be another one.
+# The program was built from the current sources, wherever they are. Its compiler may differ.
 execute_process(COMMAND "${COMMAND}" --version OUTPUT_VARIABLE report)
 if(NOT report MATCHES "^phasetree ([^\n]+)\n.*\ncompiler: ([^\n]+)\n")
     fail("phasetree --version prints \"${report}\"")
@@ -67,7 +67,7 @@ if(NOT built STREQUAL expected)
     fail("phasetree --version is of ${built}, but the sources are ${expected}")
 endif()
 
-# Nothing is written if nothing has changed: then nothing is compiled.
+# If nothing has changed, nothing is written, and therefore nothing is compiled.
 file(TIMESTAMP "${work}/version.cpp" before "%s")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1)
 expect_same("another run")
@@ -76,8 +76,8 @@ if(NOT before STREQUAL after)
     fail("version.cpp was written again without a change")
 endif()
 
-# A byte of one file of each kind. A new kind of file belongs in one of these lists, and in the first one also in
-# lib/cmake/build_identity.cmake.
+# Changes one byte in one file of each kind. A new kind of file belongs in one of these lists; if it belongs in the
+# first, add it to lib/cmake/build_identity.cmake too.
 set(compiled c h cpp hpp inl in cmake CMakeLists.txt css html js map ocio)
 set(not_compiled md svg jpg sh py)
 file(GLOB_RECURSE files RELATIVE "${copy}" "${copy}/lib/*" "${copy}/tracer/*" "${copy}/plugins/embree/*")
@@ -120,7 +120,7 @@ file(APPEND "${copy}/CMakeLists.txt" "\n")
 expect_other("a changed CMakeLists.txt")
 file(COPY_FILE "${SOURCE}/CMakeLists.txt" "${copy}/CMakeLists.txt")
 
-# Files that come, go and move; what editors and builds leave does not count.
+# Adding, removing and moving files. Files left by editors and builds do not count.
 file(WRITE "${copy}/lib/src/room/new.hpp" "\n")
 expect_other("a new file")
 file(READ "${work}/version.cpp.d" dependencies)
@@ -143,7 +143,7 @@ set(processor another)
 expect_other("another processor")
 set(processor "${PROCESSOR}")
 
-# The commit. Without git, or without a repository, there is none; an archive names its own.
+# The commit. Without git or a repository there is none; an archive has its own.
 find_program(git git)
 expect_same("no git")
 if(NOT commit STREQUAL "")
@@ -203,7 +203,7 @@ if(git)
     if(NOT commit STREQUAL head)
         fail("of an archive without git the commit is \"${commit}\"")
     endif()
-    # A folder of another repository, whose commits are not ours.
+    # A folder of another repository, whose commits are unrelated.
     file(COPY_FILE "${copy}/lib/cmake/commit.txt" "${work}/archive/lib/cmake/commit.txt")
     run(${git} -C "${work}" init -q)
     run(${git} -C "${work}" add archive)

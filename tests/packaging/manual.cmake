@@ -1,14 +1,14 @@
-# Looks whether the command's manual page has what its help has: every subcommand, and every option of each. Run by CTest:
+# Checks that the command's manual page covers its help: every subcommand, and every option of each. Run by CTest:
 #   cmake -DCOMMAND=…/phasetree -DPAGE=…/phasetree.1 -P manual.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 
 file(READ "${PAGE}" page)
-# As it is read: without the marks of fonts, and with plain minus signs.
+# As displayed: without font escapes, and with plain minus signs.
 string(REGEX REPLACE "\\\\f[BIR]" "" page "${page}")
 string(REPLACE "\\-" "-" page "${page}")
 
-# The part of the page that is of one subcommand, from its heading to the next.
+# The part of the page on one subcommand, from its heading to the next.
 function(section_of name)
     string(REGEX MATCH "\n\\.SS \"phasetree ${name}[^A-Za-z].*" section "${page}")
     if(section STREQUAL "")
@@ -19,7 +19,7 @@ function(section_of name)
     set(section "${section}\n" PARENT_SCOPE)
 endfunction()
 
-# options_of(TEXT): the options at the beginning of help's lines, but --help.
+# options_of(TEXT): the options at the beginning of lines of help, except --help.
 function(options_of help)
     string(REGEX MATCHALL "\n  (-[A-Za-z],)?--[a-z-]+" lines "${help}")
     set(options "")
@@ -56,7 +56,7 @@ foreach(subcommand ${subcommands})
     options_of("${output}")
     foreach(option ${options})
         math(EXPR total "${total} + 1")
-        # In bold at the head of a paragraph, alone, behind another name, or before its value's.
+        # In bold at the head of a paragraph: alone, after another name, or before the name of its value.
         if(NOT section MATCHES "\n\\.TP\n([^\n]*, )?${option}(,? [^\n]*)?\n[^.\n]")
             message(FATAL_ERROR "phasetree ${subcommand} ${option} is not in ${PAGE}, or nothing is said of it:\n${section}")
         endif()

@@ -1,17 +1,17 @@
-# An installed library whose headers do not compile, or that does not link, is left out: configuring succeeds and says so
-# in one line. The real project is configured, with a broken package instead of each library. Run by CTest:
+# An installed library whose headers do not compile, or that does not link, must be left out: configuring succeeds and
+# reports it in one line. Configures the real project with a broken package instead of each library. Run by CTest:
 #   cmake -DSOURCE=… -DWORK=… -DGENERATOR=Ninja -DPREFIX_PATH=… -P optional_dependencies.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 file(REMOVE_RECURSE "${WORK}")
 set(prefix "${WORK}/prefix")
 
-# As libopenvdb-dev without libboost-dev.
+# Like libopenvdb-dev without libboost-dev.
 foreach(header openvdb io/File math/Maps)
     file(WRITE "${prefix}/include/openvdb/${header}.h" "#include <nowhere/conversion_traits.hpp>\n")
 endforeach()
 file(WRITE "${prefix}/lib/libopenvdb.so" "")
-# It compiles, and its library lacks what the header declares.
+# Compiles, but the library lacks what the header declares.
 file(WRITE "${prefix}/include/hb.h" "struct hb_buffer_t; hb_buffer_t* hb_buffer_create(); void hb_buffer_destroy(hb_buffer_t*);\n")
 file(WRITE "${prefix}/include/hb-ot.h" "")
 file(WRITE "${prefix}/include/httplib.h" "#error this compiler is too old\n")
@@ -24,7 +24,7 @@ foreach(module harfbuzz cpp-httplib draco)
     file(WRITE "${prefix}/lib/pkgconfig/${module}.pc"
         "Name: ${module}\nDescription: a broken package\nVersion: 9.0\nCflags: -I${prefix}/include\n")
 endforeach()
-# It compiles, and its library is not installed.
+# Compiles, but the library is not installed.
 file(WRITE "${prefix}/include/OpenImageDenoise/oidn.hpp" "namespace oidn {
 enum class DeviceType { CPU };
 struct Device { void commit() {} };
@@ -46,7 +46,8 @@ foreach(package "OpenImageDenoise;OpenImageDenoise;${prefix}/lib/libnowhere.so" 
         set(PACKAGE_VERSION_COMPATIBLE TRUE)")
 endforeach()
 
-# configure(): the lines about libraries that are left out are in `left_out`, the names of compiled files in `commands`.
+# configure(): stores the lines about libraries that are left out in `left_out`, and the names of compiled files in
+# `commands`.
 function(configure)
     execute_process(WORKING_DIRECTORY "${SOURCE}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output
         COMMAND ${CMAKE_COMMAND} --preset quickstart -G "${GENERATOR}" -B "${WORK}/build" -DCMAKE_UNITY_BUILD=OFF
@@ -60,7 +61,7 @@ function(configure)
     set(commands "${commands}" PARENT_SCOPE)
 endfunction()
 
-# expect_left_out(BEGINNING REASON INSTALL): one line names the library, the reason and the package.
+# expect_left_out(BEGINNING REASON INSTALL): one line must name the library, the reason and the package.
 function(expect_left_out beginning reason install)
     set(lines ${left_out})
     list(FILTER lines INCLUDE REGEX "^-- Building without ${beginning} \\(.*\\): a test program fails to build: .*${reason}.*apt-get install .*${install}")
@@ -96,7 +97,7 @@ foreach(file /openvdb.cpp /vdb_structure.cpp /harfbuzz.cpp /draco.cpp /meshopt.c
     expect_not("${commands}" "${file}")
 endforeach()
 
-# A repaired package is noticed without removing the cache.
+# A repaired package must be noticed without removing the cache.
 file(WRITE "${prefix}/include/hb.h" "inline int hb_buffer_create() { return 1; }\ninline void hb_buffer_destroy(int) {}\n")
 configure()
 expect_not("${left_out}" HarfBuzz)

@@ -1,19 +1,20 @@
-# A build of the libraries for other renderers alone, as plugins/embree/README.md has it in two lines: it asks for none of
-# the path tracer's libraries, and what it installs compiles and runs another's program. The libraries themselves are copied
-# from the build that is tested, where the same sources make them, so that nothing is compiled twice. Run by CTest:
+# Builds only the libraries for other renderers, with the two commands of plugins/embree/README.md. This must not search
+# for any of the path tracer's libraries, and an external program must compile and run with what it installs. The
+# libraries themselves are copied from the build under test, which makes them from the same sources, so that nothing is
+# compiled twice. Run by CTest:
 #   cmake -DSOURCE=… -DBUILD=… -DWORK=… -DMAJOR=3 -DGENERATOR=Ninja -P plugin_only.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 file(REMOVE_RECURSE "${WORK}")
 
-# With these a search for any of those is an error.
+# Makes a search for any of these libraries an error.
 set(without "")
 foreach(package OpenImageIO OpenColorIO CLI11 doctest benchmark)
     list(APPEND without -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 execute_process(WORKING_DIRECTORY "${SOURCE}" RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors
     COMMAND ${CMAKE_COMMAND} --preset plugin -G "${GENERATOR}" -B "${WORK}/build" ${without}
-        -DCMAKE_UNITY_BUILD=OFF  # for compile_commands.json to name every file
+        -DCMAKE_UNITY_BUILD=OFF  # so that compile_commands.json lists every file
         "-DCMAKE_PREFIX_PATH=${PREFIX_PATH}" "-Dembree_DIR=${EMBREE_DIR}")
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "cmake --preset plugin ended with ${status}\n${output}\n${errors}")
@@ -48,7 +49,7 @@ if(installed MATCHES "bin/|man1|\\.ocio")
     message(FATAL_ERROR "something of the command is installed: ${installed}")
 endif()
 
-# Another's program, in C.
+# An external program, in C.
 file(WRITE "${WORK}/consumer/CMakeLists.txt" "
     cmake_minimum_required(VERSION 3.25)
     project(consumer LANGUAGES C)

@@ -1,12 +1,12 @@
-# The reference of the C99 interface: that every exported function has a page which says what it is, does and returns, and
-# that headers which say too little are rejected. Run by CTest:
+# The reference of the C99 interface: every exported function must have a page that describes its purpose, effects and
+# return value, and incomplete headers must be rejected. Run by CTest:
 #   cmake -DTOOL=…/phasetree-reference -DPAGES=…/man3 -DLIBRARY=…/libphasetree_embree3.so -DHEADERS=…/include/phasetree
 #         -DWORK=… -P reference.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 file(REMOVE_RECURSE "${WORK}")
 
-# The page of a name, links followed.
+# The page of a name, with links resolved.
 function(read_page name)
     if(NOT EXISTS "${PAGES}/${name}.3")
         message(FATAL_ERROR "${name} has no manual page in ${PAGES}")
@@ -18,7 +18,7 @@ function(read_page name)
     set(page "${page}" PARENT_SCOPE)
 endfunction()
 
-# What a page has under a heading.
+# The content of a page under a heading.
 function(section heading)
     string(REGEX MATCH "\n\\.SH \"${heading}\"\n(.*)" rest "${page}")
     string(REGEX REPLACE "\n\\.SH .*" "" rest "${CMAKE_MATCH_1}")
@@ -31,7 +31,7 @@ list(LENGTH functions count)
 if(count LESS 30)
     message(FATAL_ERROR "only ${count} functions are exported:\n${output}")
 endif()
-# And what is not exported because it is inline, and structures.
+# Also inline functions, which are not exported, and structures.
 file(GLOB headers "${HEADERS}/embree/*.h")
 foreach(header ${headers})
     file(STRINGS "${header}" lines REGEX "^static inline|^typedef (struct|enum) [A-Za-z]+ {")
@@ -60,13 +60,13 @@ foreach(function ${functions})
     endif()
 endforeach()
 
-# A sample page, in full.
+# A complete sample page.
 read_page(phasetreeSetGeometryShownPhases)
 expect("${page}" "phasetreeSetGeometryShownPhases \\- Changes the phases to show" "    PhasetreePhaseSet shownPhases)"
     ".SH \"ERRORS\"\n.TP\n.B PHASETREE_ERROR_INVALID_ARGUMENT\nan opaque phase is not among them\n"
     ".BR PhasetreeGeometryOptions (3)")
 
-# Nothing that groff would warn of.
+# groff must not report any warnings.
 find_program(groff groff)
 if(groff)
     set(pages "")
@@ -82,7 +82,7 @@ if(groff)
     endif()
 endif()
 
-# refuse(TEXT PART…): a header with this declaration is rejected, for a reason that has those parts.
+# refuse(TEXT PART…): a header with this declaration must be rejected, with a message that contains these parts.
 function(refuse text)
     file(WRITE "${WORK}/header.h" "/* A header. */\n\n${text}\n")
     run_failing("${TOOL}" "${WORK}/refused" 1.0 "${HEADERS}/phasetree_embree.h" "${WORK}/header.h")
@@ -99,7 +99,7 @@ refuse("/* Tries. */\nPHASETREE_API int phasetreeTry(void);" "phasetreeTry does 
 refuse("typedef struct PhasetreeTry {\n    int number;\n} PhasetreeTry;" "header.h:3" "PhasetreeTry has no description")
 refuse("/* Tries. */\n${declared}" "header.h:4" "this declaration has no end")
 
-# What is sound is not.
+# A correct header must be accepted.
 file(WRITE "${WORK}/header.h" "/* A header. */
 
 /* How to try. */

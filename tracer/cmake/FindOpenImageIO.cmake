@@ -1,6 +1,6 @@
-# OpenImageIO by its own CMake package, minus a flaw of Ubuntu's: there the imported target names OpenCV's include
-# directory, which libopenimageio-dev does not bring along, and CMake refuses a target whose include directory is missing.
-# (Only OpenImageIO's imagebufalgo_opencv.h needs it; we do not include that.)
+# Finds OpenImageIO with its own CMake package, and works around a flaw in Ubuntu's. There the imported target lists
+# OpenCV's include directory, which libopenimageio-dev does not install, and CMake rejects targets with missing include
+# directories. (Only OpenImageIO's imagebufalgo_opencv.h needs it, which is not included here.)
 find_package(OpenImageIO ${OpenImageIO_FIND_VERSION} CONFIG QUIET)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenImageIO CONFIG_MODE)

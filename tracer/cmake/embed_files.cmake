@@ -1,4 +1,4 @@
-# Writes a C++ file with the texts of files: cmake -DOUT=… -DFOLDER=… -DNAMES=a,b -P embed_files.cmake
+# Writes a C++ file with the content of text files: cmake -DOUT=… -DFOLDER=… -DNAMES=a,b -P embed_files.cmake
 string(REPLACE "," ";" names "${NAMES}")
 set(text "// Made of the files in view/page by tracer/cmake/embed_files.cmake.\n#include \"view/page_files.hpp\"\n\n")
 string(APPEND text "namespace phasetree::tracer::view {\n\nnamespace {\n\nconstexpr PageFile files[] = {\n")

@@ -1,21 +1,21 @@
-# Libraries that phasetree can do without. An installed library counts as present only if a small program that includes
-# what our sources include of it compiles and links. A package may lack a dependency of its headers: Debian's
-# libopenvdb-dev, for example, includes Boost's headers and does not depend on libboost-dev.
+# Optional libraries. An installed library is used only if a small program that includes the same headers as our sources
+# compiles and links. A package may lack a dependency of its headers: Debian's libopenvdb-dev, for example, includes
+# Boost's headers but does not depend on libboost-dev.
 
 # phasetree_optional_dependency(VARIABLE
-#     NAME name             what it is called in messages
+#     NAME name             its name in messages
 #     LOSS text             what does not work without it
 #     INSTALL text          how to install it
-#     REQUIRES variable…    variables that find_package and the like left true if they found it
+#     REQUIRES variable…    variables that find_package and the like set to true if they found it
 #     FOLDERS folder…       the sources that use it
-#     HEADERS regex         what the paths of its headers begin with
+#     HEADERS regex         the beginning of the paths of its headers
 #     USE statements        C++ that needs the library when it is linked
 #     LIBRARIES target…     imported targets to compile and link with
-#     [OPTIONS option…]     options for the compiler
+#     [OPTIONS option…]     compiler options
 #     [LINK_OPTIONS option…])
 #
-# Sets the cache variable VARIABLE. If it is false, one line says why and how to install the library. Only success is
-# remembered, so a later configure run notices a library that was installed or repaired in the meantime.
+# Sets the cache variable VARIABLE. If it is false, prints one line with the reason and how to install the library. Only
+# success is cached, so a later configure run notices a library that has been installed or repaired.
 function(phasetree_optional_dependency variable)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LOSS;INSTALL;HEADERS;USE"
         "REQUIRES;FOLDERS;LIBRARIES;OPTIONS;LINK_OPTIONS")
@@ -43,7 +43,7 @@ function(phasetree_optional_dependency variable)
     endif()
 endfunction()
 
-# The lines of all sources below the folders that include such a header, each once.
+# Collects the #include lines for such headers from all sources below the folders, without duplicates.
 function(phasetree_included_headers result regex)
     set(headers "")
     foreach(folder ${ARGN})
@@ -60,7 +60,7 @@ function(phasetree_included_headers result regex)
     set(${result} "${headers}" PARENT_SCOPE)
 endfunction()
 
-# What the outcome of a probe depends on, short of changes to the library's own files.
+# Everything that affects the outcome of a probe, except changes to the library's own files.
 function(phasetree_probe_key result program libraries options link_options)
     set(inputs "${program}" "${options}" "${link_options}" "${CMAKE_CXX_COMPILER}" "${CMAKE_CXX_COMPILER_VERSION}"
         "${CMAKE_CXX_FLAGS}")
@@ -74,7 +74,7 @@ function(phasetree_probe_key result program libraries options link_options)
     set(${result} "${key}" PARENT_SCOPE)
 endfunction()
 
-# Compiles and links the program; the result is empty, or the first error.
+# Compiles and links the program. The result is empty, or the first error.
 function(phasetree_probe result variable program libraries options link_options)
     set(source "${CMAKE_CURRENT_BINARY_DIR}/probes/${variable}.cpp")
     file(WRITE "${source}" "${program}\n")
@@ -86,7 +86,7 @@ function(phasetree_probe result variable program libraries options link_options)
     set(ENV{LC_ALL} "${locale}")
     set(reason "")
     if(NOT works)
-        # "collect2: error: ld returned 1" follows what the linker said.
+        # "collect2: error: ld returned 1" follows the linker's own message.
         foreach(regex "[^\n]*error: [^\n]*" "[^\n]*(undefined|cannot find|relocation)[^\n]*" "[^\n]+\n?$")
             string(REGEX MATCH "${regex}" error "${output}")
             if(error AND NOT error MATCHES "^collect2|linker command failed")

@@ -1,5 +1,5 @@
-// A tree built with the C++ library instead of read from a file, made into a geometry through the C++ wrapper; prints
-// the closest interface to a point.
+// Builds a tree with the C++ library, makes it into a geometry through the C++ wrapper, and prints the closest
+// interface to a point.
 #include <cstdio>
 #include <phasetree/io/write.hpp>
 #include <phasetree/phasetree.hpp>

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The library's message, and the end. */
+/* Ends the program with the library's message if a call has failed. */
 static void check(PhasetreeError error) {
     if (error == PHASETREE_ERROR_NONE) return;
     fprintf(stderr, "%s\n", phasetreeGetErrorMessage());

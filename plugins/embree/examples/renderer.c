@@ -1,5 +1,5 @@
-/* A renderer that knows of phases: rays carry theirs, go straight through glass and water, which tint them, and stop at
- * the rest. A filter function hides the sand, for camera and shadow rays alike.
+/* A renderer that handles phases. Rays carry their phases, pass straight through glass and water, which tint them, and
+ * stop at everything else. A filter function hides the sand from both camera and shadow rays.
  *
  *   renderer IMAGE.ppm
  */
@@ -14,7 +14,7 @@ enum { WIDTH = 480, HEIGHT = 320, MOST_CROSSINGS = 64 };
 
 static const float sun[3] = {0.41f, -0.62f, 0.67f};
 
-/* Colours of phases, and how much of the light a unit of length of them lets through; 0: they are opaque. */
+/* Colours of phases, and the fraction of light that one unit of length transmits; 0 for opaque phases. */
 static const struct {
     float color[3], clear[3];
 } materials[] = {{{0, 0, 0}, {1, 1, 1}},
@@ -58,7 +58,7 @@ static void intersect(RTCScene scene, struct RTCRayHit* ray, PhasetreeRay* state
 }
 
 static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
-    /* In which phase the ray is, of either instance. */
+    /* The phase of each instance that the ray is in. */
     PhasetreeMedium media[2];
     PhasetreeRay state;
     const unsigned int instances[2] = {FIRST, SECOND};
@@ -96,7 +96,7 @@ static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
         } else {
             PhasetreeMedium* const medium = media + (ray.hit.instID[0] == FIRST ? 0 : 1);
             const unsigned int entered = state.hit.phaseEntered;
-            if (materials[entered].clear[0] > 0) { /* go on in that phase, from the bracket's far end */
+            if (materials[entered].clear[0] > 0) { /* continue in that phase, from the bracket's far end */
                 medium->phase = entered;
                 ray.ray.tnear = state.hit.tOut;
                 continue;

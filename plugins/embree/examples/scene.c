@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A ball of glass, half full of water, on a block of sand, and a rod of metal through it. */
+/* A glass ball, half full of water, on a block of sand, with a metal rod through it. */
 static const char* const text =
     "{\"phases\": {\"glass\": 0, \"water\": 0, \"metal\": 0, \"sand\": 0},"
     " \"tree\": {\"under\": ["
@@ -24,7 +24,7 @@ void check(PhasetreeError error) {
     exit(1);
 }
 
-/* Called for each crossing: rejects those into and out of the phase that the user pointer names. */
+/* Called for each crossing. Rejects those into and out of the phase that the user pointer names. */
 static void hide(const struct RTCFilterFunctionNArguments* args) {
     const unsigned int hidden = *(const unsigned int*)args->geometryUserPtr;
     for (unsigned int i = 0; i < args->N; ++i)
@@ -98,7 +98,7 @@ struct RTCRayHit cameraRay(int x, int y, int width, int height) {
     struct RTCRayHit r;
     const float u = 0.55f * (2 * (x + 0.5f) - width) / height, v = 0.55f * (height - 2 * (y + 0.5f)) / height;
     memset(&r, 0, sizeof r);
-    /* From (0, −5.6, 1.2), a little downwards. */
+    /* From (0, −5.6, 1.2), looking slightly downwards. */
     r.ray.org_y = -5.6f, r.ray.org_z = 1.2f;
     r.ray.dir_x = u, r.ray.dir_y = 1 + 0.28f * v, r.ray.dir_z = v - 0.28f;
     r.ray.tfar = INFINITY, r.ray.mask = ~0u;
@@ -107,7 +107,7 @@ struct RTCRayHit cameraRay(int x, int y, int width, int height) {
 }
 
 void normalToWorld(const float* m, const float n[3], float world[3]) {
-    /* The matrix of cofactors; its sign follows the determinant's. */
+    /* The cofactor matrix; its sign follows the determinant's. */
     float length = 0, determinant = 0;
     for (int i = 0; i < 3; ++i) {
         const float *a = m + 3 * ((i + 1) % 3), *b = m + 3 * ((i + 2) % 3);

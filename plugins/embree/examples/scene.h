@@ -1,4 +1,4 @@
-/* The scene of both renderers: a floor of triangles, and one tree twice, as instances, once mirrored and smaller. */
+/* The scene of both renderers: a floor of triangles, and two instances of one tree, one mirrored and smaller. */
 #ifndef SCENE_H
 #define SCENE_H
 
@@ -16,15 +16,15 @@ typedef struct Scene {
 /* Ends the program with the library's message if a call has failed. */
 void check(PhasetreeError error);
 
-/* flags: of the tree's geometry. hidden: the name of a phase that a filter function hides, or NULL. */
+/* flags: those of the tree's geometry. hidden: the name of a phase that a filter function hides, or NULL. */
 Scene makeScene(RTCDevice device, unsigned int flags, const char* hidden);
 void releaseScene(Scene* scene);
 
-/* A pinhole camera's ray through a pixel of an image of width × height. */
+/* The ray of a pinhole camera through a pixel of an image of width × height. */
 struct RTCRayHit cameraRay(int x, int y, int width, int height);
-/* A direction of the object's space into the world as normals go, and of unit length. */
+/* Transforms a normal from object space to the world, and normalises it. */
 void normalToWorld(const float* objectToWorld, const float normal[3], float world[3]);
-/* Writes a PPM; colours from 0 to 1, linear. */
+/* Writes a PPM file from linear colours in [0, 1]. */
 void writeImage(const char* path, const float* rgb, int width, int height);
 
 #endif

@@ -1,5 +1,5 @@
-/* The same scene in a host that has never heard of phases: it sees geometries with hits, IDs and normals, and passes
- * Embree's stock context. Nothing is hidden: the sand is there.
+/* The same scene in a host that does not know about phases. It sees geometries with hits, IDs and normals, and passes
+ * Embree's standard context. Nothing is hidden: the sand is visible.
  *
  *   stock IMAGE.ppm
  */
@@ -12,7 +12,7 @@
 
 enum { WIDTH = 480, HEIGHT = 320 };
 
-/* From here to main(): the host. It has its scene and a matrix for each instance. */
+/* Everything up to main() is the host, which has the scene and one matrix per instance. */
 static void trace(RTCScene scene, float objectToWorld[][12], struct RTCRayHit ray, float rgb[3]) {
     static const float sun[3] = {0.41f, -0.62f, 0.67f};
     static const float colors[3][3] = {{0.6f, 0.6f, 0.6f}, {0.7f, 0.35f, 0.3f}, {0.3f, 0.45f, 0.7f}};

@@ -1,4 +1,4 @@
-// A bottle of water, built and traced with the C++ library alone; prints the phases along a ray.
+// Builds and traces a bottle of water with the C++ library alone, and prints the phases along a ray.
 #include <cstdio>
 #include <optional>
 #include <phasetree/phasetree.hpp>
@@ -9,14 +9,14 @@ int main() {
     const Field bottle = SmoothUnion{
         .of = {Sphere{.radius = 1}, Capsule{.from = {0, 0, 0}, .to = {0, 0, 1.5f}, .radius = 0.3f}}, .radius = 0.4f};
     const Phased filled = ThinShell{.of = bottle, .shell = glass, .inside = water, .half_thickness = 0.03f};
-    // The water ends at z = 0.2; the glass is as it was.
+    // Ends the water at z = 0.2, without changing the glass.
     const Phased object =
         IntersectShape{.of = filled, .shape = Plane{.offset = 0.2f}, .phases_cut = PhaseSet::of(water)};
 
     const InterfaceTracer tracer(object);
     Evaluator::Workspace workspace;
     const glm::vec3 origin(0, 0, 3), direction(0, 0, -1);
-    std::optional<Phase> phase;  // at first, that at the origin
+    std::optional<Phase> phase;  // initially the phase at the origin
     float t = 0;
     while (const auto crossing = tracer.first_crossing(origin, direction, t, 100, phase, workspace)) {
         std::printf("z = %6.3f: from phase %d to phase %d\n", static_cast<double>(crossing->p_in.z),

@@ -1,4 +1,4 @@
-// NumPy arrays of points, used in place.
+// NumPy arrays of points, used without copying.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace phasetree::python {
 
-/// (N, 3) floats, contiguous: the package converts what is none before it calls.
+/// Contiguous (N, 3) floats; the package converts other arrays before the call.
 using Points = pybind11::array_t<float, pybind11::array::c_style>;
 
 inline std::size_t count_of(const Points& points, const char* what) {

@@ -1,5 +1,5 @@
-// Values of a program at many points, in C++ alone: what the functions of Python call, and what their cost is compared
-// with.
+// Values of a program at many points, in plain C++: the implementation of the Python functions, and the baseline for
+// their cost.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace phasetree::python {
 
-/// Points a block: some hundred microseconds of a middling program.
+/// Points per block, which take some hundred microseconds for a program of medium size.
 inline constexpr std::size_t points_a_block = 2048;
 
 struct PointBatch {
     BatchOfFloats x, y, z;
     std::size_t count = 0;
 
-    /// Those from `begin` on, at most a batch; the last one fills what is left over.
+    /// The points from `begin` on, at most a batch. The remaining lanes are filled with the last point.
     PointBatch(const float* points, std::size_t begin, std::size_t end) : count(std::min(batch_size, end - begin)) {
         for (std::size_t k = 0; k < batch_size; ++k) {
             const float* p = points + 3 * (begin + std::min(k, count - 1));
@@ -30,7 +30,7 @@ struct PointBatch {
     bool is_finite(std::size_t k) const { return std::isfinite(x[k]) && std::isfinite(y[k]) && std::isfinite(z[k]); }
 };
 
-/// The phase at each point; the vacuum where a coordinate is not finite.
+/// The phase at each point; the vacuum if a coordinate is not finite.
 inline void labels_at(const Evaluator& evaluator, const float* points, std::size_t begin, std::size_t end,
                       std::uint8_t* labels) {
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();
@@ -43,8 +43,8 @@ inline void labels_at(const Evaluator& evaluator, const float* points, std::size
     }
 }
 
-/// Φ at each point, `columns` numbers a row: column i is that of phase i, infinite if the object never has it; NaN
-/// where a coordinate is not finite.
+/// Φ at each point, in rows of `columns` numbers. Column i is the distance of phase i, infinite if the object never has
+/// it; NaN if a coordinate is not finite.
 inline void distances_at(const Evaluator& evaluator, const float* points, std::size_t begin, std::size_t end,
                          std::size_t columns, float* phi) {
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();
@@ -64,7 +64,7 @@ inline void distances_at(const Evaluator& evaluator, const float* points, std::s
     }
 }
 
-/// One component of Φ at each point; NaN where a coordinate is not finite.
+/// One component of Φ at each point; NaN if a coordinate is not finite.
 inline void components_at(const Evaluator& evaluator, const float* points, std::size_t begin, std::size_t end,
                           Phase phase, float* values) {
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();
@@ -72,7 +72,7 @@ inline void components_at(const Evaluator& evaluator, const float* points, std::
     std::array<BatchOfFloats, Phase::capacity + 1> all;
     std::size_t own = 0;
     while (own < outputs.size() && outputs[own].phase != phase) ++own;
-    all[own].lane.fill(std::numeric_limits<float>::infinity());  // where the phase is absent
+    all[own].lane.fill(std::numeric_limits<float>::infinity());  // if the phase is absent
     for (std::size_t i = begin; i < end; i += batch_size) {
         const PointBatch batch(points, i, end);
         evaluator.evaluate(batch.x, batch.y, batch.z, std::span(all).first(outputs.size()), workspace);
@@ -81,7 +81,7 @@ inline void components_at(const Evaluator& evaluator, const float* points, std::
     }
 }
 
-/// The gradient at each point of the component of one phase; without one, of that of the phase at the point.
+/// The gradient of one phase's component at each point. Without a phase, uses the phase at each point.
 inline void gradients_at(const Evaluator& evaluator, const float* points, std::size_t begin, std::size_t end,
                          std::optional<Phase> phase, float* gradients) {
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();

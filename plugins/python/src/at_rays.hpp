@@ -1,4 +1,4 @@
-// Crossings along many rays, in C++ alone: what the functions of Python call, and what their cost is compared with.
+// Crossings along many rays, in plain C++: the implementation of the Python functions, and the baseline for their cost.
 #pragma once
 
 #include <limits>
@@ -31,14 +31,14 @@ inline FoundCrossing found(const InterfaceCells& cells, const embree::CellScene:
             cells.normal(hit.cell, hit.crossing, ray.direction).unit};
 }
 
-/// All crossings of some rays, one ray after the other.
+/// All crossings of several rays, one ray after the other.
 struct CrossingList {
     std::vector<FoundCrossing> crossings;
-    std::vector<std::size_t> ends;  ///< for each ray, the number of crossings up to its last
+    std::vector<std::size_t> ends;  ///< per ray, the number of crossings up to and including its last
 };
 
-/// Every crossing along the rays, and the phases in which they start. A ray that is not finite or has no direction
-/// starts in the vacuum and crosses nothing.
+/// Finds every crossing along the rays, and the phases in which they start. A ray that is not finite or has a zero
+/// direction starts in the vacuum and has no crossings.
 inline void trace_rays(const embree::CellScene& scene, const RaysIn& rays, std::size_t begin, std::size_t end,
                        std::uint8_t* start, CrossingList& list) {
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();
@@ -62,7 +62,7 @@ struct JoinedCrossings {
     float* normal;
 };
 
-/// The lists of all blocks, of `block` rays each but for the last, one behind the other.
+/// Concatenates the lists of all blocks, each of `block` rays except the last.
 inline void join(const std::vector<CrossingList>& blocks, std::size_t block, std::size_t rays,
                  const JoinedCrossings& to) {
     std::size_t at = 0;
@@ -88,7 +88,7 @@ struct FirstCrossings {
     float* normal;
 };
 
-/// The first crossing along each ray. Where there is none, t is infinite, both phases are that at the start, and the
+/// Finds the first crossing along each ray. If there is none, t is infinite, both phases are that at the start, and the
 /// normal is zero.
 inline void intersect_rays(const embree::CellScene& scene, const RaysIn& rays, std::size_t begin, std::size_t end,
                            const FirstCrossings& to) {
@@ -114,8 +114,8 @@ struct ClosestInterfaces {
     std::uint8_t* there;
 };
 
-/// The closest interface to each point. Where there is none within the radius, or the point is not finite, the distance
-/// is infinite, the place NaN and both phases the vacuum.
+/// Finds the closest interface to each point. If there is none within the radius, or the point is not finite, the
+/// distance is infinite, the position is NaN and both phases are the vacuum.
 inline void find_closest_to(const embree::CellScene& scene, const float* points, std::size_t begin, std::size_t end,
                             float radius, float tolerance, const ClosestInterfaces& to) {
     for (std::size_t i = begin; i < end; ++i) {

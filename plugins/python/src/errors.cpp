@@ -1,4 +1,4 @@
-// What C++ throws, as Python's exceptions: with the same sentences.
+// Translates C++ exceptions to Python exceptions with the same messages.
 #include "phasetree/io/error.hpp"
 
 #include <pybind11/pybind11.h>
@@ -15,7 +15,7 @@ namespace phasetree::python {
 
 namespace {
 
-// The classes live as long as the module does, whose attributes they are.
+// The classes are attributes of the module and live as long as it does.
 PyObject* class_of(const char* name) {
     const py::object found = py::module_::import("phasetree._phasetree").attr(name);
     return found.ptr();

@@ -1,4 +1,4 @@
-// Work on many points or rays by all cores, which Ctrl-C ends.
+// Work on many points or rays on all cores, which Ctrl-C can interrupt.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,11 +13,11 @@
 
 namespace phasetree::python {
 
-/// Asks Python periodically whether a signal has come. Only the thread that called may ask, and only it has the time
-/// of the last question. While the object lives that thread does not hold the interpreter's lock.
+/// Polls Python for signals at intervals. Only the thread that created it may poll Python and read the time of the last
+/// poll. That thread releases the interpreter's lock for the lifetime of the object.
 class Interruption {
   public:
-    /// By any thread, often. True once the work is to end.
+    /// Returns true once the work must end. Any thread may call this often.
     bool asked() {
         if (ended_.load(std::memory_order_relaxed)) return true;
         if (std::this_thread::get_id() != caller_) return false;
@@ -31,7 +31,7 @@ class Interruption {
         }
         return ended_;
     }
-    /// Whether a signal's handler has raised an exception, which is Python's current error.
+    /// Whether a signal handler has raised an exception, which is Python's current error.
     bool has_error() const { return error_; }
 
   private:
@@ -41,8 +41,8 @@ class Interruption {
     bool error_ = false;
 };
 
-/// Calls f(begin, end) for blocks of `block` of `count` things, by TBB's threads and without the interpreter's lock.
-/// What f writes must depend on the block alone. Throws the exception of a signal's handler, say KeyboardInterrupt.
+/// Calls f(begin, end) for blocks of `block` of `count` items, on TBB's threads and without the interpreter's lock. The
+/// results of f must depend on the block alone. Throws the exception of a signal handler, such as KeyboardInterrupt.
 template <class F>
 void for_each_block(std::size_t count, std::size_t block, F&& f) {
     bool has_error = false;

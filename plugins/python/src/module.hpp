@@ -1,5 +1,5 @@
-// The parts of the extension module; each file adds its functions and classes. What people use is the Python package
-// beside it, which is made of these.
+// The parts of the extension module, to which each file adds its functions and classes. Users see the Python package
+// next to it, which is built on these.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -20,13 +20,13 @@ void add_scenes(pybind11::module_&);
 void add_rendering(pybind11::module_&);
 void add_viewing(pybind11::module_&);
 
-/// What work tells of itself: the stage that it is in, and which share of that is done. By any thread.
+/// Receives the current stage of the work, and the completed fraction of that stage. Called by any thread.
 using Progress = std::function<void(const char* stage, float share)>;
 
-/// Calls work(cancelled, progress) in a thread of its own, while the calling thread asks for signals and tells `tell`,
-/// a Python function of a stage and a number in [0, 1], or None. Rethrows what the work throws, or what a signal's
-/// handler or `tell` has raised, once the work has ended. The calling thread holds the interpreter's lock, the work
-/// does not.
+/// Calls work(cancelled, progress) in a separate thread, while the calling thread polls for signals and reports
+/// progress to `tell`. `tell` is None or a Python function of a stage and a number in [0, 1]. Once the work has ended,
+/// rethrows what the work threw, or what a signal handler or `tell` raised. The calling thread holds the interpreter's
+/// lock; the work does not.
 void run_beside(const pybind11::object& tell,
                 const std::function<void(const std::function<bool()>& cancelled, const Progress& progress)>& work);
 

@@ -1,5 +1,5 @@
-// Trees as handles. A node is made from its text by the reader of scene files, whatever its kind; what it is made of
-// are handles, which the text names.
+// Trees as handles. A node of any kind is created from its text by the reader of scene files. Its children are handles,
+// which the text refers to by name.
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -18,13 +18,13 @@ namespace phasetree::python {
 
 namespace {
 
-// What stands in a formula from a place on, up to its end.
+// The text of a formula from a position to its end.
 std::string part_of_formula(const std::string& text, std::size_t from) {
     const std::size_t end = std::min(text.find('"', from), from + 30);
     return text.substr(from, end - from);
 }
 
-// A text that a person has not written has no lines to show: the sentence alone, of the node that it is about.
+// Generated text has no line numbers worth showing: keeps only the message, prefixed with the node.
 ModelError without_place(const SceneError& e, const Document& document) {
     std::string text = e.message();
     const Value root = document.root();
@@ -32,7 +32,7 @@ ModelError without_place(const SceneError& e, const Document& document) {
         const std::string name(root[0].key());
         if (text.rfind(name + ":", 0) != 0) text = fmt::format("{}: {}", name, text);
     }
-    // Of a formula, the part that is meant: the text is one line of ASCII.
+    // For a formula, quote the part in question; the text is one line of ASCII.
     if (e.line() == 1 && e.column() > 1 && root.is_object() && root.size() == 1 && root[0].key() == "formula")
         text += fmt::format(", at \"{}\"", part_of_formula(document.text(), e.column() - 1));
     if (e.suggestion()) text += fmt::format(" (did you mean \"{}\"?)", *e.suggestion());
@@ -73,7 +73,7 @@ Handle made(const std::string& text, const std::vector<std::string>& phases, con
     }
 }
 
-// The field in a text that FieldHandle.text wrote.
+// Reads the field from a text that FieldHandle.text wrote.
 Field field_of_text(const std::string& text) {
     const Document document = Document::from_text(text);
     std::optional<Value> value = document.root();
@@ -123,7 +123,7 @@ py::class_<Handle> add_handle(py::module_& module, const char* name) {
 }  // namespace
 
 void add_nodes(py::module_& module) {
-    // As the object that is made of it, of the first of these phases.
+    // As the object made of it, which consists of the first of these phases.
     add_handle<Field>(module, "FieldHandle")
         .def("renumbered", &with_numbers<Field>)
         .def("text", [](const Field& field, const std::vector<std::string>& phases) {

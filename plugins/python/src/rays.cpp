@@ -12,7 +12,7 @@ using embree::PreparedObject;
 
 namespace {
 
-// Rays a block: few, because a ray may take long.
+// Rays per block: few, because a ray may take long.
 constexpr std::size_t rays_a_block = 256;
 constexpr std::size_t queries_a_block = 16;
 

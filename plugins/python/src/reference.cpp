@@ -1,4 +1,4 @@
-// The lists of kinds, from which the package makes its functions, their documentation and the stubs for editors.
+// The lists of kinds, from which the package generates its functions, their documentation and the type stubs.
 #include <pybind11/pybind11.h>
 
 #include "module.hpp"

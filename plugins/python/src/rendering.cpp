@@ -1,4 +1,4 @@
-// Pictures: the one place that binds to the path tracer's render, film and output.
+// Rendering: the only file that binds the path tracer's render, film and output.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -35,8 +35,8 @@ struct Wishes {
     std::size_t most_bytes = 0;
     std::vector<std::string> planes;
     std::optional<std::string> denoise;
-    double seconds_at = 0;    // the time of what moves
-    double time_seconds = 0;  // which it may take; 0 for as long as it takes
+    double seconds_at = 0;    // the time at which the scene is read
+    double time_seconds = 0;  // time limit; 0 for none
     std::optional<int> samples;
 };
 
@@ -71,7 +71,7 @@ py::dict planes_of(const Image& image) {
     return planes;
 }
 
-// What of a picture stands in the header of its file.
+// The metadata in the header of a picture's file.
 py::dict attributes_of(const Image& image) {
     py::dict attributes;
     for (const auto& [name, text] : image.attributes) attributes[py::str(name)] = text;
@@ -84,7 +84,7 @@ py::object crop_of(const Image& image) {
     return py::make_tuple(c.x0, c.y0, c.display_width, c.display_height);
 }
 
-// Sets what is wished, as the command sets what its options say, and makes sure that it can be had.
+// Applies the wishes as the command applies its options, and checks that they are possible.
 void apply(const Wishes& wishes, Scene& scene) {
     RenderOptions options;
     options.time_seconds = wishes.time_seconds;
@@ -140,14 +140,14 @@ Rendered rendered(Scene scene, const Wishes& wishes, const std::optional<Clock::
         job.progress = [&](double share) { progress("denoising", static_cast<float>(share)); };
         job.cancelled = cancelled;
         denoise_in_place(result.rendering.image, job);
-    } catch (const DenoiseError& e) {  // of a picture that is worth having all the same
+    } catch (const DenoiseError& e) {  // the picture is still usable
         result.is_noisy_because = e.what();
     }
     leave_out(result.rendering.image, film_settings(scene).planes, wanted, subjects_of(scene));
     return result;
 }
 
-// The scene is read from its text as a file is, with all of the command's checks.
+// Reads the scene from its text, with all of the command's checks for a file, and renders it.
 py::dict render_text(const std::string& text, const std::string& name, const Wishes& wishes, const py::object& tell) {
     std::optional<Clock::time_point> deadline;
     if (wishes.time_seconds > 0)

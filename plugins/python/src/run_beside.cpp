@@ -21,7 +21,7 @@ struct Told {
     bool operator==(const Told&) const = default;
 };
 
-// What the work and the thread that waits for it share.
+// State shared by the work and the thread that waits for it.
 class Work {
   public:
     void tell(const char* stage, float share) {
@@ -33,7 +33,7 @@ class Work {
         has_ended_ = true;
         changed_.notify_all();
     }
-    // Waits for the end, but not for long. Whether it has ended.
+    // Waits for a short time. Returns whether the work has ended.
     bool wait(Told& told) {
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, std::chrono::milliseconds(50), [&] { return has_ended_; });

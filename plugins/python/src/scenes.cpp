@@ -1,5 +1,5 @@
-// Scene files in and out: what a file says as Python's values, its object as a handle; and the checks of the parts that
-// people write, by the readers of scene files.
+// Reads and writes scene files: a file's content as Python values, and its object as a handle. Also checks parts
+// written by users with the readers of scene files.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -25,7 +25,7 @@ namespace phasetree::python {
 
 namespace {
 
-// With `document`, of a scene, the fields of materials are handles: they may be names of shapes.
+// With `document`, that of a scene, the fields of materials become handles, because they may be names of shapes.
 py::object as_python(Value value, const Document* document = nullptr) {
     switch (value.kind()) {
         case Kind::null:
@@ -49,7 +49,7 @@ py::object as_python(Value value, const Document* document = nullptr) {
             break;
     }
     py::dict dict;
-    // The members that are fields: what a texture or number follows, and the density of a medium.
+    // The members that are fields: those that control textures or numbers, and the density of a medium.
     std::string_view field;
     if (document != nullptr) field = value.find("ramp") ? "of" : value.find("density_depth") ? "density" : "";
     for (const Value member : value)
@@ -59,8 +59,8 @@ py::object as_python(Value value, const Document* document = nullptr) {
     return dict;
 }
 
-// The object, which is None in a scene of meshes alone, and all else that the scene says but for its tree. A scene that
-// has a camera must be whole.
+// The object, which is None in a scene of meshes alone, and everything else in the scene except its tree. A scene with
+// a camera must be complete.
 py::tuple parts_of(const Document& document) {
     SceneTree tree;
     const Value root = document.root();
@@ -79,7 +79,7 @@ py::tuple parts_of(const Document& document) {
     return py::make_tuple(tree.object, rest);
 }
 
-// The matrices [M v] of maps, (N, 3, 4).
+// The matrices [M v] of affine maps, (N, 3, 4).
 py::array_t<float> matrices(std::span<const tracer::Transform> maps) {
     py::array_t<float> result({static_cast<py::ssize_t>(maps.size()), py::ssize_t{3}, py::ssize_t{4}});
     float* out = result.mutable_data();
@@ -91,7 +91,7 @@ py::array_t<float> matrices(std::span<const tracer::Transform> maps) {
     return result;
 }
 
-// (name, matrices) of each run of places of the same object or group.
+// (name, matrices) for each run of places of the same object or group.
 py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::Place>& places) {
     py::list result;
     for (std::size_t i = 0; i < places.size();) {
@@ -105,8 +105,8 @@ py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::P
     return result;
 }
 
-// Of a scene of several objects: the names and own maps of the objects, the places in each group, and those of the
-// scene. All that is wrong with the scene is said here.
+// For a scene of several objects: the names and transforms of the objects, the places in each group, and those of the
+// scene. Reports all errors of the scene.
 py::tuple placed_in(const Document& document) {
     const Value root = document.root();
     tracer::PlacedObjects all =
@@ -121,9 +121,9 @@ py::tuple placed_in(const Document& document) {
     return py::make_tuple(objects, groups, places_of(all, all.places));
 }
 
-// The keys of what reads a file, each with the name of that parameter: of all that a scene file can say. Keys are the
-// names of kinds, and those of parameters that are of such a kind, as "density_grid" is of voxels. A set, because
-// chapters share names: `image` is a texture and a light.
+// The keys of everything in a scene file that reads a file, each with the name of the parameter that has the file. Keys
+// are names of kinds, or names of parameters whose value is of such a kind, as "density_grid" is of voxels. A set,
+// because chapters share names: `image` is both a texture and a light.
 std::set<std::pair<std::string, std::string>> keys_with_files() {
     std::set<std::pair<std::string, std::string>> all;
     const std::string type = ParameterType<std::filesystem::path>::describe({}).name;
@@ -144,14 +144,14 @@ std::set<std::pair<std::string, std::string>> keys_with_files() {
     return all;
 }
 
-// The end of a string in a text, behind its closing quote.
+// The end of a string in a text, after its closing quote.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     for (++at; text[at] != '"'; ++at)
         if (text[at] == '\\') ++at;
     return at + 1;
 }
 
-// The same text with other names for the files that it names: name(file).
+// Returns the text with each file that it names replaced by renamed(file).
 std::string with_files(const std::string& text, const std::string& name, const py::function& renamed) {
     const Document document = Document::from_text(text, name);
     const auto keys = keys_with_files();
@@ -177,13 +177,13 @@ std::string with_files(const std::string& text, const std::string& name, const p
     return result.append(text, done);
 }
 
-// What Python's own reader of JSON does not take: a text with comments.
+// Parses JSON with comments, which Python's own parser rejects.
 py::object value_of(const std::string& text) {
     return as_python(Document::from_text(text).root());
 }
 
-// A part by itself, {"materials": …} for one: Error with the reader's sentence, without a place in a text that nobody
-// wrote.
+// Checks a part by itself, for example {"materials": …}. Throws Error with the reader's message, but without a
+// position, because the text is generated.
 void check_part(const std::string& part, const std::string& text) {
     const Document document = Document::from_text(text);
     tracer::FilmSettings film;

@@ -1,4 +1,4 @@
-// The live view of a scene's file, served by a thread of its own.
+// The live view of a scene file, served by a separate thread.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -22,8 +22,8 @@ using namespace phasetree::tracer;
 
 class View {
   public:
-    // Returns once the page is served. Throws what reading the scene throws, and std::runtime_error where no port can
-    // be had.
+    // Returns once the page is served. Throws what reading the scene throws, and std::runtime_error if no port is
+    // available.
     View(const std::string& file, std::optional<int> width, std::optional<int> samples, int threads, int port)
         : file_{{file, std::nullopt, std::nullopt}, std::nullopt, std::nullopt} {
         if (!view::can_serve())
@@ -56,7 +56,7 @@ class View {
     }
 
   private:
-    // Before anything else can be thrown the port is had, and `served` is told.
+    // Binds the port and sets `served` before anything else can throw.
     void serve(const view::ReadScene& read, std::optional<int> width, std::optional<int> samples, int threads, int port,
                std::promise<std::string>& served) {
         const AvailableThreads available(threads);

@@ -1,4 +1,4 @@
-// What `info --carve` says: convex bounds of the whole object and of each phase.
+// Convex bounds of the whole object and of each phase, as `info --carve` prints them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,12 +11,13 @@
 namespace phasetree::tracer {
 
 struct CarvedPart {
-    std::string name;  // of a phase; empty for the whole object
+    std::string name;  // the phase's name; empty for the whole object
     CarvedBounds bounds;
     double seconds = 0;
 };
 
-/// Carves the whole object and each of its phases; the whole alone if there is only one. Throws as carve() does.
+/// Carves the whole object and each of its phases. An object of one phase is carved only as a whole. Throws as carve()
+/// does.
 std::vector<CarvedPart> carve_parts(const SceneTree& tree, int most_planes);
 
 void add_carved(nlohmann::ordered_json& json, const std::vector<CarvedPart>& parts);

@@ -1,4 +1,4 @@
-// What an object's cells are, for `info --cells` and `render --stats`.
+// Statistics of an object's cells, for `info --cells` and `render --stats`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

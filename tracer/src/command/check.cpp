@@ -18,7 +18,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The phases of one object, or of many that stand somewhere.
+// The phases of a single object, or of all placed objects.
 PhaseSet phases_of(const Phased& object, const PlacedObjects& placed) {
     if (placed.empty()) return phases(object);
     PhaseSet all{};
@@ -26,7 +26,7 @@ PhaseSet phases_of(const Phased& object, const PlacedObjects& placed) {
     return all;
 }
 
-// A scene without a camera is a tree for all that does not render. Says what it is good for.
+// Checks a scene without a camera, and reports what it can be used for.
 int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
     warn_of_unused_names(document, model.phases, phases_of(model.object, model.placed));
@@ -61,7 +61,7 @@ int check(const SceneFile& file) {
     if (document.root().is_object() && !document.root().find("camera"))
         return check_without_camera(document, file.shown());
     const Scene scene = load_scene(document);
-    // A view is only known where its configuration is, so a broken $OCIO is an error for scenes that name a view.
+    // Views are defined by the OpenColorIO configuration, so a broken $OCIO is an error for a scene that names a view.
     if (scene.settings.view) (void)display_of(document, scene.settings, {}, {}, {});
     warn_of_unused_names(document, scene.phases, phases_of(scene.object, scene.placed));
     warn_of_what_is_not_shown(scene);

@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// How long SIGUSR1 may wait.
+// Longest delay before SIGUSR1 is handled.
 constexpr std::chrono::milliseconds patience{50};
 
 }  // namespace

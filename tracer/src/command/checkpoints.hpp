@@ -1,4 +1,4 @@
-// What a render has done so far, kept in a file while it goes on.
+// Checkpoints: the film of an unfinished render, saved to a file at intervals.
 #pragma once
 
 #include <chrono>
@@ -12,13 +12,12 @@
 
 namespace phasetree::tracer {
 
-// While it lives, the film is written to the file every so often, and when SIGUSR1 arrives (interrupt.hpp); rendering
-// goes on meanwhile. Where it cannot be written this is said, and tried again the next time: the file then is the one
-// before.
+// During its lifetime, writes the film to the file at intervals, and when SIGUSR1 arrives (interrupt.hpp), while
+// rendering continues. A write that fails is reported and retried at the next interval; the previous file stays intact.
 class Checkpoints {
   public:
     Checkpoints(std::filesystem::path file, double interval_seconds, const FilmFileHeader& header, const Film& film);
-    // Ends that, after a file that is being written.
+    // Stops the thread after any write in progress.
     ~Checkpoints();
 
   private:
@@ -30,7 +29,7 @@ class Checkpoints {
     const Film& film_;
     std::mutex waiting_;
     std::condition_variable_any end_;
-    std::jthread thread_;  // last: it uses all the others
+    std::jthread thread_;  // last, because it uses all other members
 };
 
 }  // namespace phasetree::tracer

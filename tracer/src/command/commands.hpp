@@ -1,6 +1,6 @@
-// The subcommands of `phasetree`, one file each. Each adds itself to the command line and, when it is chosen, sets
-// `run`, which returns the exit code: 0 for success, 1 for a run that failed, 2 for input that is wrong, 3 of `check`
-// for a scene that is only a tree; of an interrupted run as below.
+// The subcommands of `phasetree`, one file each. Each registers itself on the command line and, when selected, sets
+// `run`, which returns the exit code: 0 for success, 1 for failure, 2 for invalid input, and 3 from `check` for a scene
+// that is only a tree. For interrupted runs see below.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ namespace phasetree::tracer {
 using Run = std::function<int()>;
 
 inline constexpr int only_a_tree = 3;
-// Of a run that SIGTERM or SIGHUP ended (1 if nothing is there to go on from), and one that Ctrl-C ended. The first is
-// EX_TEMPFAIL of sysexits.h, by which batch systems know that a job may be tried again; the second is what shells say
-// of a program that SIGINT ended.
+// Exit codes of a run ended by SIGTERM or SIGHUP (1 if there is nothing to resume from), and by Ctrl-C. The first is
+// EX_TEMPFAIL of sysexits.h, by which batch systems recognise that the job may be retried. The second is what shells
+// report for a program ended by SIGINT.
 inline constexpr int resume_me = 75, interrupted_by_person = 130;
 
 void add_render(CLI::App& app, Run& run);
@@ -30,7 +30,7 @@ void add_trace(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
 
-// All of them, in the order of the help.
+// Adds all subcommands, in the order of the help.
 void add_commands(CLI::App& app, Run& run);
 
 }  // namespace phasetree::tracer

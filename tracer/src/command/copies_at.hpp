@@ -1,4 +1,4 @@
-// Which of several objects holds a point: what `eval` and `trace` write beside the phase.
+// Finds which of several objects contains a point, for the columns that `eval` and `trace` write next to the phase.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace phasetree::tracer {
 
 class CopiesAt {
   public:
-    /// Refers to the objects.
+    /// Keeps a reference to the objects.
     explicit CopiesAt(const PlacedObjects&);
 
-    /// ",NAME,NUMBER" of the object and of its copy; of a point of vacuum ",,".
+    /// ",NAME,NUMBER" of the object and its copy; ",," for a point in the vacuum.
     std::string columns(const glm::vec3& p) const;
 
   private:
@@ -25,8 +25,8 @@ class CopiesAt {
     };
 
     const PlacedObjects& placed_;
-    std::vector<Evaluator> evaluators_;  ///< of the objects
-    std::vector<Copy> copies_;           ///< by their numbers
+    std::vector<Evaluator> evaluators_;  ///< one per object
+    std::vector<Copy> copies_;           ///< indexed by copy number
 };
 
 }  // namespace phasetree::tracer

@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What is wrong with what was asked for, by the option's name.
+// Calls f, and prefixes its errors with the option's name.
 template <class F>
 auto as_option(F&& f) {
     try {

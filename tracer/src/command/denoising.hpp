@@ -1,4 +1,4 @@
-// Pictures with less noise, as --denoise makes them.
+// Denoising of pictures for --denoise.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,26 @@ class App;
 
 namespace phasetree::tracer {
 
-// Where it is not asked for there is none.
+// Adds the option --denoise. Without it, pictures are not denoised.
 void add_denoise(CLI::App& command, std::optional<std::string>& denoise);
-// How it is asked for. Throws OutputError.
+// Parses the option's value. Throws OutputError.
 Denoiser denoiser_of(const std::string& text);
 
-// Makes sure that a picture of this many samples a pixel, those of all shares together, can be denoised as it is asked
-// for. Throws OutputError.
+// Checks that a picture with this many samples per pixel, over all shares, can be denoised as requested. Throws
+// OutputError.
 void check_denoising(const std::string& denoise, int samples);
-// Makes sure that a film of these planes can be denoised, and that there is to be a picture of it. Throws OutputError.
+// Checks that a film with these planes can be denoised, and that a picture is to be written. Throws OutputError.
 void check_denoising(const Planes::Choice& kept, bool has_pictures);
 
 struct Denoising {
     Denoiser by = Denoiser::best;
     int threads = 0;
     bool quiet = false;
-    bool was_interrupted = false;  ///< then nobody is to wait any longer
+    bool was_interrupted = false;  ///< if set, return as soon as possible
 };
 
-// Denoises a picture, which has the channels of denoising_planes(), and keeps in the further channels noisy.R, .G and
-// .B what it was. Where that cannot be done, or a signal stops it, says so and leaves the picture as it is.
+// Denoises a picture that has the channels of denoising_planes(). The noisy colours are kept in the additional channels
+// noisy.R, .G and .B. If denoising fails, or a signal stops it, reports that and leaves the picture unchanged.
 void denoise_picture(Image& image, const Denoising& how);
 
 }  // namespace phasetree::tracer

@@ -9,7 +9,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The least angle between the rays of two pixels that are neighbours. In a flat picture it is that at the corners.
+// The smallest angle between the rays of two neighbouring pixels. In a perspective picture it occurs at the corners.
 float least_pixel_angle(const Camera& camera, const FilmSettings& film) {
     const auto along = [&](double x, double y) {
         return glm::normalize(glm::dvec3(camera.generate({x, y}, glm::vec2(0.5f)).direction));

@@ -4,9 +4,9 @@
 
 namespace phasetree::tracer {
 
-/// Chooses the levels of detail of a scene's object for its camera and the size of its picture: the errors that their
-/// nodes promise look no larger than this many pixels, wherever in the picture. Throws OutputError for a camera
-/// whose rays do not start in one place.
+/// Chooses the levels of detail of a scene's object for its camera and resolution: the error that each node promises
+/// covers at most this many pixels, anywhere in the picture. Throws OutputError for a camera whose rays do not start at
+/// one point.
 void choose_levels_of_detail(Scene& scene, float pixels);
 
 }  // namespace phasetree::tracer

@@ -8,7 +8,7 @@
 
 namespace phasetree::tracer {
 
-/// "90s", "5m", "1.5h" or a number of seconds. Nothing for what is no time, or none that passes within a year.
+/// Parses "90s", "5m", "1.5h" or a number of seconds. Returns nullopt for anything else, and for more than a year.
 inline std::optional<double> seconds_of(std::string_view text) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
@@ -20,7 +20,7 @@ inline std::optional<double> seconds_of(std::string_view text) {
     return seconds;
 }
 
-/// Adds an option whose value is a time.
+/// Adds an option whose value is a duration.
 inline CLI::Option* add_duration(CLI::App& command, const std::string& name, double& seconds,
                                  const std::string& description) {
     const auto choose = [&seconds, name](const std::string& text) {

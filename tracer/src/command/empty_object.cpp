@@ -22,7 +22,7 @@ bool is_empty(const Phased& object, const Evaluator& evaluator) {
     try {
         return InterfaceCells(object, {.quality = BuildQuality::low}).size() == 0;
     } catch (const ModelError&) {
-        return false;  // too small or too large for rays, which is said elsewhere
+        return false;  // too small or too large for rays; reported elsewhere
     }
 }
 

@@ -1,5 +1,5 @@
-// Objects of which nothing is left: cut away altogether, most often by mistake. They are no error, but worth a
-// sentence.
+// Detection of empty objects, from which everything has been cut away, usually by mistake. They cause a warning, not an
+// error.
 #pragma once
 
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace phasetree::tracer {
 
-// Whether the object is vacuum everywhere, as far as rays can tell. Quick unless it is empty, or very thin: then its
-// cells are built to find out. Of an unbounded object nothing is known, so that it is not.
+// Whether the object is vacuum everywhere, as far as rays can tell. Fast unless the object is empty or very thin,
+// because only then are its cells built to find out. Returns false for an unbounded object, about which nothing is
+// known.
 bool is_empty(const Phased& object, const Evaluator& evaluator);
 
-// The sentence, at the document's tree.
+// The warning, located at the document's tree.
 std::string empty_object_warning(const Document&);
 
 }  // namespace phasetree::tracer

@@ -16,7 +16,7 @@ namespace {
 
 constexpr NumberTable::Column columns[] = {{"x"}, {"y"}, {"z"}};
 
-// Phases that the object never has are left empty.
+// Columns of phases that the object never has are left empty.
 int eval(const SceneFile& file, const std::optional<std::string>& object) {
     const Document document = read_document_beside_input(file);
     const SceneModel model = read_scene_model(document);

@@ -26,7 +26,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Numbers of shaders are rounded more often than ours, and a bracket must be longer than what that moves.
+// Shaders round more often than the C++ code does. A bracket must be longer than the resulting error.
 constexpr float finest_of_diagonal = 1e-5f;
 
 struct ExportOptions {
@@ -42,13 +42,14 @@ std::string numbers_as_bytes(const std::vector<float>& numbers) {
     return bytes_as_text(bytes);
 }
 
-// A page is read at once by people who wait for it.
+// Maximum size of a page in bytes, so that it loads quickly.
 constexpr std::size_t largest_page = 500'000;
-// The boxes along the longest side that are tried, finest first, and the length of a bracket: a page is examined.
+// Numbers of boxes along the longest side to try, finest first, and the length of a bracket. They suit a page, in which
+// the object is examined closely.
 constexpr int page_grids[] = {32, 24, 16, 12, 8, 5};
 constexpr float bracket_on_page = 3e-5f;
 
-// The height of the last floor among the scene's meshes. The meshes themselves are not read.
+// The height of the last floor among the scene's meshes. Mesh files are not read.
 std::optional<float> floor_height(const Document& document) {
     std::optional<float> height;
     const std::optional<Value> meshes = document.root().find("meshes");
@@ -125,7 +126,7 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     try {
         const GlslShader shader =
             made_of_tree(document, [&] { return make_glsl(program, traceable.bounds, resolution, options); });
-        // The shader comes last: where it is, all that it needs is.
+        // Write the shader last, so that everything it needs exists when it appears.
         if (!shader.numbers.empty()) write_file(numbers_as_bytes(shader.numbers), numbers_path);
         write_file(shader.text, path);
     } catch (const BuildCancelled&) {
@@ -135,7 +136,7 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     return 0;
 }
 
-// Options that a file of this extension has no use for are mistakes.
+// Rejects options that do not apply to files with this extension.
 void check_options(const CLI::App& command, const std::string& extension) {
     const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
     if (extension != ".glsl" && is_given("--grid")) throw InputError("--grid is for .glsl");
@@ -144,7 +145,7 @@ void check_options(const CLI::App& command, const std::string& extension) {
             throw InputError(fmt::format("{} is for triangles, and {} has none", name, extension));
 }
 
-// Of an option: nothing is wrong with a text that is a finite number above 0.
+// A validator for CLI11: returns an empty string if the text is a finite number above 0.
 std::function<std::string(const std::string&)> is_positive(const std::string& what) {
     return [what](const std::string& text) {
         float number = 0;

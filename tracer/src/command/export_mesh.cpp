@@ -34,7 +34,7 @@ using std::filesystem::path;
 constexpr std::array<std::string_view, 5> mesh_extensions{".stl", ".obj", ".ply", ".3mf", ".glb"};
 constexpr std::string_view phase_in_name = "{phase}";
 
-// If no larger share of the crossings is passed over, nothing is said of it: edges of any object have some.
+// Missed crossings are reported only above this share. Below it they are normal: every object with edges has some.
 constexpr double share_of_edges = 0.05;
 
 PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
@@ -64,9 +64,9 @@ bool is_file_for_each_phase(const MeshExport& wanted) {
     return wanted.output.find(phase_in_name) != std::string::npos;
 }
 
-// A phase's name becomes part of a file's name, so all ASCII characters that may mean something else there become _.
+// Phase names become part of file names, so ASCII characters with a special meaning there are replaced by _.
 std::string in_file_name(std::string name) {
-    // Names of dots alone are folders.
+    // Names that consist only of dots are folders.
     for (std::size_t i = 0; i < name.size() && name[i] == '.'; ++i) name[i] = '_';
     for (char& c : name) {
         const auto code = static_cast<unsigned char>(c);
@@ -82,12 +82,12 @@ path file_of_phase(const std::string& pattern, const std::string& phase) {
     return name;
 }
 
-// The materials of an .obj are in a file beside it.
+// The material file of an .obj, next to it.
 path materials_of(path obj) {
     return obj.replace_extension(".mtl");
 }
 
-// The names of the files are known before there is a mesh, so what cannot be written is said at once.
+// File names do not depend on the mesh, so a file that cannot be written is reported before meshing.
 std::vector<std::pair<Phase, path>> stl_files(const MeshExport& wanted, PhaseSet chosen, const PhaseNames& names) {
     std::vector<std::pair<Phase, path>> files;
     std::set<path> taken;
@@ -111,7 +111,7 @@ void write_mesh(const MeshedObject& object, const MeshExport& wanted, const Phas
     if (extension == ".obj") {
         const path materials = materials_of(output);
         const ObjFiles files = obj_of(object, materials.filename().string());
-        // The surfaces come last: where they are, all that they need is.
+        // Write the surfaces last, so that everything they need exists when they appear.
         write_file(files.mtl, materials);
         return write_file(files.obj, output);
     }
@@ -141,7 +141,7 @@ void say_what_is_lost(const MeshedObject& object) {
 MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Document& document, const SceneTree& tree) {
     MeshedObject object;
     object.chosen = chosen_phases(wanted, tree);
-    // Nothing else of the scene matters to a mesh, so nothing else is read: it may have no camera and no lights.
+    // Reads only what a mesh needs: the scene may lack a camera and lights.
     std::vector<std::optional<Material>> materials;
     if (has_colors(wanted)) materials = read_materials(document);
     if (is_file_for_each_phase(wanted))
@@ -155,7 +155,7 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     cells.cancelled = [] { return interrupted(); };
     LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
     cells.progress = [&](float done) { preparing.tell(done); };
-    (void)record_tree(document, tree.object);  // says of an object that is too large what is wrong
+    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const auto prepared =
         made_of_tree(document, [&] { return std::make_unique<const embree::PreparedObject>(tree.object, cells); });
     print_warning(file.shown(), prepared->cells().warning());
@@ -174,7 +174,7 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     return object;
 }
 
-// Numbers that other programs still take for lengths, squared and all.
+// Rejects lengths that other programs could not represent, also when squared.
 void check_scale(const PhaseMesh& mesh, float scale) {
     constexpr float most = 1e15f;
     float farthest = 0;

@@ -1,4 +1,4 @@
-// `export` to files of triangles.
+// `export` to triangle files.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@ namespace phasetree::tracer {
 
 struct MeshExport {
     std::string output;
-    float spacing = 0;                // of the grid, in the scene's unit; 0 chooses one
-    float scale = 1;                  // by which what is written is larger than the scene
-    std::vector<std::string> phases;  // by name; all but the vacuum if there is none
+    float spacing = 0;                // grid spacing in scene units; 0 for automatic
+    float scale = 1;                  // written lengths per scene length
+    std::vector<std::string> phases;  // names of the phases to export; empty for all but the vacuum
     std::optional<std::string> object;
-    std::size_t most_bytes = 0;  // that the prepared object may take; 0 for the default
+    std::size_t most_bytes = 0;  // memory limit of the prepared object; 0 for the default
 };
 
-// Whether a file with this extension is one of triangles.
+// Whether files with this extension contain triangles.
 bool is_mesh_extension(std::string_view extension);
 
 // Returns the exit code.

@@ -22,14 +22,14 @@ struct FarmOptions {
     std::string folder, program = "phasetree";
 };
 
-// What follows "--", read as render itself would. Throws OutputError.
+// Parses what follows "--" as `render` would. Throws OutputError.
 RenderOptions render_options(const FarmOptions& options) {
     CLI::App app;
     RenderOptions render;
     add_render_options(app, render);
     std::vector<std::string> words = options.render_words;
     words.push_back(options.scene->name);
-    std::ranges::reverse(words);  // as CLI11 wants them
+    std::ranges::reverse(words);  // CLI11 expects them in reverse
     try {
         app.parse(words);
     } catch (const CLI::ParseError& e) {
@@ -45,14 +45,14 @@ RenderOptions render_options(const FarmOptions& options) {
     return render;
 }
 
-// A file's name that no command takes for an option.
+// A file name that no command mistakes for an option.
 std::string as_file(const std::string& name) {
     return name.starts_with('-') ? "./" + name : name;
 }
 
-// Finds now what would fail on every machine of the farm.
+// Checks limits now that would otherwise make every machine of the farm fail.
 void check_limits(const Farm& farm) {
-    // Of most file systems, and of Linux for a word of a command line, which the whole line is for `sh -c`.
+    // Limits of most file systems, and of Linux for one argument: `sh -c` receives the whole line as one.
     constexpr std::size_t longest_name = 255, longest_line = (128 << 10) - 1;
     const std::string part = std::filesystem::path(part_of_share(farm, farm.shares - 1)).filename().string();
     if (part.size() > longest_name)
@@ -164,7 +164,7 @@ void add_farm(CLI::App& app, Run& run) {
                      "Option of sbatch, for both jobs, as in --sbatch=--time=60; may be repeated")
         ->take_all()
         ->expected(1)
-        ->allow_extra_args(false)  // else it eats a "--" behind it
+        ->allow_extra_args(false)  // otherwise it consumes a following "--"
         ->option_text("OPTION");
     command->add_option("--program", o->program, "How the machines of the farm call phasetree (default: phasetree)")
         ->option_text("PATH");

@@ -21,7 +21,7 @@ std::string words(const std::vector<std::string>& all) {
     return line;
 }
 
-// What comes before the share's own words in each of its commands, and what after them.
+// The part of each share's command before the share's own arguments, and the part after them.
 std::string render_head(const Farm& farm) {
     return words({farm.program, "render", farm.scene});
 }
@@ -29,7 +29,7 @@ std::string render_tail(const Farm& farm) {
     return (farm.render_options.empty() ? "" : " ") + words(farm.render_options);
 }
 
-// The first of the shares of which a step's part is made.
+// The first of the shares that a part of this step consists of.
 int first_share(const std::vector<int>& steps, std::size_t step, int part) {
     for (; step > 0; --step) part = static_cast<int>(std::int64_t{part} * steps[step - 1] / steps[step]);
     return part;
@@ -43,7 +43,7 @@ std::string part_of_step(const Farm& farm, const std::vector<int>& steps, std::s
     return part_name(farm, first_share(steps, step, part), first_share(steps, step, part + 1));
 }
 
-// What makes the picture of the last step's parts.
+// The command that merges the parts of the last step into the picture.
 std::string last_merge(const Farm& farm, const std::vector<int>& steps) {
     std::vector<std::string> all{farm.program, "merge"};
     for (int i = 0; i < steps.back(); ++i) all.push_back(part_of_step(farm, steps, steps.size() - 1, i));
@@ -55,7 +55,7 @@ std::string last_merge(const Farm& farm, const std::vector<int>& steps) {
     return words(all);
 }
 
-// A line for each merge of a step before the last.
+// One line per merge of a step other than the last.
 std::string merges_of_step(const Farm& farm, const std::vector<int>& steps, std::size_t step) {
     std::string lines;
     for (int i = 0; i < steps[step]; ++i) {
@@ -70,13 +70,13 @@ std::string merges_of_step(const Farm& farm, const std::vector<int>& steps, std:
     return lines;
 }
 
-// The number of the first sample of a step's part, as bash computes it.
+// The first sample of a part of this step, as an expression for bash.
 std::string first_in_bash(const Farm& farm, const std::vector<int>& steps, std::size_t step, std::string part) {
     for (; step > 0; --step) part = fmt::format("({} * {} / {})", part, steps[step - 1], steps[step]);
     return fmt::format("{} * {} / {}", part, farm.samples, farm.shares);
 }
 
-// What submits the merges of a step before the last.
+// Submits the merges of a step other than the last.
 std::string merges_in_bash(const Farm& farm, const std::vector<int>& steps, std::size_t step,
                            const std::string& options) {
     return fmt::format(
@@ -102,9 +102,9 @@ submit_arrays {count} merge_of_step_{step} --job-name=phasetree-merge --requeue{
         fmt::arg("whole_next", first_in_bash(farm, steps, step, "(i + 1)")));
 }
 
-// How the script submits: submit_arrays COUNT WRITER [OPTION…] submits tasks 0 to COUNT - 1, whose script `WRITER
-// FIRST` writes for the array that begins with task FIRST, and sets `jobs` to the arrays' numbers, "1:2:3". They wait
-// for the `jobs` that there were. If anything cannot be submitted, all that was is cancelled.
+// Defines how the script submits jobs. `submit_arrays COUNT WRITER [OPTION…]` submits tasks 0 to COUNT - 1, which wait
+// for the jobs in `jobs`. `WRITER FIRST` writes the script of the array that begins with task FIRST. Afterwards `jobs`
+// has the ids of the new arrays, "1:2:3". If any submission fails, all jobs submitted so far are cancelled.
 std::string submitting_in_bash(const Farm& farm) {
     return fmt::format(
         R"bash(submitted=() jobs=
@@ -168,7 +168,7 @@ std::vector<int> parts_of_steps(const Farm& farm) {
 }
 
 std::size_t longest_merge_line(const Farm& farm) {
-    // No part's name is longer than that of the last share, whose numbers are the greatest.
+    // The last share has the largest numbers, so its part has the longest name.
     const std::size_t part = shell_word(part_of_share(farm, farm.shares - 1)).size() + 1;
     std::size_t bytes = words({farm.program, "merge", "--quiet", "-o"}).size() + part;
     for (const std::string& word : farm.outputs) bytes += shell_word(word).size() + std::string_view(" -o ").size();

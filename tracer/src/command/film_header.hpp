@@ -1,4 +1,4 @@
-// What parts and checkpoints say of the picture that they are of.
+// The header of parts and checkpoints, which identifies their picture.
 #pragma once
 
 #include "command/render_options.hpp"
@@ -7,9 +7,10 @@
 
 namespace phasetree::tracer {
 
-// All but what is known only when the object has been prepared. The scene has what the options say of it.
+// The header, except for what is known only after the object has been prepared. The options must have been applied to
+// the scene.
 FilmFileHeader header_of(const RenderOptions&, const Document&, const Scene&, const RenderJob&);
-// The rest. Where memory is short there are fewer cells, and places on surfaces may be rounded otherwise.
+// Adds the rest. With little memory there are fewer cells, and positions on surfaces may be rounded differently.
 void add_cells(FilmFileHeader&, const RenderOptions&, const CellStatistics&);
 
 }  // namespace phasetree::tracer

@@ -15,7 +15,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Frames are numbered below this, which seven digits are enough for.
+// Exclusive upper bound of frame numbers: seven digits.
 constexpr int most_frames = 10'000'000;
 
 struct FrameRange {
@@ -32,7 +32,7 @@ FrameRange range_of_frames(const std::string& text) {
     return range;
 }
 
-// The same for one frame: every file that is written has its number in its name.
+// The options for one frame: the name of each output contains its number.
 RenderOptions options_of_frame(const RenderOptions& options, int frame, bool is_alone) {
     RenderOptions one = options;
     one.frames.reset();
@@ -53,7 +53,7 @@ RenderOptions options_of_frame(const RenderOptions& options, int frame, bool is_
     return one;
 }
 
-// Of a file for each plane the picture's is the last that is written.
+// With one file per plane, the file of the picture is written last.
 bool are_all_there(const RenderOptions& options) {
     return std::ranges::all_of(options.outputs, [](const std::string& output) {
         std::error_code problem;

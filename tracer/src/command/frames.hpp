@@ -1,4 +1,4 @@
-// A film: frame after frame, each a picture of its own at its own time.
+// Animations: a sequence of frames, each rendered as a picture of its own at its own time.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace phasetree::tracer {
 
-/// When a frame is, in seconds from the beginning of the film, as the scene's "frames_per_second" says. Throws
+/// The time of a frame in seconds from the beginning of the animation, by the scene's "frames_per_second". Throws
 /// SceneError.
 double seconds_of_frame(const Document& document, int frame);
 
-/// A file's name for one frame: the last run of # becomes the frame's number, with zeros before it to as many digits;
-/// nothing if the name has no #.
+/// The file name of one frame: the last run of # is replaced by the frame number, zero-padded to the same number of
+/// digits. Returns nullopt if the name has no #.
 std::optional<std::string> name_of_frame(const std::string& name, int frame);
 
-/// Renders the frames that --frames names, one after the other, by `render`, which returns an exit code. Ends with the
-/// first that is not 0 and returns that. An exception passes on, and it is said before in which frame it was thrown.
-/// Throws OutputError for options that do not go with frames.
+/// Calls `render`, which returns an exit code, for each frame of --frames in order. Stops at the first exit code other
+/// than 0 and returns it. If a frame throws, reports which one and rethrows. Throws OutputError for options that cannot
+/// be combined with frames.
 int render_frames(const RenderOptions& options, const std::function<int(const RenderOptions&)>& render);
 
 }  // namespace phasetree::tracer

@@ -36,7 +36,7 @@ struct InfoOptions {
     CellOptions cells;
 };
 
-// Of a scene of several objects, if none is chosen.
+// Prints the information on a scene of several objects of which none was chosen.
 int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const SceneModel& model) {
     if (chosen.with_cells || chosen.with_carving)
         throw InputError(
@@ -56,7 +56,7 @@ int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const Scen
     return 0;
 }
 
-// Of a scene that has no object.
+// Prints the information on a scene without objects.
 int info_of_meshes(const SceneFile& file, const InfoOptions& chosen, const Document& document) {
     if (chosen.with_cells || chosen.with_carving || chosen.object)
         throw InputError(fmt::format("{} is for objects, but the scene has only meshes", chosen.with_cells ? "--cells"

@@ -79,9 +79,10 @@ void print_warning(const std::string& file, const std::string& warning) {
 
 namespace {
 
-// The phase at a point of the scene; of several objects that of the first that holds it.
+// The phase at a point of the scene. Where several objects contain it, the first one decides.
 Phase phase_at(const Document& document, const Scene& scene, const glm::vec3& point) {
-    // By the program, in which a shared shape counts once a place: a walk through the tree might never end.
+    // Evaluate the program, not the tree. A shared shape occurs once in the program but once per use in a walk of the
+    // tree, which might never end.
     const auto of_tree = [&](const Phased& tree, const Bounds& box, const glm::vec3& p) {
         const Evaluator evaluator(record_tree(document, tree));
         return box.contains(p) ? evaluator.label(p, Evaluator::thread_workspace()) : phasetree::vacuum;

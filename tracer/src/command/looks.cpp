@@ -15,7 +15,7 @@ std::vector<Look> looks_of(const PhaseNames& phases, std::span<const std::option
 std::vector<Look> looks_without_materials(const PhaseNames& phases) {
     std::vector<Look> looks;
     for (std::size_t i = 0; i < phases.names.size(); ++i) {
-        // Colours that differ: around the circle by the golden ratio.
+        // Distinct colours: hues spaced by the golden ratio.
         const float turn = 6.2831853f * 0.618034f * static_cast<float>(i);
         Look look{phases.names[i], i == 0 ? Look::clear : Look::coated};
         if (i > 0) look.color = 0.45f + 0.35f * glm::cos(turn + glm::vec3(0, 2.1f, 4.2f));

@@ -1,4 +1,4 @@
-// What the phases of a scene look like in files for other programs.
+// Colours and materials of phases for files read by other programs.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,10 @@
 
 namespace phasetree::tracer {
 
-// The looks of all phases, by their materials alone. A phase without a material gets a colour that tells it from the
-// others.
+// The looks of all phases, derived from their materials alone. A phase without a material gets a distinct colour.
 std::vector<Look> looks_of(const PhaseNames&, std::span<const std::optional<Material>>, const Bounds&);
 
-// The same if no phase has a material.
+// The looks if no phase has a material.
 std::vector<Look> looks_without_materials(const PhaseNames&);
 
 }  // namespace phasetree::tracer

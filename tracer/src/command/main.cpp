@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     } catch (const tracer::StandardOutputError& e) {
         if (!e.is_broken_pipe()) say("phasetree: {}\n", e.what());
         return 1;
-    } catch (const std::bad_alloc&) {  // while the command line was read
+    } catch (const std::bad_alloc&) {  // while the command line was parsed
         say("phasetree: out of memory\n");
         return 1;
     }

@@ -9,7 +9,8 @@
 
 namespace phasetree::tracer {
 
-/// "512M", "1.5G", "2 GiB" or a number of bytes; K, M and G are powers of 1024. Nothing for what is no size.
+/// Parses "512M", "1.5G", "2 GiB" or a number of bytes; K, M and G are powers of 1024. Returns nullopt for anything
+/// else.
 inline std::optional<std::size_t> bytes_of(std::string_view text) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);

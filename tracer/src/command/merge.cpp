@@ -27,10 +27,10 @@ struct MergeOptions {
     bool may_have_gaps = false, quiet = false;
 };
 
-// The joined film as an image, and as film files if there are to be any. The image has no pixels if nobody wants it.
+// The merged film as an image, which is empty if not needed, and as film files if requested.
 struct Joined {
     Image image;
-    std::uint64_t samples = 0;  // of all of its pixels
+    std::uint64_t samples = 0;  // over all pixels
     FilmFaults faults;
     bool is_complete = true;
 };
@@ -89,7 +89,7 @@ bool write_pictures(const MergeOptions& options, const Parts& parts, const std::
     return writing.all_is_well();
 }
 
-// Reads what is at the beginning and the end of each part.
+// Opens all parts, reading only the beginning and end of each.
 Parts opened(const MergeOptions& options) {
     const EndingAtOnce at_once = ending_at_once("the parts were being read", false);
     return {{options.parts.begin(), options.parts.end()}, options.may_have_gaps};

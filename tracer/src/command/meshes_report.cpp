@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The smallest box, without −0, which would be printed.
+// The bounding box, with −0 replaced by 0 for printing.
 Bounds printed_bounds(const Mesh& mesh) {
     const Bounds b = bounds_of(std::span(&mesh, 1));
     return {b.low + 0.0f, b.high + 0.0f};

@@ -1,4 +1,4 @@
-// What `info` says of meshes: their sizes and bounds.
+// Sizes and bounds of meshes, as printed by `info`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

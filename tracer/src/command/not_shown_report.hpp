@@ -4,7 +4,7 @@
 
 namespace phasetree::tracer {
 
-/// Says on standard error what is in the files of a scene's meshes and will not be seen.
+/// Warns on standard error about contents of the scene's mesh files that will not be rendered.
 void warn_of_what_is_not_shown(const Scene&);
 
 }  // namespace phasetree::tracer

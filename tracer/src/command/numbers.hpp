@@ -12,22 +12,22 @@
 
 namespace phasetree::tracer {
 
-// What is wrong with the command's input or options; what() begins with where, "<stdin>: " or "--option: ".
+// An error in the command's input or options. what() begins with its location, "<stdin>: " or "--option: ".
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// Reads a table with these columns, at most six, and calls `use` with the numbers of each row and with the table, which
-// makes errors at a cell. The output of `eval` can be its input. Throws SceneError, with the place in "<stdin>", for
-// anything that is no such table.
+// Reads a table with these columns, at most six. Calls `use` with the numbers of each row, and with the table, which
+// can create errors located at a cell. The input may be output of `eval`. Throws SceneError located in "<stdin>" if the
+// table is malformed.
 void for_each_row(std::istream& in, std::span<const NumberTable::Column> columns,
                   const std::function<void(const std::array<float, 6>&, const NumberTable&)>& use);
 
-// A cell of a CSV file (RFC 4180): a name, in quotes if it holds what ends a cell.
+// Formats a name as a cell of a CSV file (RFC 4180), quoted if it contains special characters.
 std::string csv_cell(std::string_view text);
 
-// Zero is written without a sign.
+// Replaces −0 by 0.
 inline float unsigned_zero(float v) {
     return v == 0 ? 0.0f : v;
 }

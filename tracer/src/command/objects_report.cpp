@@ -7,7 +7,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Of each list of places, how often each object is in it; of groups first, since those after need them.
+// The number of copies of each object. Groups are counted first, because lists of places refer to earlier groups.
 std::vector<std::uint64_t> copies_of_objects(const PlacedObjects& placed) {
     std::vector<std::vector<std::uint64_t>> of_groups;
     const auto count = [&](const std::vector<Place>& list) {

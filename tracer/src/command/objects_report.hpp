@@ -6,7 +6,8 @@
 
 namespace phasetree::tracer {
 
-/// What `info` says of a scene of several objects: each with its copies, phases and nodes, and the box around all.
+/// The properties of a scene of several objects, as printed by `info`: each object's copies, phases and nodes, and the
+/// bounding box of all.
 nlohmann::ordered_json objects_as_json(const SceneModel&);
 void print_objects(const SceneModel&);
 

@@ -5,7 +5,7 @@
 
 namespace phasetree::tracer {
 
-/// Says on standard error where objects overlap: of the first few pairs that do, a point and both objects.
+/// Warns on standard error about overlapping objects. Names a point and both objects for the first few pairs.
 void warn_of_overlaps(const Document&, const PlacedObjects&);
 
 }  // namespace phasetree::tracer

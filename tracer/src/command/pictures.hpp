@@ -1,4 +1,4 @@
-// Files at the end of hours of work: where one cannot be written, the others are.
+// Writing of results at the end of long renders: a failure to write one file does not affect the others.
 #pragma once
 
 #include <new>
@@ -13,7 +13,7 @@
 
 namespace phasetree::tracer {
 
-// Writes what it is called with, or says why it cannot be written.
+// Calls a function that writes a file, and reports failures.
 class Writing {
   public:
     template <class Write>
@@ -35,7 +35,7 @@ class Writing {
     bool all_is_well_ = true;
 };
 
-// Makes sure that they can be written, before hours of work. Throws OutputError.
+// Checks that all outputs can be written before rendering starts. Throws OutputError.
 inline void check_outputs(const std::vector<std::string>& outputs) {
     for (const std::string& output : outputs) {
         if (is_film_file(output) && is_for_each_plane(output))
@@ -44,7 +44,7 @@ inline void check_outputs(const std::vector<std::string>& outputs) {
     }
 }
 
-// What no sound scene leads to.
+// Reports faults, which a valid scene never causes.
 inline void say_faults(const FilmFaults& faults) {
     if (faults.not_finite > 0)
         say("phasetree: {} values of samples were not finite numbers and count as black; please report this scene\n",

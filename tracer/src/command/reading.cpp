@@ -15,14 +15,14 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Does what reads this many bytes.
+// Runs `read`, which reads this many bytes, with a progress bar.
 template <class Read>
 auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
     LateProgress progress(ProgressOutput::standard_error(quiet), task);
     std::uint64_t done = 0;
     const support::ReadingListener listener([&](std::uint64_t more) {
         done += more;
-        // Something may be read that was not counted, so 1 is not for saying that all is done.
+        // Some bytes may not have been counted, so 1 must not be shown as complete.
         const double share = static_cast<double>(done) / static_cast<double>(std::max(bytes, std::uint64_t{1}));
         progress.tell(std::min(share, 0.9999));
     });
@@ -34,7 +34,7 @@ auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
 }  // namespace
 
 EndingAtOnce ending_at_once(std::string_view what, bool can_resume) {
-    // Where a bar is drawn, it is erased.
+    // Erases a progress bar, if one is drawn.
     const char* start = ProgressOutput::standard_error(false).terminal ? "\r\x1b[K" : "";
     return {{interrupted_by_person, can_resume ? resume_me : 1},
             fmt::format("{}phasetree: interrupted while {}; nothing is written\n", start, what)};

@@ -1,5 +1,5 @@
-// Work before the first sample that may take long, and that leaves nothing behind: reading the scene, and preparing it.
-// It shows how far it is if it takes longer than a second, and a signal ends the command at once.
+// Reading and preparing a scene, with progress. This may take long before the first sample and leaves nothing behind:
+// progress is shown after a second, and a signal ends the command at once.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace phasetree::tracer {
 
-// A signal ends the command while this lives, and an InterruptGuard does. `what` goes on "interrupted while", and
-// `can_resume` says whether there is a checkpoint to go on from.
+// While both this object and an InterruptGuard exist, a signal ends the command at once. `what` completes the message
+// "interrupted while", and `can_resume` says whether a checkpoint exists.
 EndingAtOnce ending_at_once(std::string_view what, bool can_resume);
 
-// The same as read_document and load_scene, which throw the same.
+// As read_document and load_scene, with progress. They throw the same exceptions.
 Document read_document_showing(const SceneFile& file, bool quiet);
 Scene load_scene_showing(const Document& document, bool quiet);
-// As fingerprint(), for which all files are read once more.
+// As fingerprint(), with progress. Reads all files again.
 std::uint64_t fingerprint_showing(const Document& document, bool quiet);
 
 }  // namespace phasetree::tracer

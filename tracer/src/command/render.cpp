@@ -62,7 +62,7 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
     write_file(json.dump(2) + "\n", path);
 }
 
-// Returns the names of the outputs, after making sure that all files can be written, before hours of work.
+// Returns the names of the outputs. First checks, before rendering starts, that all files can be written.
 std::vector<std::string> checked_outputs(const RenderOptions& options, const SampleRange& samples) {
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) {
@@ -88,16 +88,16 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Sam
     return outputs;
 }
 
-// Reads the file that is to be resumed. Returns nothing if none is, or if there is none and the render may start.
-// Throws FilmFileError.
+// Reads the file to resume. Returns nullopt if no resumption was requested, or if the file does not exist and the
+// render may start from scratch. Throws FilmFileError.
 std::optional<FilmFile> film_to_resume(const RenderOptions& options, const FilmFileHeader& header) {
     if (!options.resume) return std::nullopt;
     try {
         FilmFile file(*options.resume);
         file.check_picture(header);
         const SampleRange &wanted = header.samples, &found = file.header().samples;
-        // More samples may be wanted than before, or fewer than that was to have: they are numbered, and those that
-        // were taken stay the same.
+        // The number of samples may differ from that of the earlier run: samples are numbered, and existing ones stay
+        // valid.
         const bool has_too_many =
             found.last > wanted.last && file.most_samples_of_pixel() > static_cast<std::uint32_t>(wanted.size());
         if (found.first != wanted.first || has_too_many)
@@ -114,20 +114,20 @@ struct Everything {
     const RenderOptions& options;
     const Scene& scene;
     const World& world;
-    const std::optional<DisplayTransform>& display;  // unless no output needs one
+    const std::optional<DisplayTransform>& display;  // empty if no output needs one
     const std::vector<std::string>& outputs;
     const FilmFileHeader& header;
     const Film& film;
-    Planes::Choice wanted_planes;  // by people, of which denoising may need more
+    Planes::Choice wanted_planes;  // by the user; denoising may need more
     bool is_finished;
 };
 
-// An interrupted frame of a film is not written: --skip-existing would take it for a whole one.
+// An interrupted frame is not written, because --skip-existing would take it for a complete one.
 bool is_unfinished_frame(const RenderOptions& options, const Rendering& r) {
     return r.cancelled && options.frame;
 }
 
-// Returns whether all could be written.
+// Returns whether all files were written.
 bool write_all(const Everything& e, Rendering& rendering) {
     Metadata metadata;
     metadata.scene = e.header.scene;
@@ -138,7 +138,8 @@ bool write_all(const Everything& e, Rendering& rendering) {
     const auto write_film_file = [&](const std::string& path) {
         return writing([&] { write_film(path, e.header, e.film, e.is_finished); });
     };
-    // The checkpoint is written first, should there be no time for the rest; one that is an output, too, in its turn.
+    // Write the checkpoint first, in case there is no time for the rest. A checkpoint that is also an output is written
+    // in its turn.
     const bool is_output = e.options.checkpoint && std::ranges::count(e.outputs, *e.options.checkpoint) > 0;
     if (e.options.checkpoint && !is_output) write_film_file(*e.options.checkpoint);
     const bool is_unfinished = is_unfinished_frame(e.options, rendering);
@@ -162,13 +163,13 @@ bool write_all(const Everything& e, Rendering& rendering) {
     return writing.all_is_well();
 }
 
-// Returns the exit code of a run that a signal ended.
+// The exit code of a run ended by a signal.
 int code_of_interruption(bool can_resume) {
     if (interrupting_signal() == SIGINT) return interrupted_by_person;
     return can_resume ? resume_me : 1;
 }
 
-// Whether the same line goes on, or starts, when it is given again.
+// Whether running the same command line again resumes the render, or starts it.
 bool can_resume(const RenderOptions& options) {
     return options.resume && (options.may_start || std::filesystem::exists(*options.resume));
 }
@@ -186,7 +187,7 @@ ReadScene read(const RenderOptions& options) {
     return {std::move(document), std::move(scene)};
 }
 
-// What the picture is, and what there is of it already, if anything. Reads all files of the scene once more.
+// The header of the picture, and the film to resume, if any. Reads all files of the scene again.
 std::pair<FilmFileHeader, std::optional<FilmFile>> read_checkpoint(const RenderOptions& options,
                                                                    const Document& document, const Scene& scene,
                                                                    const RenderJob& job) {
@@ -198,7 +199,7 @@ std::pair<FilmFileHeader, std::optional<FilmFile>> read_checkpoint(const RenderO
 
 constexpr const char* while_preparing = "the object was being prepared";
 
-// Builds the world. Returns whether it is there; it is not if a signal came.
+// Builds the world. Returns false if a signal interrupted it.
 bool prepare(std::optional<World>& world, const RenderOptions& options, const Scene& scene, const RenderJob& job) {
     LateProgress progress(ProgressOutput::standard_error(options.quiet), "preparing the object");
     const auto build = [&] {
@@ -209,7 +210,7 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
                                           .kept_cells = options.cells});
     };
     try {
-        if (options.cells) {  // which may be being written when a signal comes
+        if (options.cells) {  // a signal may have arrived while it was being written
             build();
         } else {
             const EndingAtOnce at_once = ending_at_once(while_preparing, can_resume(options));
@@ -224,7 +225,7 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
     }
 }
 
-// What people should know of what was prepared.
+// Prints warnings about the prepared object.
 void warn_of_object(const RenderOptions& options, const Document& document, const Scene& scene, const World& world) {
     if (world.geometry().statistics().cells == 0 && !has_meshes_alone(scene))
         say("{}\n", empty_object_warning(document));
@@ -243,8 +244,8 @@ Rendering rendered(const RenderOptions& options, const World& world, const Scene
     for (int y = film.area().y0; y < film.area().y1; ++y)
         for (int x = film.area().x0; x < film.area().x1; ++x)
             total += static_cast<std::uint64_t>(job.samples->size()) - film.pixels().samples(x, y);
-    // While they live, another thread saves the film, which has a lock. There are none before the first sample: an
-    // empty film would replace a file that has samples.
+    // While this exists, another thread saves the film under a lock. It must not exist before the first sample, because
+    // an empty film would replace a file that has samples.
     std::optional<Checkpoints> checkpoints;
     RenderProgress progress(ProgressOutput::standard_error(options.quiet), total, job.deadline,
                             scene.settings.guiding && total > 0, [&] {
@@ -264,7 +265,7 @@ bool has_samples(const Film& film) {
     return false;
 }
 
-// What is said of a render that ended before all pixels had all samples.
+// Reports what is missing from a render that ended early.
 void say_what_is_missing(const RenderOptions& options, const Scene& scene, const Rendering& r, int wanted) {
     if (is_unfinished_frame(options, r)) {
         say("phasetree: interrupted after {} of {} samples a pixel; the frame's picture is not written\n", r.samples,
@@ -280,7 +281,7 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
     }
 }
 
-// Of what an output is asked for and will not have.
+// Warns about outputs that cannot have the requested alpha.
 void warn_of_alpha(const Scene& scene, const std::string& name, const std::vector<std::string>& outputs) {
     if (!scene.film.planes[Planes::place<AlphaPlane>()] || scene.lights.is_background_black()) return;
     for (const std::string& output : outputs)
@@ -327,7 +328,7 @@ int render_scene(const RenderOptions& options) {
 
     std::optional<World> world;
     if (!prepare(world, options, scene, job)) return code_of_interruption(can_resume(options));
-    // The header now says of the cells, too, whether they were made coarser, so what is resumed is compared again.
+    // The header now also records whether the cells were made coarser, so compare the resumed file again.
     add_cells(header, options, world->geometry().statistics());
     Film film = film_of(scene, job);
     {
@@ -340,13 +341,13 @@ int render_scene(const RenderOptions& options) {
     }
     Rendering rendering = rendered(options, *world, scene, job, header, film);
 
-    // As while light is looked for, before the first path. A picture of an earlier render is worth more than a black
-    // one.
+    // Interrupted before the first path, for example while guiding was learned. Keep the picture of an earlier render
+    // rather than write a black one.
     if (rendering.cancelled && !has_samples(film)) {
         say("phasetree: interrupted before the first sample; nothing is written\n");
         return code_of_interruption(can_resume(options));
     }
-    // A render that ends with its time is one of as many samples as it had by then.
+    // A render that runs out of time counts as one with the number of samples reached by then.
     if (rendering.is_out_of_time && scene.settings.noise == 0)
         header.samples.last = header.samples_in_all = header.samples.first + rendering.samples;
     const bool is_finished = !rendering.cancelled && scene.settings.noise > 0;

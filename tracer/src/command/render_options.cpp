@@ -55,10 +55,10 @@ Planes::Choice planes_of(const std::string& list) {
 
 void apply(const RenderOptions& options, Scene& scene) {
     if (options.planes) scene.film.planes = planes_of(*options.planes);
-    // Who says how long it may take, and not how many samples, wants as many as fit.
+    // A time limit without a number of samples means as many samples as fit.
     if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
-    // CLI11's range lets pass what is no number.
+    // CLI11's range check accepts NaN.
     if (options.noise && !(*options.noise >= 0)) throw OutputError("--noise must be a number from 0 to 1");
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
@@ -111,7 +111,7 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
                 by_default + ")")
         ->take_all()
         ->expected(1)
-        ->allow_extra_args(false);  // else it eats a "--" behind it
+        ->allow_extra_args(false);  // otherwise it consumes a following "--"
 }
 
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
@@ -142,7 +142,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                     "Only those of the samples a pixel that have these numbers, from 0, the last excluded: a share of "
                     "the work, which goes to a .part and is joined with the others by merge")
         ->option_text("FIRST:LAST");
-    // By its place and not its name, which CLI11 looks up where no exception may leave.
+    // Keep the pointer: looking an option up by name may throw where CLI11 allows no exception.
     CLI::Option* const frames = command.add_option(
         "--frames", o.frames,
         "Frames of a film by their numbers, from 0, the last excluded; each is at its number over the "

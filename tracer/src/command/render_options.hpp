@@ -1,4 +1,4 @@
-// What can be said of a render on the command line.
+// The command-line options of a render.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@ struct RenderOptions {
     std::shared_ptr<SceneFile> scene;
     std::vector<std::string> outputs;
     std::optional<int> samples_in_all;
-    double time_seconds = 0;  // from the start of the command; 0 if it may take what it takes
+    double time_seconds = 0;  // time limit, from the start of the command; 0 for none
     std::optional<float> noise;
-    std::optional<std::string> share;  // of the samples, by their numbers
+    std::optional<std::string> share;  // the range of samples to render
     std::optional<std::string> size;
     std::optional<std::string> crop;
     int threads = 0;
@@ -29,28 +29,28 @@ struct RenderOptions {
     std::optional<std::string> display, view, stats, cells, planes;
     std::optional<std::string> checkpoint, resume;
     double checkpoint_seconds = 300;
-    std::optional<std::string> frames;   // of a film, by their numbers
-    std::optional<int> frame;            // the one of them that these options are for
-    bool skips_existing = false;         // frames whose files are there
-    bool may_start = false;              // where there is nothing to resume
-    std::optional<std::string> denoise;  // how (denoising.hpp)
+    std::optional<std::string> frames;   // the range of frames to render
+    std::optional<int> frame;            // the current frame
+    bool skips_existing = false;         // skip frames whose files exist
+    bool may_start = false;              // start if there is nothing to resume
+    std::optional<std::string> denoise;  // see denoising.hpp
     bool quiet = false;
 };
 
-// Adds all options, whose values go there.
+// Adds all options, which store their values in `options`.
 void add_render_options(CLI::App& command, RenderOptions& options);
 void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std::string& by_default);
-// Of how pictures are shown.
+// Adds the options for displaying pictures.
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
                          std::optional<std::string>& view);
 
-// Sets what the options say of the scene.
+// Applies the options to the scene.
 void apply(const RenderOptions& options, Scene& scene);
-// The pixels and the samples that are to be rendered. Throw OutputError.
+// The pixels and the samples to render. Throw OutputError.
 PixelRange pixels_of(const RenderOptions& options, const Scene& scene);
 SampleRange samples_of(const RenderOptions& options, const Scene& scene);
 
-// A number of integers, as in "800x600"; `form` says what is expected.
+// Parses a number of integers, as in "800x600"; `form` describes the expected format.
 std::vector<int> integers(const std::string& text, char separator, std::size_t count, const char* option,
                           const char* form);
 

@@ -1,5 +1,5 @@
-// What standard error shows of a render: first how much is learned, where the scene asks for guiding, then how many
-// samples are done, or with a deadline how much time has passed.
+// Progress of a render on standard error: first the learning phase, if the scene uses guiding; then the number of
+// samples, or with a deadline the elapsed time.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ class RenderProgress {
   public:
     using TimePoint = ProgressOutput::Clock::time_point;
 
-    /// `total` is the number of samples to come; `samples_begin` is called when nothing is left to be learned.
+    /// `total` is the number of samples to render. `samples_begin` is called when learning is complete.
     RenderProgress(ProgressOutput output, std::uint64_t total, std::optional<TimePoint> deadline, bool learns,
                    std::function<void()> samples_begin)
         : output_(std::move(output)), total_(total), deadline_(deadline), samples_begin_(std::move(samples_begin)) {
@@ -58,7 +58,7 @@ class RenderProgress {
     std::optional<TimePoint> deadline_;
     std::function<void()> samples_begin_;
     std::optional<LateProgress> learning_;
-    // Samples that need not be made, which are told before there is a progress that counts them; by one thread.
+    // Samples that need not be rendered, reported by one thread before there is a progress to add them to.
     std::uint64_t done_before_ = 0;
     std::optional<Progress> progress_;
     std::optional<TimeProgress> time_progress_;

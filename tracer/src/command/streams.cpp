@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 void guard_standard_streams() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-        // The lowest free number, which is this one. A closed standard output stays one that cannot be written.
+        // open() takes the lowest free descriptor, which is this one. A closed standard output remains unwritable.
         (void)::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
     }
     std::signal(SIGPIPE, SIG_IGN);

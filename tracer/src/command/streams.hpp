@@ -1,5 +1,5 @@
-// Standard input, output and error, of which any may be closed, full or gone: what is lost is said where it can be, and
-// nothing else is lost with it.
+// Standard input, output and error, any of which may be closed, full or disconnected. Lost output is reported where
+// possible, and nothing else is lost with it.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,31 +9,31 @@
 
 namespace phasetree::tracer {
 
-// To be called first of all. Opens those of the three that are closed on /dev/null, so that no file that is opened
-// later gets their number, and is written to by messages; and has a pipe without a reader and a file that may not grow
-// fail as any write does, and not end the program.
+// Call this first. Opens closed standard streams on /dev/null, so that files opened later do not get their descriptors
+// and receive messages. Makes writing to a pipe without a reader, or past the file size limit, fail like any other
+// write instead of ending the program.
 void guard_standard_streams();
 
-// Says something to a person, on standard error. Where that cannot be written there is nobody to tell it to.
+// Prints a message to the user on standard error. Failures are ignored.
 void say(std::string_view text);
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {
     say(std::string_view(fmt::format(format, std::forward<T>(values)...)));
 }
 
-// Standard output that cannot be written.
+// Standard output could not be written.
 class StandardOutputError : public std::runtime_error {
   public:
     explicit StandardOutputError(int error_number);
-    // Nobody reads on, as with `| head -1`: that is how it is meant, and nothing to speak of.
+    // Whether the reader has gone, as with `| head -1`. This is intended and not reported.
     bool is_broken_pipe() const { return is_broken_pipe_; }
 
   private:
     bool is_broken_pipe_;
 };
 
-// Writes results to standard output. Throws StandardOutputError; what is kept back for a while may fail only later, so
-// that finish_output() is to be called at the end.
+// Writes results to standard output. Throws StandardOutputError. Buffered output may fail later, so call
+// finish_output() at the end.
 void put(std::string_view text);
 template <class... T>
 void put(fmt::format_string<T...> format, T&&... values) {

@@ -1,4 +1,4 @@
-// What is said of a command line that CLI11 does not accept.
+// Error messages for command lines that CLI11 rejects.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 
 namespace phasetree::tracer {
 
-// The option that a word such as "--sample" was meant to be; nothing if none is like it. Other renderers' names of some
-// options are known.
+// The option that an unknown word such as "--sample" probably means; nullopt if none is similar. Knows names of some
+// options in other renderers.
 inline std::optional<std::string> meant_option(const CLI::App& subcommand, std::string_view word) {
     static constexpr std::pair<std::string_view, std::string_view> others[] = {
         {"samples", "spp"}, {"sample", "spp"}, {"resolution", "size"}, {"width", "size"}, {"height", "size"}};
@@ -30,10 +30,10 @@ inline std::optional<std::string> meant_option(const CLI::App& subcommand, std::
     return closest(word, names);
 }
 
-// Says of a word that is no option of the subcommand what may have been meant. False if that is not what is wrong.
+// Reports an unknown option, with a suggestion. Returns false if the error is something else.
 inline bool explain_unknown_option(const CLI::App& app) {
     const std::vector<std::string> remaining = app.remaining(true);
-    // CLI11 gives them from the last to the first.
+    // CLI11 returns them in reverse order.
     const auto word = std::ranges::find_if(remaining, [](const std::string& w) { return w.starts_with("--"); });
     if (word == remaining.end() || app.get_subcommands().empty()) return false;
     const CLI::App& subcommand = *app.get_subcommands().front();
@@ -43,8 +43,8 @@ inline bool explain_unknown_option(const CLI::App& app) {
     return true;
 }
 
-// Says what is wrong and returns the exit code: 2, or 0 if only help was asked for. CLI11 says of an unknown
-// subcommand only that one is required; this names it, and the one that was meant or else all.
+// Reports the error and returns the exit code: 2, or 0 if only help was requested. For an unknown subcommand CLI11 only
+// says that one is required; this names it, and either suggests the nearest one or lists all.
 inline int exit_code(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> remaining = app.remaining();
     const bool is_unknown = dynamic_cast<const CLI::RequiredError*>(&error) && app.get_subcommands().empty() &&

@@ -18,7 +18,7 @@ namespace {
 
 constexpr NumberTable::Column columns[] = {{"ox"}, {"oy"}, {"oz"}, {"dx"}, {"dy"}, {"dz"}};
 
-// t counts in units of the direction as it was given, so that origin + t·direction is the place.
+// t is in units of the direction as given, so the position is origin + t·direction.
 int trace(const SceneFile& file, const std::optional<std::string>& object) {
     const Document document = read_document_beside_input(file);
     const SceneModel model = read_scene_model(document);
@@ -38,8 +38,8 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
         const double length = glm::length(glm::dvec3(given));
         if (!(length > 0)) throw table.error(3, "the ray's direction is zero; give it any other length");
         const glm::vec3 direction(glm::dvec3(given) / length);
-        // From the first interface on places are counted from there: a ray that began again at each would be rounded at
-        // each, and where it grazes a face these errors would keep it there.
+        // After the first interface, positions are computed from there. Restarting the ray at each interface would
+        // round at each of them, and at grazing angles these errors would keep it there.
         glm::vec3 start = origin;
         float from = 0;
         bool is_at_object = false;

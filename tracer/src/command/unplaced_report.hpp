@@ -8,10 +8,10 @@
 
 namespace phasetree::tracer {
 
-/// Which groups stand nowhere, and what therefore is not to be seen: a sentence with its place for each.
+/// A warning with its location for each group that is never placed, listing what is therefore invisible.
 std::vector<std::string> warnings_of_unplaced_groups(const Document&, const PlacedObjects&);
 
-/// Says them on standard error.
+/// Prints these warnings to standard error.
 void warn_of_unplaced_groups(const Document&, const PlacedObjects&);
 
 }  // namespace phasetree::tracer

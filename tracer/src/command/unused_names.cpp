@@ -10,10 +10,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The place of each is sought from the beginning of the file, which may name a million.
+// Maximum number of warnings. Locating a name searches from the beginning of the file, which may contain a million.
 constexpr std::size_t most_shapes_told = 8;
 
-// Adds all texts that stand anywhere in a value.
+// Adds all strings anywhere in a value.
 void add_texts(Value value, std::unordered_set<std::string>& texts) {
     if (value.is_string()) texts.emplace(value.string());
     for (const Value inner : value) add_texts(inner, texts);

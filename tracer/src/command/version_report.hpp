@@ -5,10 +5,9 @@
 
 namespace phasetree::tracer {
 
-/// The build, and a line for each library that it was built with or without, for people and scripts: the first line is
-/// "phasetree" and build_id(), and each of the others a name, a colon and a value. The value is "no" for an optional
-/// library that is missing. Names stay as they are in later versions, which may add lines. The last line
-/// does not end with a line feed.
+/// The build, and one line per optional or required library, for people and scripts. The first line is "phasetree" and
+/// build_id(); each other line is a name, a colon and a value, which is "no" for a missing optional library. Later
+/// versions may add lines but do not change names. The last line does not end with a line feed.
 std::string version_report();
 
 }  // namespace phasetree::tracer

@@ -29,7 +29,7 @@ struct ViewOptions {
     bool opens = false;
 };
 
-// The desktop's browser, which is left to itself. Where there is none, the address that was printed is enough.
+// Starts the desktop's browser without waiting for it. If there is none, the printed address is enough.
 void open_browser(const std::string& url) {
     std::string program = "xdg-open", address = url;
     char* const arguments[] = {program.data(), address.data(), nullptr};
@@ -59,7 +59,7 @@ int view_scene(const ViewOptions& options) {
         .write_camera = [&](const std::string& camera) { file.write_camera(camera); },
         .write_numbers = [&](const view::NumberEdits& numbers) { file.write_numbers(numbers); },
         .tell = [](std::string_view text) { say(text); }};
-    // A scene that is wrong from the start is said as by every subcommand.
+    // Report an initially invalid scene as every other subcommand does.
     const view::ReadScene read = file.reader();
     const InterruptGuard guard;
     view::Session session(read, session_options);

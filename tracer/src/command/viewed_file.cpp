@@ -17,9 +17,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Files that the scene names. Which strings are names of files the readers know; every string with a dot in it that may
-// be read as one is watched, which costs a look periodically. Of a stack of images its folder is watched, too, in which
-// images come and go.
+// Adds a file that the scene may name. Only the readers know which strings are file names, so every string with a dot
+// that names a readable file is watched. This costs only a periodic check. For an image stack the folder is watched
+// too, because images may be added and removed.
 void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
     files.add(path);
     if (path.filename().string().find('#') == std::string::npos) return;
@@ -27,7 +27,7 @@ void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
     try {
         for (const std::filesystem::path& layer : layers_of_stack(path)) files.add(layer);
     } catch (const std::runtime_error&) {
-        // There is no such stack, which the reader says if it should be one.
+        // No such stack. The reader reports it if there should be one.
     }
 }
 
@@ -36,7 +36,7 @@ void add_named_files(const Document& document, Value value, view::WatchedFiles& 
         try {
             add_file(document.file(value), files);
         } catch (const SceneError&) {
-            // It leaves the folder that files must lie in, which the reader says if it is a file.
+            // Outside the folder that files must be in. The reader reports it if it is a file.
         }
     }
     for (const Value child : value) add_named_files(document, child, files);
@@ -49,8 +49,8 @@ Document with_edits(const SceneFile& scene, const Document& document, const view
     return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
 }
 
-// Objects that stand in files of their own may have keys of which the scene's file knows nothing; the time can be given
-// by --at all the same.
+// Objects in files of their own may have keys that the scene file does not know about. The time can still be set with
+// --at.
 std::optional<view::TimeSpan> span_of_keys(const Document& document) {
     const std::vector<double> times = times_of_keys(document.root());
     if (times.empty()) return std::nullopt;
@@ -74,8 +74,8 @@ view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<Kept
     std::string warnings;
     for (const std::string& warning : warnings_of_unplaced_groups(document, scene.placed)) warnings += warning + "\n";
     make_one_tree(document, scene);
-    scene.camera_moments.clear();  // The page turns the camera, and shows what is there as the shutter opens.
-    // A name that is wrong is said now.
+    scene.camera_moments.clear();  // The page moves the camera, and shows the moment when the shutter opens.
+    // Report an unknown name now.
     (void)display_of(document, scene.settings, file.display, file.view, {});
     const RenderSettings settings = scene.settings;
     return {std::move(scene),
@@ -91,7 +91,7 @@ view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<Kept
             span_of_keys(document)};
 }
 
-// The file keeps who may read and write it.
+// Keeps the file's permissions.
 void write_text(const std::filesystem::path& file, const std::string& text) {
     const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
     write_file(text, file);

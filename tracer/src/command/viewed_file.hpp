@@ -1,4 +1,4 @@
-// A scene's file as a live view reads and writes it.
+// The scene file of a live view: reading and writing.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@ namespace phasetree::tracer {
 
 struct ViewedFile {
     SceneFile scene;
-    std::optional<std::string> display, view;  // of OpenColorIO, instead of the scene's
+    std::optional<std::string> display, view;  // OpenColorIO names that override the scene's
 
-    // What a session reads the scene by. Reads it a first time at once, so that what is wrong from the start is thrown
-    // here: SceneError, DisplayError.
+    // A function that reads the scene for a session. Reads it once immediately, so that an initially invalid scene
+    // throws here: SceneError, DisplayError.
     view::ReadScene reader() const;
-    // Put into the file what is wished, and keep who may read and write it. Throw SceneError and OutputError.
+    // Write the change to the file and keep its permissions. Throw SceneError and OutputError.
     void write_camera(const std::string& camera) const;
     void write_numbers(const view::NumberEdits&) const;
 };

@@ -4,13 +4,13 @@
 
 namespace phasetree::tracer {
 
-/// A film file that cannot be used. The message names the file and says why, in one line.
+/// An unusable film file. The message is one line that names the file and the reason.
 class FilmFileError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// There is no such file.
+/// The file does not exist.
 class FilmFileMissing : public FilmFileError {
   public:
     using FilmFileError::FilmFileError;

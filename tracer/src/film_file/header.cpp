@@ -43,7 +43,7 @@ int read_int(ByteReader& in, int low, int high) {
     return static_cast<int>(value);
 }
 
-// Pixels within others, one at least.
+// Reads a range of pixels that is not empty and lies within another.
 PixelRange read_range(ByteReader& in, const PixelRange& within) {
     PixelRange range;
     range.x0 = read_int(in, within.x0, within.x1 - 1);
@@ -65,7 +65,7 @@ Planes::Choice read_planes(ByteReader& in) {
     return planes;
 }
 
-// A text of a file that may be anything, for people.
+// Makes text from an untrusted file safe to print.
 std::string printable(const std::string& text) {
     std::string safe = text.substr(0, 60);
     for (char& c : safe)
@@ -73,7 +73,7 @@ std::string printable(const std::string& text) {
     return safe;
 }
 
-// A setting as the file has it; empty if there is none of that name.
+// The value of a setting in the file; empty if there is no such setting.
 std::string setting(const FilmFileHeader& header, std::string_view name) {
     const auto found =
         std::ranges::find(header.settings, name, [](const auto& s) { return std::string_view(s.first); });
@@ -156,7 +156,7 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
     const auto same_range = [](const PixelRange& a, const PixelRange& b) {
         return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
     };
-    // The settings say this too, unless the file was forged.
+    // The settings contain this too, unless the file is forged.
     if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
         wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
         !same_range(wanted.shown, found.shown) || wanted.subjects != found.subjects)

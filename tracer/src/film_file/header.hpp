@@ -1,19 +1,19 @@
-// What a film file says of the film in it.
+// The header of a film file, which describes its film.
 //
-// Checkpoints and parts are the same: a film, whole or in part, with the numbers of the samples that it is to have. The
-// file is
+// Checkpoints and parts have the same format: a complete film, or a share of one, with the numbers of the samples that
+// it is to have. The layout of the file is
 //
 //     magic           8 bytes, "phtfilm" and a line feed
-//     format          u32, the version of this list: 2
-//     header          a block (below), this header
-//     bands           a block for each 16 rows of the film, from the top: FilmTile::write_row of each
-//     contents        a block: the offset of each band's block (u64 each), how many samples all pixels have (u64), and
-//                     whether the film is finished (u8)
-//     offset          u64, where the contents begin
+//     format          u32, the version of this layout: 2
+//     header          a block (see below), this header
+//     bands           a block per 16 rows of the film, from the top: FilmTile::write_row of each
+//     contents        a block: the offset of each band's block (u64 each), the number of samples of all pixels (u64),
+//                     and whether the film is finished (u8)
+//     offset          u64, the position of the contents
 //     end             8 bytes, "phtdone" and a line feed
 //
-// A block is the number of its bytes (u64), these bytes, and their checksum (u64). Numbers have their lowest byte
-// first. Where the end is missing the file is truncated; where a checksum differs it is damaged.
+// A block consists of its size in bytes (u64), the bytes, and their checksum (u64). Numbers are little-endian. A file
+// without the end mark is truncated; one with a wrong checksum is damaged.
 #pragma once
 
 #include <array>
@@ -32,23 +32,23 @@ inline constexpr std::uint32_t film_file_format = 2;
 inline constexpr int band_rows = 16;
 
 struct FilmFileHeader {
-    /// What the pixels depend on beside the numbers of the samples, by the names that people know: the build of the
-    /// program ("version"), the scene, options. Films are of the same picture if all these are equal, except "commit",
-    /// which is for messages.
+    /// Everything that the pixels depend on except the sample numbers, under user-visible names: the build of the
+    /// program ("version"), the scene, and options. Two films show the same picture if all settings are equal, except
+    /// "commit", which is only used in messages.
     std::vector<std::pair<std::string, std::string>> settings;
     /// The build of phasetree that rendered the samples, safe to print.
     std::string build() const;
 
-    FilmSettings film;  ///< but for the filter, of which there is only one
+    FilmSettings film;  ///< except for the filter, of which there is only one kind
     PlaneSubjects subjects;
     PixelRange area;
-    /// The pixels of the picture, which lie in the area. Where blocks stop by their noise the film keeps them whole,
-    /// for by all of its pixels it is decided whether a block goes on.
+    /// The pixels of the picture, which lie in the film's area. If blocks stop by their noise, the film contains whole
+    /// blocks, because all of a block's pixels decide whether it continues.
     PixelRange shown;
-    SampleRange samples;     ///< that the film is to have
-    int samples_in_all = 0;  ///< of the whole picture, of which these are a share
+    SampleRange samples;     ///< the samples that the film is to have
+    int samples_in_all = 0;  ///< samples of the whole picture, of which these are a share
 
-    // What image files say of the picture, and how it is shown.
+    // Metadata of image files, and how to display them.
     std::string scene;
     std::uint32_t seed = 0;
     float exposure_ev = 0;
@@ -61,12 +61,12 @@ struct FilmFileHeader {
     }
 
     void write(ByteWriter& out) const;
-    /// Throws BytesError, also for what cannot be: an area outside of the picture, planes that there are not.
+    /// Throws BytesError, also for inconsistent values: an area outside the picture, or unknown planes.
     static FilmFileHeader read(ByteReader& in);
 };
 
-/// The first setting in which two films differ, as half a sentence about the second: "it has seed 3, not 4". Empty if
-/// they are of the same picture. Whoever does not know the last settings yet may ask about the first.
+/// The first setting in which two films differ, as a clause about the second: "it has seed 3, not 4". Empty if they
+/// show the same picture. A caller that does not know the last settings yet may compare the first ones.
 std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found);
 
 }  // namespace phasetree::tracer

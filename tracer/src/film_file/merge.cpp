@@ -66,7 +66,7 @@ std::string Parts::missing() const {
 }
 
 void Parts::join(const std::function<void(const FilmTile&)>& take, const std::function<bool()>& stopped) const {
-    // As many bands at once as there are threads; they are taken in order.
+    // Join one band per thread at a time; they are passed on in order.
     const int at_once = tbb::this_task_arena::max_concurrency();
     for (int first = 0; first < header_.bands() && !stopped(); first += at_once) {
         const int last = std::min(first + at_once, header_.bands());

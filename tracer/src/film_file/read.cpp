@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t start_bytes = 12, around_block = 16, end_bytes = 16;
 
-// A file of known length, from which no more is read than it has.
+// A file of known length. Never reads past its end.
 class Input {
   public:
     explicit Input(const std::filesystem::path& path) : path_(path) {
@@ -39,7 +39,7 @@ class Input {
             throw error("it cannot be read");
         return bytes;
     }
-    // The bytes of a block, of which there are at least so many, and where it ends.
+    // The bytes of a block, which must have at least `least`, and the position of its end.
     std::pair<std::vector<std::byte>, std::uint64_t> block(std::uint64_t from, std::uint64_t least) {
         const std::vector<std::byte> size = read(from, 8);
         const auto count = ByteReader(size).number<std::uint64_t>();
@@ -65,7 +65,7 @@ bool equal(std::span<const std::byte> bytes, std::string_view text) {
     return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()) == text;
 }
 
-// The least that a pixel can have in a band: what two pixels in a row have more than one, without samples.
+// The minimum size of a pixel in a band: the size of a row of two pixels without samples, minus that of a row of one.
 std::uint64_t least_bytes_of_pixel(const FilmFileHeader& header) {
     ByteWriter one, two;
     FilmTile({0, 0, 1, 1}, header.film.planes, header.subjects).write_row(0, one);
@@ -96,7 +96,7 @@ FilmFile::FilmFile(const std::filesystem::path& path) : path_(path) {
         const auto [contents, contents_end] = input.block(start, 8 * bands + 9);
         if (contents_end != bytes_ - end_bytes) throw error("it is damaged");
         ByteReader of_contents(contents);
-        // The bands lie one behind the other, from the header to the contents.
+        // Bands are contiguous, from the header to the contents.
         least_of_pixel_ = least_bytes_of_pixel(header_);
         std::uint64_t least = header_end;
         for (std::size_t i = 0; i < bands; ++i) {

@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Does what may fail with a file.
+// Runs an operation on a file, and turns its errors into OutputError.
 template <class F>
 auto named(const std::filesystem::path& path, F&& f) {
     try {

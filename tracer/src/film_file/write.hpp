@@ -1,4 +1,4 @@
-// Films into files.
+// Writing of film files.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace phasetree::tracer {
 
-/// A film file that is written from the top down. It appears complete or not at all, and outlives a loss of power. All
-/// functions throw OutputError, which names the file; then an existing file is untouched.
+/// Writes a film file from the top down. The file appears complete or not at all, and survives a power failure. All
+/// functions throw OutputError, which names the file and leaves an existing file unchanged.
 class FilmFileWriter {
   public:
     FilmFileWriter(const std::filesystem::path& path, const FilmFileHeader& header);
     ~FilmFileWriter();
 
-    /// The bytes of the next band, and how many samples are in it.
+    /// Appends the next band and the number of samples in it.
     void band(std::span<const std::byte> bytes, std::uint64_t samples);
-    /// After the last band.
+    /// Completes the file after the last band.
     void finish(bool is_finished);
 
   private:
@@ -25,13 +25,13 @@ class FilmFileWriter {
     std::unique_ptr<State> state_;
 };
 
-/// Writes a film, to which others may add meanwhile. It is finished if it has all samples of its header, or if that is
-/// said: pixels may have stopped by their noise. Throws OutputError, which names the file; then an existing file is
-/// untouched.
+/// Writes a film to which other threads may be adding samples. It is marked as finished if it has all samples of its
+/// header, or if `is_finished` is set, because pixels may have stopped by their noise. Throws OutputError, which names
+/// the file and leaves an existing file unchanged.
 void write_film(const std::filesystem::path& path, const FilmFileHeader& header, const Film& film,
                 bool is_finished = false);
 
-/// Whether a file's name is that of a film file, and not of an image: "NAME.part".
+/// Whether a file name denotes a film file, "NAME.part", rather than an image.
 bool is_film_file(const std::filesystem::path& path);
 
 }  // namespace phasetree::tracer

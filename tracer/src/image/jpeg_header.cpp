@@ -8,8 +8,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Markers, which are bytes behind 0xFF (table B.1). Those from start_of_frame on are frames of other kinds, but for
-// three.
+// Markers, the bytes after 0xFF (table B.1). Those from start_of_frame on begin frames of other kinds, with three
+// exceptions.
 enum : int {
     start_of_frame = 0xC0,
     huffman_tables = 0xC4,
@@ -32,7 +32,7 @@ bool is_frame(int marker) {
 bool is_progressive_frame(int marker) {
     return (marker & 3) == 2;
 }
-// Markers below those of frames, all but one of which nobody uses, are passed over as decoders do.
+// Markers below those of frames are skipped, as decoders do. All but one of them are unused in practice.
 bool stands_alone(int marker) {
     return marker < start_of_frame || (marker >= first_restart && marker <= last_restart);
 }
@@ -81,7 +81,7 @@ class JpegMarkers {
             count -= some;
         }
     }
-    // Passes over what is no marker: values of an image, in which 0 follows each 0xFF, and bytes that are too many.
+    // Skips everything up to the next marker: image data, in which 0 follows each 0xFF, and superfluous bytes.
     int next_marker() {
         for (;;) {
             need_bytes();
@@ -97,7 +97,7 @@ class JpegMarkers {
         }
     }
 
-    // Returns how many bytes it has read.
+    // Returns the number of bytes read.
     std::uint64_t read_frame(int marker, std::uint64_t length) {
         if (header_.components != 0) throw std::runtime_error("it has more than one frame");
         constexpr std::uint64_t before_components = 6, of_component = 3;
@@ -116,15 +116,15 @@ class JpegMarkers {
         return length;
     }
 
-    // Each block of 8 × 8 values of a component takes a bit or more, except in arithmetic coding.
+    // Each block of 8 × 8 values of a component takes at least one bit, except in arithmetic coding.
     void read_sampling(std::size_t components, bool is_arithmetic) {
         std::array<int, 255> across{}, down{};
         for (std::size_t i = 0; i < components; ++i) {
-            (void)byte();  // its name
+            (void)byte();  // component id
             const int sampling = byte();
             across[i] = sampling >> 4;
             down[i] = sampling & 15;
-            (void)byte();  // its table
+            (void)byte();  // quantisation table
             if (across[i] < 1 || across[i] > 4 || down[i] < 1 || down[i] > 4)
                 throw std::runtime_error("its frame has an impossible sampling");
         }

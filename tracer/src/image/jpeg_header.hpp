@@ -1,5 +1,5 @@
-// What the markers of a JPEG file say (ITU-T T.81, annex B), without decoding anything: OpenImageIO decodes all scans
-// of a file that has several when it opens it, whatever size it claims.
+// Reads the markers of a JPEG file (ITU-T T.81, annex B) without decoding anything. OpenImageIO decodes all scans of a
+// multi-scan file when it opens it, whatever size the file claims.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ struct JpegHeader {
     int width = 0;
     int height = 0;
     int components = 0;
-    int bits = 0;  // of a value
+    int bits = 0;  // per value
     bool is_progressive = false;
     int scans = 0;
-    std::uint64_t least_bytes = 0;  // that a file of this size can have
+    std::uint64_t least_bytes = 0;  // lower bound on the size of a file with this header
 };
 
-// Returns the next bytes of a file, as many as it likes; none at its end.
+// Returns the next chunk of a file, of any length; empty at the end.
 using NextBytes = std::function<std::string_view()>;
 
-// Reads from the first marker to the last one. Bytes behind that do not matter. Throws std::runtime_error for a file
-// that ends before it, has no image, or has more than a hundred scans: ten or so are usual, and each may be short and
-// take as long as the image is large.
+// Reads from the first marker to the last; bytes after it are ignored. Throws std::runtime_error for a file that ends
+// early, has no image, or has more than a hundred scans. Ten or so are usual, and decoding even a short scan may take
+// time proportional to the image size.
 JpegHeader read_jpeg_header(const NextBytes&);
 
 }  // namespace phasetree::tracer

@@ -1,6 +1,6 @@
-// PNG files with a palette (ISO 15948), whose pixels are indices: segmentation tools store labels so, with a colour for
-// each to look at. A decoder for pictures returns the colours. But the samples of a file with a palette are stored like
-// those of a file of greys, so with another header and without the palette it is decoded to its indices.
+// PNG files with a palette (ISO 15948), whose pixels are indices. Segmentation tools store labels this way, with a
+// colour per label for viewing. Image decoders return the colours. However, the samples of such a file are stored like
+// those of a greyscale file, so replacing the header and removing the palette makes it decode to its indices.
 #pragma once
 
 #include <zlib.h>
@@ -25,7 +25,7 @@ inline bool is_png(std::string_view bytes) {
 struct PaletteHeader {
     int width = 0;
     int height = 0;
-    int bits = 0;  ///< of an index: 1, 2, 4 or 8
+    int bits = 0;  ///< per index: 1, 2, 4 or 8
 };
 
 namespace png {
@@ -40,11 +40,11 @@ inline std::string bytes_of(std::uint32_t n) {
     return {static_cast<char>(n >> 24), static_cast<char>(n >> 16), static_cast<char>(n >> 8), static_cast<char>(n)};
 }
 
-constexpr std::size_t kind_at = 25, header_end = 33;  // in a file; the checksum of the header is its last four bytes
+constexpr std::size_t kind_at = 25, header_end = 33;  // offsets in a file; the header ends with its checksum
 
 }  // namespace png
 
-/// What the first 32 bytes of a file say; nothing of a file that is not PNG, or has no palette.
+/// Parses the first 32 bytes of a file. Returns nullopt if it is not a PNG file, or has no palette.
 inline std::optional<PaletteHeader> palette_header(std::string_view first) {
     if (first.size() <= png::kind_at || !is_png(first) || first.substr(12, 4) != "IHDR" || first[png::kind_at] != 3)
         return std::nullopt;
@@ -57,8 +57,8 @@ inline std::optional<PaletteHeader> palette_header(std::string_view first) {
     return PaletteHeader{static_cast<int>(width), static_cast<int>(height), bits};
 }
 
-/// The bytes of a PNG file of greys, which are the indices of this file. Throws std::runtime_error for a file that is
-/// cut off. Takes at most about twice the memory that the decoded indices need.
+/// The bytes of a greyscale PNG file whose values are the indices of this file. Throws std::runtime_error for a
+/// truncated file. Takes at most about twice the memory of the decoded indices.
 inline std::string as_grey_png(const std::filesystem::path& path, const PaletteHeader& header) {
     constexpr const char* cut_off = "it ends before its image does";
     std::ifstream file(path, std::ios::binary);
@@ -76,7 +76,7 @@ inline std::string as_grey_png(const std::filesystem::path& path, const PaletteH
     for (std::uint64_t at = png::header_end; !grey.ends_with(std::string_view("IEND\xae\x42\x60\x82"));) {
         std::string chunk(8, '\0');
         if (!file.read(chunk.data(), 8)) throw std::runtime_error(cut_off);
-        const std::uint64_t rest = std::uint64_t{png::number(chunk)} + 4;  // the data and the checksum
+        const std::uint64_t rest = std::uint64_t{png::number(chunk)} + 4;  // data and checksum
         at += 8 + rest;
         if (at > file_bytes) throw std::runtime_error(cut_off);
         const bool is_kept = chunk.ends_with("IDAT") || chunk.ends_with("IEND");

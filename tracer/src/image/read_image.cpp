@@ -24,15 +24,15 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The first bytes of a file, by which its kind is known: OpenImageIO looks at these and not only at the name.
+// The first bytes of a file, which identify its format: OpenImageIO checks these as well as the name.
 std::string beginning(const std::filesystem::path& path) {
     std::string bytes(32, '\0');
     std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return bytes;
 }
 
-// The kinds of files that OpenImageIO decodes as a whole when it opens them, whatever size they claim. Nothing of what
-// is not such a file.
+// The format of a file that OpenImageIO decodes completely on opening, whatever size it claims; nullopt for other
+// files.
 std::optional<std::string_view> decoded_when_opened(std::string_view first) {
     if (first.starts_with("RIFF") && first.substr(8, 4) == "WEBP") return "a WebP image";
     if (first.substr(4, 4) == "ftyp") return "a HEIF image or a movie";
@@ -46,19 +46,19 @@ bool is_jpeg(std::string_view first) {
 
 constexpr const char* too_short = "it is too short for the size that it claims";
 
-// OpenImageIO multiplies colours by the alpha beside them, encoded as they are, unless it is told not to. Alpha is
-// a number of its own here, and an image's colours are those that its file has.
+// Keeps values as stored. By default, OpenImageIO multiplies colours by the alpha channel, even in their encoded form.
+// Here alpha is a separate number, and colours are those in the file.
 OIIO::ImageSpec as_stored() {
     OIIO::ImageSpec configuration;
     configuration.attribute("oiio:UnassociatedAlpha", 1);
     return configuration;
 }
 
-// OpenImageIO decodes a PNG or JPEG file from these bytes, which must outlive what it returns.
+// Lets OpenImageIO decode a PNG or JPEG file in memory. The bytes must outlive this object.
 class FileInMemory {
   public:
     explicit FileInMemory(std::string_view bytes)
-        : is_png_(is_png(bytes)), reader_(const_cast<char*>(bytes.data()), bytes.size()) {}  // it only reads them
+        : is_png_(is_png(bytes)), reader_(const_cast<char*>(bytes.data()), bytes.size()) {}  // reads the bytes only
 
     OIIO::ImageInput::unique_ptr open() {
         OIIO::ImageSpec configuration = as_stored();
@@ -72,9 +72,9 @@ class FileInMemory {
     OIIO::Filesystem::IOMemReader reader_;
 };
 
-// How many bytes a PNG file has at least, by its first chunk (ISO 15948, 11.2.2). Deflate, which compresses it, can at
-// best code 258 bytes in 2 bits, so uncompressed data are at most 1032 times the file. They are rows of packed samples,
-// each row with a byte before it; interlaced images have more.
+// The minimum size in bytes of a PNG file, computed from its first chunk (ISO 15948, 11.2.2). Deflate codes at best 258
+// bytes in 2 bits, so the uncompressed data are at most 1032 times the size of the file. They consist of rows of packed
+// samples, each preceded by one byte; interlaced images have more.
 std::uintmax_t least_bytes_of_png(std::string_view first) {
     constexpr std::size_t width_at = 16, height_at = 20, bits_at = 24, kind_at = 25;
     if (first.size() <= kind_at || first.substr(12, 4) != "IHDR") throw std::runtime_error(too_short);
@@ -82,14 +82,14 @@ std::uintmax_t least_bytes_of_png(std::string_view first) {
     const auto number = [&](std::size_t at) {
         return byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
     };
-    constexpr std::array<std::uintmax_t, 7> samples{1, 1, 3, 1, 2, 1, 4};  // of a pixel, of each kind of colour
+    constexpr std::array<std::uintmax_t, 7> samples{1, 1, 3, 1, 2, 1, 4};  // samples per pixel, by colour type
     const std::uintmax_t kind = std::min<std::uintmax_t>(byte(kind_at), samples.size() - 1);
     const std::uintmax_t row = (number(width_at) * byte(bits_at) * samples[kind] + 7) / 8 + 1;
     constexpr std::uintmax_t most = 1032;
     return row / most * number(height_at) + row % most * number(height_at) / most;
 }
 
-// Pixels [x0, x1) × [y0, y1). 64 bits, because windows may lie anywhere in 32.
+// Pixels [x0, x1) × [y0, y1). 64 bits, because windows may have any 32-bit coordinates.
 struct Window {
     std::int64_t x0, y0, x1, y1;
 
@@ -101,16 +101,16 @@ Window data_window(const OIIO::ImageSpec& spec) {
     return {spec.x, spec.y, std::int64_t{spec.x} + spec.width, std::int64_t{spec.y} + spec.height};
 }
 
-// What the picture is, of which the file may hold a part, or more than that.
+// The extent of the picture. The file may contain only a part of it, or more.
 Window display_window(const OIIO::ImageInput& input) {
     const OIIO::ImageSpec& spec = input.spec();
-    // Images of other formats are read as their pixels are stored.
+    // Other formats have no display window; their pixels are read as stored.
     if (std::string_view(input.format_name()) != "openexr") return data_window(spec);
     return {spec.full_x, spec.full_y, std::int64_t{spec.full_x} + spec.full_width,
             std::int64_t{spec.full_y} + spec.full_height};
 }
 
-// Counts the pixels that are not finite, of an image in rows.
+// Counts the non-finite pixels of an image given in rows.
 class NonFinitePixels {
   public:
     NonFinitePixels(std::int64_t width, int channels) : width_(width), channels_(static_cast<std::size_t>(channels)) {}
@@ -137,7 +137,7 @@ class NonFinitePixels {
     std::int64_t pixels_ = 0, count_ = 0, first_ = 0;
 };
 
-// Some channels of rows [begin, end), numbered as the data window does.
+// Reads some channels of rows [begin, end), numbered like the data window.
 bool read_rows(OIIO::ImageInput& input, std::int64_t begin, std::int64_t end, const ChannelRange& channels,
                float* values) {
     const OIIO::ImageSpec& spec = input.spec();
@@ -149,21 +149,21 @@ bool read_rows(OIIO::ImageInput& input, std::int64_t begin, std::int64_t end, co
     return input.read_scanlines(0, 0, first, last, spec.z, channels.first, last_channel, OIIO::TypeDesc::FLOAT, values);
 }
 
-// Hands out the rows of the display window, made of those of the data window; a few at a time, since a data window may
-// be narrow and high, and the display window wide.
+// Converts rows of the data window to rows of the display window. Passes on a few at a time, because the data window
+// may be narrow and high and the display window wide.
 class ShownRows {
   public:
     ShownRows(const Window& held, const Window& shown, int channels, const AddRows& add)
         : held_(held), shown_(shown), channels_(channels), add_(add) {}
 
-    // Rows of zeros.
+    // Adds rows of zeros.
     void add_empty(std::int64_t rows) {
         for (; rows > 0; rows -= most_rows) {
             values_.assign(count(std::min(rows, most_rows), shown_.width()), 0.0f);
             add_(values_);
         }
     }
-    // Whole rows of the data window, which the display window has, too.
+    // Adds whole rows of the data window that the display window also contains.
     void add(std::span<const float> values) {
         if (held_.x0 == shown_.x0 && held_.x1 == shown_.x1) return add_(values);
         const std::size_t block = count(most_rows, held_.width());
@@ -206,7 +206,7 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     ShownRows rows(held, shown, channels.count, checked);
     const std::int64_t top = std::clamp(held.y0, shown.y0, shown.y1), bottom = std::clamp(held.y1, top, shown.y1);
     rows.add_empty(top - shown.y0);
-    // Whole blocks and tiles, as the formats make them.
+    // Read whole blocks or tiles, as the format stores them.
     const std::int64_t step = spec.tile_width != 0 ? spec.tile_height : 64;
     std::vector<float> values;
     const std::size_t in_row = static_cast<std::size_t>(held.width()) * static_cast<std::size_t>(channels.count);
@@ -226,8 +226,8 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     non_finite.check();
 }
 
-// Throws for windows that cannot be read. That the display window is not too large is for the caller to say; rows of
-// the data window are in memory, too, a block of them at a time.
+// Throws for windows that cannot be read. The caller checks the size of the display window. Rows of the
+// data window are limited here, because a block of them is also kept in memory.
 void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
     constexpr std::int64_t enough = std::int64_t{1} << 24;
     const Window held = data_window(spec);
@@ -251,7 +251,7 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
             spec.width, spec.height, spec.full_width, spec.full_height));
     const Window shown = display_window(input);
     check_windows(spec, shown);
-    // Values of fewer bits than a byte are spread over it.
+    // Values of fewer than 8 bits are scaled to a full byte.
     const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
     return {.width = static_cast<int>(shown.width()),
             .height = static_cast<int>(shown.height()),
@@ -261,7 +261,7 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
             .is_signed = spec.format.is_signed()};
 }
 
-// A file to be read: its size, its first bytes, all of them from its beginning, and how OpenImageIO opens it.
+// A file to read: its size, its first bytes, all its bytes from the beginning, and how OpenImageIO opens it.
 struct Source {
     std::uintmax_t bytes;
     std::string first;
@@ -275,10 +275,10 @@ struct Source {
     }
 };
 
-// To open a JPEG may be to decode it. So it is asked before whether it is wanted.
+// Opening a JPEG file may decode it, so ask beforehand whether the image is wanted.
 void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add) {
     const JpegHeader jpeg = read_jpeg_header(source.next);
-    // OpenImageIO makes colours of three channels of inks.
+    // OpenImageIO converts the inks of CMYK files to three colour channels.
     const ImageHeader header{.width = jpeg.width,
                              .height = jpeg.height,
                              .channels = jpeg.components == 4 ? 3 : jpeg.components,
@@ -302,7 +302,7 @@ void read(const Source& source, const BeginImage& begin, const AddRows& add) {
 }
 
 void read(const std::filesystem::path& path, const BeginImage& begin, const AddRows& add) {
-    // The library's own messages for these two are long and speak of formats and plug-ins.
+    // The library's messages for these two cases are long and refer to formats and plug-ins.
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
     if (!std::filesystem::is_regular_file(path, ignored)) throw std::runtime_error("it is not a file");
@@ -331,7 +331,7 @@ void read(std::string_view bytes, const BeginImage& begin, const AddRows& add) {
     read({bytes.size(), std::string(bytes.substr(0, 32)), next, [&] { return memory.open(); }}, begin, add);
 }
 
-// The indices of a PNG file with a palette.
+// Reads the indices of a PNG file with a palette.
 void read_indices(const std::filesystem::path& path, const PaletteHeader& palette, const BeginImage& begin,
                   const AddRows& add) {
     const ImageHeader header{.width = palette.width, .height = palette.height, .channels = 1, .bits = palette.bits};
@@ -345,7 +345,7 @@ void read_indices(const std::filesystem::path& path, const PaletteHeader& palett
     read_values(*input, channels, file_bytes, add);
 }
 
-// Calls f, whose errors then say which image cannot be used.
+// Calls f, and makes its errors name the image that cannot be used.
 template <class F>
 void with_name(const std::string& what, const std::string& name, F&& f) {
     try {

@@ -30,11 +30,11 @@ struct ImageHeader {
     int height = 0;
     int channels = 0;
     bool is_floating_point = false;
-    int bits = 0;  ///< of a value in the file
+    int bits = 0;  ///< per value in the file
     bool is_signed = false;
 };
 
-/// The channels [first, first + count) of a file; a number alone means the first ones.
+/// The channels [first, first + count) of a file. A number alone means the first `count` channels.
 struct ChannelRange {
     ChannelRange(int of_first) : count(of_first) {}
     ChannelRange(int first_one, int how_many) : first(first_one), count(how_many) {}
@@ -43,23 +43,23 @@ struct ChannelRange {
     int count = 0;
 };
 
-/// Gets the header before anything is decoded, once, and returns which channels to read. Throws std::runtime_error for
-/// an image that is not wanted.
+/// Called once with the header, before anything is decoded. Returns the channels to read. Throws std::runtime_error to
+/// reject the image.
 using BeginImage = std::function<ChannelRange(const ImageHeader&)>;
-/// Gets the values of some rows at a time, the top ones first; integers of any width are 0 to 1.
+/// Called with the values of a few rows at a time, from the top. Integers of any width are scaled to [0, 1].
 using AddRows = std::function<void(std::span<const float>)>;
 
-/// Whatever is wrong with the file is std::runtime_error "cannot use the <what> "<path>": …".
+/// Any problem with the file throws std::runtime_error "cannot use the <what> "<path>": …".
 void read_image(const std::filesystem::path& path, const std::string& what, const BeginImage& begin,
                 const AddRows& add);
 
-/// Reads an image that is part of another file: all of its bytes, which must be those of a PNG or JPEG file. `name` is
-/// for messages.
+/// Reads an image embedded in another file from all of its bytes, which must be a PNG or JPEG file. `name` is used in
+/// messages.
 void read_image_in_memory(std::string_view bytes, const std::string& name, const std::string& what,
                           const BeginImage& begin, const AddRows& add);
 
-/// Reads an image whose pixels are labels. A PNG file with a palette has one channel, the indices: an index i of n bits
-/// is the value i / (2ⁿ − 1). The colours of the palette only show the labels to people. Other files are read as by
+/// Reads an image whose pixels are labels. A PNG file with a palette has one channel, its indices: an index i of n bits
+/// becomes the value i / (2ⁿ − 1). The colours of the palette are only for viewing. Other files are read as by
 /// read_image.
 void read_labels(const std::filesystem::path& path, const std::string& what, const BeginImage& begin,
                  const AddRows& add);

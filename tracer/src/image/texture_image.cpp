@@ -17,7 +17,7 @@ namespace {
 constexpr float most = 65535.0f;
 
 std::uint16_t stored(float value) {
-    // What is no number is black.
+    // NaN becomes black.
     return static_cast<std::uint16_t>(value > 0.0f ? std::min(value, 1.0f) * most + 0.5f : 0.0f);
 }
 
@@ -58,7 +58,7 @@ glm::vec3 TextureImage::mean() const {
 }
 
 glm::vec3 TextureImage::at(const glm::vec2& uv) const {
-    // Within one repeat first, so that no number of repeats is too large for a pixel's number.
+    // Reduce to one repeat first, so that the pixel index stays small however often the image repeats.
     const float x = (uv.x - std::floor(uv.x)) * static_cast<float>(width_) - 0.5f;
     const float y = (std::ceil(uv.y) - uv.y) * static_cast<float>(height_) - 0.5f;
     if (!std::isfinite(x) || !std::isfinite(y)) return pixel(0, 0);
@@ -71,7 +71,7 @@ glm::vec3 TextureImage::at(const glm::vec2& uv) const {
 
 namespace {
 
-// Takes the rows that a reader of images hands out.
+// Collects the rows of an image being read.
 class TakenImage {
   public:
     explicit TakenImage(ImageMeaning meaning) : meaning_(meaning) {}

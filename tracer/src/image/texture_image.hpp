@@ -1,9 +1,9 @@
-// Images for textures: a colour for each place of a plane, on which the image is repeated without end.
+// Images for textures: a colour at each point of a plane, over which the image repeats endlessly.
 //
-// Pixels are linear Rec.709 in [0, 1], interpolated bilinearly between their centres. Files that store integers, such
-// as PNG and JPEG, are taken to be sRGB-encoded and decoded before anything is interpolated, floating-point ones to be
-// linear as they are; grey is grey. They are kept in sixteen bits a channel. Images of numbers that are no colours,
-// such as a roughness or the alpha beside colours, are taken as they are stored.
+// Pixels are linear Rec.709 in [0, 1], interpolated bilinearly between their centres. Integer formats such as PNG and
+// JPEG are assumed to be sRGB-encoded, and are decoded before interpolation. Floating-point formats are assumed to be
+// linear. Greyscale images stay grey. Pixels are stored in sixteen bits per channel. Images of numbers rather than
+// colours, such as roughness or alpha, are used as stored.
 #pragma once
 
 #include <array>
@@ -23,17 +23,17 @@ namespace phasetree::tracer {
 
 class TextureImage {
   public:
-    /// Rows from the top; `pixels` has width × height of them.
+    /// `pixels` has width × height elements, in rows from the top.
     TextureImage(int width, int height, std::vector<std::array<std::uint16_t, 3>> pixels)
         : width_(width), height_(height), pixels_(std::move(pixels)) {}
 
-    /// (0, 0) is the lower left corner, (1, 1) the upper right one.
+    /// The colour at a point. (0, 0) is the lower left corner, (1, 1) the upper right one.
     glm::vec3 at(const glm::vec2& uv) const;
-    /// The least and the greatest value of a channel, 0 to 2, in all pixels.
+    /// The minimum and maximum of a channel (0 to 2) over all pixels.
     glm::vec2 range(int channel) const;
     /// The mean of all pixels.
     glm::vec3 mean() const;
-    /// The part of all pixels that have a channel of at least this value.
+    /// The fraction of pixels whose channel is at least this value.
     float share_above(float value) const;
     std::size_t pixels() const { return pixels_.size(); }
     /// Width over height.
@@ -55,18 +55,18 @@ inline constexpr Parameter image_file_parameter{
 inline constexpr Parameter repeat_parameter{
     "repeat", "", "How often the image stands side by side, and one above the other.", limits::any, true};
 
-/// What an image's integers mean; floating-point numbers mean themselves.
+/// How to interpret an image's integers; floating-point values are used directly.
 enum class ImageMeaning {
     colors,
     numbers,
-    alpha,  ///< the alpha beside the colours, as numbers in all three channels; an image without is rejected
+    alpha,  ///< the alpha channel, in all three channels of the result; an image without one is rejected
 };
 
-/// Throws ParameterError of "file".
+/// Throws ParameterError for "file".
 std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file,
                                                        ImageMeaning meaning = ImageMeaning::colors);
 
-/// An image that is part of another file (read_image_in_memory). Throws std::runtime_error.
+/// Loads an image embedded in another file (read_image_in_memory). Throws std::runtime_error.
 TextureImage texture_image_in_memory(std::string_view bytes, const std::string& name, ImageMeaning meaning);
 
 }  // namespace phasetree::tracer

@@ -8,13 +8,13 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr double smooth_cosine = 0.8660254037844387;  // of 30°
+constexpr double smooth_cosine = 0.8660254037844387;  // cos 30°
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// A triangle at a vertex: its normal, zero if it has none, and which corner of which triangle that is.
+// A triangle at a vertex: its normal, zero if it has none, the triangle's index, and the corner at the vertex.
 struct Side {
     glm::dvec3 normal;
     double angle = 0;
@@ -43,7 +43,7 @@ CornerNormals corner_normals(const ClosedMesh& mesh) {
         for (const Side& own : sides) {
             glm::dvec3 sum(0);
             for (const Side& other : sides)
-                // A triangle without an area has no say, and takes the mean of all.
+                // A degenerate triangle has no normal of its own, and takes the mean of all.
                 if (own.normal == glm::dvec3(0) || glm::dot(own.normal, other.normal) > smooth_cosine)
                     sum += other.angle * other.normal;
             const double length = glm::length(sum);

@@ -1,4 +1,4 @@
-// Normals for those who shade triangles as the smooth surface that they stand for.
+// Normals for shading triangles as the smooth surface that they approximate.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 namespace phasetree::tracer {
 
 struct CornerNormals {
-    std::vector<glm::vec3> normals;  ///< of unit length; each belongs to one vertex
-    /// For each corner of each triangle its normal.
+    std::vector<glm::vec3> normals;  ///< unit length; each belongs to one vertex
+    /// The index of the normal of each corner of each triangle.
     std::vector<std::array<std::uint32_t, 3>> of;
 };
 
-/// A corner's normal is the mean of those of the triangles around its vertex that differ by less than 30° from its own
-/// triangle's, by their angles there (Thürmer & Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
-/// Graphics Tools 1998). So edges of the object stay sharp.
+/// Computes corner normals. A corner's normal is the mean over those triangles around its vertex whose normals differ
+/// from its own triangle's by less than 30°, weighted by their angles at the vertex (Thürmer & Wüthrich, *Computing
+/// Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 1998). Edges of the object thus stay sharp.
 CornerNormals corner_normals(const ClosedMesh&);
 
 }  // namespace phasetree::tracer

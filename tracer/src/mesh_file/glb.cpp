@@ -24,14 +24,14 @@ Json as_list(const glm::vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-// A mesh whose corners have one number for place and normal, as glTF wants them.
+// A mesh with a single index per corner for both position and normal, as glTF requires.
 struct Corners {
     std::vector<glm::vec3> places, normals;
     std::vector<std::uint32_t> numbers;
 
     explicit Corners(const ClosedMesh& mesh) {
         const CornerNormals of = corner_normals(mesh);
-        // A normal belongs to one vertex, so it tells the vertex, too.
+        // A normal belongs to one vertex, so its index also identifies the vertex.
         normals = of.normals;
         places.resize(normals.size());
         numbers.reserve(3 * mesh.triangles.size());
@@ -48,7 +48,7 @@ class GltfDocument {
     GltfDocument() {
         json_["asset"] = {{"version", "2.0"}, {"generator", "phasetree"}};
         json_["scene"] = 0;
-        // z up becomes y up.
+        // Rotates z up to y up.
         const double half = std::sqrt(0.5);
         json_["nodes"] =
             Json::array({{{"name", "object"}, {"rotation", {-half, 0, 0, half}}, {"children", Json::array()}}});

@@ -7,10 +7,10 @@
 
 namespace phasetree::tracer {
 
-/// The bytes of a file: for each chosen phase a node with its closed surface, normals and material. What is clear has
-/// the extensions of Khronos for transmission, index and volume, which are relative to air: glTF knows no interface
-/// between two phases. A unit of length is a metre, and z is turned up to glTF's y. Throws std::length_error if it
-/// would have more than 4 GB.
+/// The bytes of a file with one node per chosen phase: its closed surface, normals and material. Clear phases use the
+/// Khronos extensions for transmission, index of refraction and volume, all relative to air, because glTF has no
+/// interfaces between two phases. The unit of length is a metre, and z up becomes glTF's y up. Throws std::length_error
+/// if the file would exceed 4 GB.
 std::string glb_of(const MeshedObject&);
 
 }  // namespace phasetree::tracer

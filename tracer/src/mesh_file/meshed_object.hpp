@@ -1,4 +1,4 @@
-// What files of meshes are written of.
+// The input of the mesh file writers.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace phasetree::tracer {
 
 struct MeshedObject {
     PhaseMesh mesh;
-    std::vector<Look> looks;  ///< of all phases, the vacuum first
-    PhaseSet chosen;          ///< the phases that a file is to have; the vacuum is none of them
-    float scale = 1;          ///< how much larger the mesh is than the scene, in whose unit of length the looks are
+    std::vector<Look> looks;  ///< one per phase, the vacuum first
+    PhaseSet chosen;          ///< the phases to write, without the vacuum
+    float scale = 1;          ///< file lengths per scene length; the looks are in scene units
 
-    /// Those of the chosen ones that have triangles, in their order.
+    /// The chosen phases that have triangles, in order.
     std::vector<Phase> phases() const {
         std::vector<Phase> there;
         for_each_phase((chosen & mesh.phases()).bits,

@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Names end at blanks. Two phases whose names would be one then have their numbers behind them.
+// OBJ names end at blanks. If two phases would get the same name, their numbers are appended.
 std::string in_obj(std::string name) {
     for (char& c : name)
         if (static_cast<unsigned char>(c) <= 32 || c == '#') c = '_';
@@ -61,7 +61,7 @@ ObjFiles obj_of(const MeshedObject& object, std::string_view name_of_mtl) {
     ObjFiles files{"# made by phasetree\n", "# made by phasetree\n"};
     auto out = std::back_inserter(files.obj);
     fmt::format_to(out, "mtllib {}\n", name_of_mtl);
-    std::vector<std::uint32_t> number(mesh.vertices.size(), 0);  // in the file, from 1
+    std::vector<std::uint32_t> number(mesh.vertices.size(), 0);  // index in the file, from 1
     std::uint32_t vertices = 0, normals = 0;
     const std::vector<std::string> names = names_in_obj(object);
     for (std::size_t p = 0; p < names.size(); ++p) {

@@ -1,4 +1,4 @@
-// OBJ and its file of materials (Wavefront, *Advanced Visualizer Manual*, 1990s): an object for each phase.
+// OBJ and its material file (Wavefront, *Advanced Visualizer Manual*, 1990s), with one object per phase.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ struct ObjFiles {
     std::string obj, mtl;
 };
 
-/// The closed surface of each chosen phase, with normals. They share the list of vertices, so where two phases touch
-/// they name the same ones.
+/// The closed surface of each chosen phase, with normals. The surfaces share one list of vertices, so touching phases
+/// refer to the same ones.
 ObjFiles obj_of(const MeshedObject&, std::string_view name_of_mtl);
 
 }  // namespace phasetree::tracer

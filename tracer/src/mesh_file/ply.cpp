@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A name in a line of a header, which a break would end.
+// A name in a header line, which a line break would end.
 std::string in_line(std::string name) {
     for (char& c : name)
         if (static_cast<unsigned char>(c) < 32) c = ' ';
@@ -31,7 +31,7 @@ std::string ply_of(const MeshedObject& object) {
         for (const std::uint32_t v : t.vertices)
             if (number[v] == 0) {
                 vertices.push_back(mesh.vertices[v]);
-                number[v] = static_cast<std::uint32_t>(vertices.size());  // one more than its place
+                number[v] = static_cast<std::uint32_t>(vertices.size());  // index plus one
             }
     }
     std::string head = "ply\nformat binary_little_endian 1.0\ncomment made by phasetree\n";

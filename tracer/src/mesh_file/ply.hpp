@@ -1,4 +1,4 @@
-// PLY (Turk, *The PLY Polygon File Format*, 1994): each triangle once, with the phases on both of its sides.
+// PLY (Turk, *The PLY Polygon File Format*, 1994), with each triangle once and the phases on both sides.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace phasetree::tracer {
 
-/// The bytes of a binary file. A face has beside its vertices `behind` and `front`, the numbers of the phases on its
-/// sides, of which the header has the names; its vertices are counterclockwise as seen from the phase in front.
-/// It has the colour of the phase behind, or of the one in front if the one behind is not chosen.
+/// The bytes of a binary file. In addition to its vertices, a face has `behind` and `front`, the numbers of the phases
+/// on its sides; the header lists their names. Vertices are counterclockwise as seen from the phase in front. A face
+/// has the colour of the phase behind it, or of the one in front if the one behind is not chosen.
 std::string ply_of(const MeshedObject&);
 
 }  // namespace phasetree::tracer

@@ -7,7 +7,7 @@
 namespace phasetree::tracer {
 
 std::string stl_of(const ClosedMesh& mesh) {
-    // A file that begins with "solid" would be taken for one of text.
+    // Must not begin with "solid", which identifies a text file.
     std::string head = "phasetree: binary STL";
     head.resize(80, ' ');
     ByteWriter out;

@@ -1,5 +1,4 @@
-// STL, which knows triangles and nothing else (3D Systems, StereoLithography Interface Specification, 1989); the binary
-// kind.
+// Binary STL, which has triangles and nothing else (3D Systems, StereoLithography Interface Specification, 1989).
 #pragma once
 
 #include <string>
@@ -8,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-/// The bytes of a file of one surface.
+/// The bytes of a file with one surface.
 std::string stl_of(const ClosedMesh&);
 
 }  // namespace phasetree::tracer

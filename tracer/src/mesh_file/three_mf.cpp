@@ -24,7 +24,7 @@ constexpr const char* relationships =
 </Relationships>
 )";
 
-// A text as the value of an attribute of XML 1.0, which has neither control characters nor U+FFFE and U+FFFF.
+// Escapes text for an attribute value in XML 1.0, which excludes control characters, U+FFFE and U+FFFF.
 std::string in_xml(std::string_view text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,4 +1,4 @@
-// 3MF, the format of printers of several materials (3MF Consortium, *3D Manufacturing Format, Core Specification* 1.3).
+// 3MF, the format of multi-material printers (3MF Consortium, *3D Manufacturing Format, Core Specification* 1.3).
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace phasetree::tracer {
 
-/// The bytes of a file: one thing to be printed, whose parts are the closed surfaces of the chosen phases, each with
-/// its name and colour. A unit of length is a millimetre. Throws std::length_error if it would have more than 2 GB.
+/// The bytes of a file with one printable object, whose parts are the closed surfaces of the chosen phases, each with
+/// its name and colour. The unit of length is a millimetre. Throws std::length_error if the file would exceed 2 GB.
 std::string three_mf_of(const MeshedObject&);
 
 }  // namespace phasetree::tracer

@@ -11,9 +11,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::uint16_t zip_version = 20, deflated = 8, date = 0x21;  // the first of January 1980
+constexpr std::uint16_t zip_version = 20, deflated = 8, date = 0x21;  // 1 January 1980
 
-// Deflate's own stream, without zlib's head.
+// A raw Deflate stream, without zlib's header.
 std::string deflate_of(const std::string& bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -36,7 +36,7 @@ std::uint32_t size_of(const std::string& bytes) {
     return static_cast<std::uint32_t>(bytes.size());
 }
 
-// What a file's head and the archive's list say alike, from the version on.
+// The fields that a local file header and the central directory have in common, from the version on.
 void describe(ByteWriter& out, const ZipFile& file, const std::string& packed) {
     out.number(zip_version);
     out.number(std::uint16_t{0});

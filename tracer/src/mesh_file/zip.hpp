@@ -1,4 +1,4 @@
-// ZIP archives (PKWARE, APPNOTE.TXT 6.3), as far as packages of documents need them: a few files, compressed.
+// ZIP archives (PKWARE, APPNOTE.TXT 6.3), as far as document packages need them: a few compressed files.
 #pragma once
 
 #include <span>
@@ -7,12 +7,12 @@
 namespace phasetree::tracer {
 
 struct ZipFile {
-    std::string name;  ///< of ASCII
+    std::string name;  ///< ASCII
     std::string bytes;
 };
 
-/// The bytes of an archive. The same files give the same bytes: all are dated the first of January 1980. Throws
-/// std::length_error if it would have more than 2 GB.
+/// The bytes of an archive. Equal files give equal bytes, because all are dated 1 January 1980. Throws
+/// std::length_error if the archive would exceed 2 GB.
 std::string zip_of(std::span<const ZipFile>);
 
 }  // namespace phasetree::tracer

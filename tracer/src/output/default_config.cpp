@@ -4,7 +4,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// This is the file tracer/color/phasetree.ocio, character for character; a test compares the two.
+// The text of tracer/color/phasetree.ocio; a test checks that both are identical.
 constexpr std::string_view text = R"ocio(ocio_profile_version: 2
 
 # The colours of phasetree, for OpenColorIO 2.1 and later. The path tracer has the same text built in; install this

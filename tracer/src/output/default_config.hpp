@@ -5,7 +5,7 @@
 
 namespace phasetree::tracer {
 
-/// The text of tracer/color/phasetree.ocio, the OpenColorIO configuration used where $OCIO names no other.
+/// The text of tracer/color/phasetree.ocio, used unless $OCIO names another configuration.
 std::string_view default_color_config();
 
 }  // namespace phasetree::tracer

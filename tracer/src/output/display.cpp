@@ -30,8 +30,8 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// How many slips of the finger lie between two words: the fewest insertions, deletions and replacements of a character
-// and swaps of neighbours (the optimal string alignment distance).
+// The number of typing mistakes between two words: the minimum number of insertions, deletions, substitutions and swaps
+// of adjacent characters (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> above(b.size() + 1);
     std::vector<std::size_t> row(b.size() + 1);
@@ -56,7 +56,7 @@ std::string quoted_list(const std::vector<std::string>& names) {
     return list;
 }
 
-// The configuration's own spelling of a display or view. Case does not matter, as in OpenColorIO itself.
+// Finds a display or view, and returns its spelling in the configuration. Case is ignored, as in OpenColorIO.
 std::string choose(const std::string& wanted, const std::vector<std::string>& names, const std::string& what) {
     std::string nearest;
     std::size_t best = std::string::npos;
@@ -70,7 +70,7 @@ std::string choose(const std::string& wanted, const std::vector<std::string>& na
             nearest = name;
         }
     }
-    // A third of the letters wrong is still a slip of the finger; more is another word.
+    // Up to a third of the letters may be wrong in a typing mistake; beyond that, it is another word.
     const bool likely = best != std::string::npos && 3 * best <= std::max<std::size_t>(wanted.size(), 3);
     throw DisplayError(fmt::format("there is no {} \"{}\"{}; choose from {}", what, wanted,
                                    likely ? fmt::format(" (did you mean \"{}\"?)", nearest) : "", quoted_list(names)));
@@ -106,7 +106,7 @@ NamedConfig current_config() {
     try {
         return {ocio::Config::CreateFromEnv(), fmt::format("the color configuration \"{}\"", path)};
     } catch (const std::bad_alloc&) {
-        throw;  // which says nothing of the configuration
+        throw;  // unrelated to the configuration
     } catch (const std::exception& error) {
         throw refuse(one_line(error.what()));
     }
@@ -125,9 +125,9 @@ ocio::ConstTransformRcPtr rec709_to_aces() {
     return both;
 }
 
-// The pixels are linear Rec.709, and a foreign configuration need not call it so, or have it: first its usual names,
-// then the road over ACES2065-1, which configurations of version 2 know by a role. Version 1 has no such role and its
-// scene_linear is linear Rec.709 in the configurations without one of the names.
+// The colour space of the pixels, linear Rec.709, in any configuration, which need not have it or use that name. Tries
+// its usual names first, then goes through ACES2065-1, which version 2 configurations identify by a role. Version 1 has
+// no such role; in its configurations without one of the names, scene_linear is linear Rec.709.
 struct Source {
     std::string color_space;
     bool over_aces = false;
@@ -136,7 +136,7 @@ struct Source {
 Source source_of(const ocio::ConstConfigRcPtr& config) {
     for (const char* name : {"Linear Rec.709 (sRGB)", "Linear Rec.709", "lin_rec709", "lin_rec709_srgb", "lin_srgb",
                              "Linear BT.709", "Utility - Linear - sRGB", "Utility - Linear - Rec.709", "Linear"}) {
-        // getColorSpace also knows aliases, but takes roles too: a role would be no proof of the primaries.
+        // getColorSpace finds aliases but also roles, and a role does not determine the primaries.
         if (!config->hasRole(name) && config->getColorSpace(name)) return {name, false};
     }
     if (config->hasRole("aces_interchange")) return {"aces_interchange", true};
@@ -190,7 +190,8 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
         to_view->setView(view_.c_str());
         chain->appendTransform(to_view);
 
-        // Everything but the approximate logarithms and powers: a picture is converted once, the curve may be exact.
+        // All optimisations except approximate logarithms and powers. A picture is converted once, so exact curves are
+        // affordable.
         constexpr auto flags =
             static_cast<ocio::OptimizationFlags>(ocio::OPTIMIZATION_DEFAULT & ~ocio::OPTIMIZATION_FAST_LOG_EXP_POW);
         const auto processor = config->getProcessor(chain, ocio::TRANSFORM_DIR_FORWARD);
@@ -199,7 +200,7 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
         throw;
     } catch (const DisplayError& error) {
         throw DisplayError(fmt::format("{}: {}", current.name, error.what()));
-    } catch (const std::exception& error) {  // ocio::Exception among them
+    } catch (const std::exception& error) {  // including ocio::Exception
         throw DisplayError(fmt::format("{}: {}", current.name, one_line(error.what())));
     }
 }
@@ -207,14 +208,14 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
 void DisplayTransform::apply(std::span<glm::vec3> pixels) const {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float), "pixels are handed to OpenColorIO as packed floats");
     if (pixels.empty()) return;
-    // The largest half-precision number, far beyond any display: tables for half-precision input end there, and what
-    // overflows inside a transform comes out black or as NaN.
+    // The largest half-precision number, far beyond any display. Lookup tables for half-precision input end there, and
+    // values that overflow inside a transform come out black or as NaN.
     constexpr float largest = 65504.0f;
     const float gain = std::exp2(exposure_ev_);
     for (glm::vec3& pixel : pixels) {
         const bool finite = std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
         for (int c = 0; c < 3; ++c) {
-            // An exposure of +200 EV overflows gain; 0 · ∞ would be NaN.
+            // An exposure of +200 EV makes gain overflow; 0 · ∞ would be NaN.
             const float exposed = finite && pixel[c] != 0.0f ? pixel[c] * gain : 0.0f;
             pixel[c] = std::clamp(exposed, -largest, largest);
         }

@@ -22,7 +22,7 @@ namespace {
 // CIE xy of red, green, blue and white: ITU-R BT.709 and D65.
 constexpr std::array<float, 8> rec709_chromaticities{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
-// Any name with the right extension: nothing of it is opened.
+// Any name with the right extension; no such file is opened.
 const char* name_for_format(Format format) {
     switch (format) {
         case Format::exr:
@@ -53,11 +53,11 @@ void check(const Image& image) {
     }
 }
 
-// What files of all formats say.
+// Metadata common to all formats.
 OIIO::ImageSpec common_spec(const Image& image, OIIO::TypeDesc type, const std::string& build) {
     OIIO::ImageSpec spec(image.width, image.height, 3, type);
     spec.attribute("Software", fmt::format("phasetree {}", build));
-    // Left out, EXR and TIFF get today's date; an empty one keeps equal pictures equal files.
+    // If omitted, EXR and TIFF use the current date. An empty date makes equal pictures equal files.
     spec.attribute("DateTime", "");
     return spec;
 }
@@ -87,7 +87,7 @@ OIIO::ImageSpec exr_spec(const Image& image, const Layer& layer, const Metadata&
     return spec;
 }
 
-// Of the formats that hold what is shown.
+// The specification of a file with display values.
 OIIO::ImageSpec shown_spec(const Image& image, Format format, const Metadata& metadata,
                            const DisplayTransform& transform) {
     OIIO::ImageSpec spec =
@@ -95,7 +95,8 @@ OIIO::ImageSpec shown_spec(const Image& image, Format format, const Metadata& me
     spec.attribute("ImageDescription",
                    fmt::format("{}, {} samples per pixel, seed {}, {} {:+g} EV", scene_name(metadata),
                                metadata.samples_per_pixel, metadata.seed, transform.view(), transform.exposure_ev()));
-    // Not in TIFF: it would become an EXIF directory, which OpenImageIO before 2.5.13 spoils when writing to memory.
+    // Not in TIFF, where it would become an EXIF directory, which OpenImageIO before 2.5.13 corrupts when writing to
+    // memory.
     if (transform.is_srgb() && format != Format::tiff) spec.attribute("oiio:ColorSpace", "sRGB");
     if (format == Format::jpeg) {
         spec.attribute("compression", "jpeg:95");
@@ -119,8 +120,9 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
     return bytes;
 }
 
-// How much of each pixel is covered, if that is recorded and the background is black: where nothing covers, nothing
-// shines. Denoising may leave a little there. Over another background the colour of what covers is not known.
+// The coverage of each pixel, if it is recorded and the background is black: pixels without coverage then have no
+// light, except for a little that denoising may leave. Over another background, the colour of the covering surface is
+// unknown.
 const Channel* alpha_of(const Image& image) {
     const auto found = std::ranges::find(image.further, "A", &Channel::name);
     if (found == image.further.end()) return nullptr;
@@ -133,7 +135,7 @@ const Channel* alpha_of(const Image& image) {
     return uncovered <= 0.001 * covered ? &*found : nullptr;
 }
 
-// PNG and programs that edit pictures want the colour of what covers a pixel, not what is left of it there.
+// PNG files and image editors use unpremultiplied colours.
 void divide_by_alpha(std::vector<glm::vec3>& pixels, const Channel& alpha) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const float covered = alpha.values[i];
@@ -141,7 +143,7 @@ void divide_by_alpha(std::vector<glm::vec3>& pixels, const Channel& alpha) {
     }
 }
 
-// A channel as pixels whose three numbers are alike.
+// Converts a channel to pixels with three equal values.
 std::vector<glm::vec3> spread(const Channel& channel) {
     std::vector<glm::vec3> pixels;
     pixels.reserve(channel.values.size());
@@ -149,7 +151,7 @@ std::vector<glm::vec3> spread(const Channel& channel) {
     return pixels;
 }
 
-// Codes of red, green, blue and alpha, of those of three colours and three equal alphas.
+// Combines codes of three colours, and of three equal alphas, into RGBA.
 template <class Code>
 std::vector<Code> with_alpha(const std::vector<Code>& colours, const std::vector<Code>& alphas) {
     std::vector<Code> codes;
@@ -159,7 +161,7 @@ std::vector<Code> with_alpha(const std::vector<Code>& colours, const std::vector
     return codes;
 }
 
-// All channels of a layer, pixel by pixel.
+// All channels of a layer, interleaved by pixel.
 std::vector<float> interleaved(const Image& image, const Layer& layer) {
     std::vector<float> values;
     values.reserve(image.pixels.size() * ((layer.has_picture ? 3 : 0) + layer.channels.size()));

@@ -1,17 +1,17 @@
-// What output can fail with.
+// Errors of output.
 #pragma once
 
 #include <stdexcept>
 
 namespace phasetree::tracer {
 
-/// An image file that cannot be written. The message names the path and the reason, in one line.
+/// An image file cannot be written. The message is one line with the path and the reason.
 class OutputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// A colour configuration, display or view that cannot be used. One line, with what was meant where it can be guessed.
+/// An unusable colour configuration, display or view. The message is one line, with a suggestion where possible.
 class DisplayError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// Files that appear complete or not at all.
+// Atomic writing of files.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,15 @@
 
 namespace phasetree::tracer {
 
-/// Writes a file that appears complete or not at all: it is written under a temporary name in the same directory and
-/// renamed. A symbolic link stays one, and what it points at is replaced or, if it is not there, made; a device or a
-/// pipe is never replaced. Throws OutputError; then an existing file is untouched and no temporary is left.
+/// Writes a file, which appears complete or not at all: it is written under a temporary name in the same directory and
+/// renamed. For a symbolic link, the target is replaced or created and the link is kept. Devices and pipes are written
+/// to, never replaced. Throws OutputError, leaving an existing file unchanged and no temporary file.
 void write_file(std::span<const unsigned char> bytes, const std::filesystem::path& path);
 inline void write_file(std::string_view text, const std::filesystem::path& path) {
     write_file(std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()), path);
 }
 
-/// Throws the OutputError that write_file would, as far as it can be known before there is anything to write. Leaves
-/// the directory as it was.
+/// Throws the OutputError that write_file would, as far as it can be predicted. Leaves the directory unchanged.
 void check_file_writable(const std::filesystem::path& path);
 
 }  // namespace phasetree::tracer

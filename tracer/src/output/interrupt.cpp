@@ -9,8 +9,8 @@
 namespace phasetree::tracer {
 namespace {
 
-// The project's only mutable globals: a signal handler is a plain function without a context, so what it tells must
-// have static storage, and only lock-free atomics are allowed inside one.
+// The project's only mutable globals. A signal handler is a plain function without a context, so it communicates
+// through static storage, and may use only lock-free atomics.
 std::atomic<int> signal_arrived{0};
 std::atomic<bool> checkpoint_asked{false};
 std::atomic<bool> guard_lives{false};
@@ -20,22 +20,22 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 constexpr std::array<int, 4> handled_signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
-// Does what a signal handler may.
+// Restricted to what is allowed in a signal handler.
 [[noreturn]] void end_at_once(const EndingAtOnce::Told& told, int arrived) {
-    // Who reads no messages misses nothing else.
+    // If the message cannot be written, nothing else is affected.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, told.message.data(), told.message.size());
     ::_exit(arrived == SIGINT ? told.codes.of_person : told.codes.of_others);
 }
 
-// The first signal of any kind. With the default actions back, the second ends the program by the system's own hand,
-// however stuck it is, and the shell learns why.
+// Handles the first signal of any kind. It restores the default actions, so the second signal is handled by the system
+// and ends the program, however stuck it is, and the shell sees the cause.
 extern "C" void phasetree_on_interrupt(int arrived) {
     if (const EndingAtOnce::Told* told = ending_at_once) end_at_once(*told, arrived);
     signal_arrived = arrived;
     for (const int signal : handled_signals) {
         struct sigaction current {};
         sigaction(signal, nullptr, &current);
-        if (current.sa_handler == phasetree_on_interrupt) {  // an ignored one stays ignored
+        if (current.sa_handler == phasetree_on_interrupt) {  // an ignored signal stays ignored
             current.sa_handler = SIG_DFL;
             sigaction(signal, &current, nullptr);
         }
@@ -53,8 +53,8 @@ InterruptGuard::InterruptGuard() {
     signal_arrived = 0;
     struct sigaction action {};
     sigemptyset(&action.sa_mask);
-    for (const int signal : handled_signals) sigaddset(&action.sa_mask, signal);  // one after the other
-    action.sa_flags = SA_RESTART;  // no read or write fails because of it
+    for (const int signal : handled_signals) sigaddset(&action.sa_mask, signal);  // one at a time
+    action.sa_flags = SA_RESTART;  // interrupted reads and writes are restarted
     for (std::size_t i = 0; i < handled_signals.size(); ++i) {
         sigaction(handled_signals[i], nullptr, &previous_[i]);
         action.sa_handler = handled_signals[i] == SIGUSR1 ? phasetree_on_checkpoint : phasetree_on_interrupt;

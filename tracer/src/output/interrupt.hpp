@@ -1,5 +1,5 @@
-// Ctrl-C, SIGTERM and a terminal that goes away (SIGHUP), turned into a question a render loop can ask; and SIGUSR1,
-// which asks for a checkpoint.
+// Signals as flags to poll: Ctrl-C, SIGTERM and loss of the terminal (SIGHUP) interrupt a render, and SIGUSR1 requests
+// a checkpoint.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace phasetree::tracer {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP only makes interrupted() true, so that the image so far can be
-/// written; the second ends the program at once. SIGUSR1 ends nothing. A signal that was ignored (nohup, a background
-/// job) stays ignored. The destructor brings back the earlier handlers. One at a time: a second guard while one lives
-/// throws std::logic_error.
+/// During its lifetime, the first SIGINT, SIGTERM or SIGHUP only makes interrupted() return true, so that the image so
+/// far can be written. The second ends the program at once. SIGUSR1 never ends the program. A signal that was ignored
+/// (nohup, a background job) stays ignored. The destructor restores the previous handlers. Only one guard may exist at
+/// a time; creating a second throws std::logic_error.
 class InterruptGuard {
   public:
     InterruptGuard();
@@ -23,14 +23,14 @@ class InterruptGuard {
     std::array<struct sigaction, 4> previous_{};
 };
 
-/// While it lives, within the life of an InterruptGuard, the first signal ends the program at once, as does one that
-/// has arrived before: for work that leaves nothing behind, such as reading, and need not ask interrupted(). One at a
-/// time.
+/// While it exists, within the lifetime of an InterruptGuard, the first signal ends the program at once, as does a
+/// signal that has already arrived. Meant for work that leaves nothing behind, such as reading, and that does not poll
+/// interrupted(). Only one may exist at a time.
 class EndingAtOnce {
   public:
     struct Codes {
-        int of_person;  ///< the exit code after SIGINT
-        int of_others;  ///< after the other two
+        int of_person;  ///< exit code after SIGINT
+        int of_others;  ///< exit code after SIGTERM and SIGHUP
     };
     /// The message is written to standard error.
     EndingAtOnce(Codes codes, std::string message);
@@ -38,7 +38,7 @@ class EndingAtOnce {
     EndingAtOnce(const EndingAtOnce&) = delete;
     EndingAtOnce& operator=(const EndingAtOnce&) = delete;
 
-    /// What the signal handler needs.
+    /// Data for the signal handler.
     struct Told {
         Codes codes;
         std::string message;
@@ -48,13 +48,13 @@ class EndingAtOnce {
     Told told_;
 };
 
-/// Whether a signal has arrived since the living InterruptGuard was made; false without one.
+/// Whether a signal has arrived since the current InterruptGuard was created; false without a guard.
 bool interrupted();
-/// That signal, or 0.
+/// The signal that arrived, or 0.
 int interrupting_signal();
-/// From now on SIGUSR1 does not end the program, whether it can be followed yet or not.
+/// From now on SIGUSR1 does not end the program, even if no checkpoint can be written yet.
 void expect_checkpoint_requests();
-/// Whether SIGUSR1 has arrived since this was asked last.
+/// Whether SIGUSR1 has arrived since the last call.
 bool take_checkpoint_request();
 
 }  // namespace phasetree::tracer

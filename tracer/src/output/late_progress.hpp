@@ -1,4 +1,5 @@
-// The progress of what is mostly done in less than a second, and then shows nothing: reading, and building cells.
+// Progress of work that usually takes less than a second, such as reading or building cells. Nothing is shown until
+// then.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@ class LateProgress {
     LateProgress(ProgressOutput output, std::string task)
         : output_(std::move(output)), task_(std::move(task)), start_(output_.now()) {}
 
-    /// How much is done, from 0 to 1; less than before is as much as before. By one thread at a time.
+    /// Reports the completed fraction, from 0 to 1. It never goes back: smaller values are ignored. Call from one
+    /// thread at a time.
     void tell(double done) {
         if (output_.stream == nullptr) return;
         if (!shown_) {

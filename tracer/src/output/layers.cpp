@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::string_view cryptomatte = "cryptomatte/";
 
-// The Cryptomattes of an image by their names, each with the beginning that all of its attributes have: Cryptomatte 1.2
-// says "cryptomatte/NUMBER/name", and the same number in whatever else it has to say.
+// The Cryptomattes of an image: their names, and the common prefix of their attributes. Cryptomatte 1.2 stores the name
+// as "cryptomatte/NUMBER/name", and its other attributes with the same number.
 std::vector<std::pair<std::string, std::string>> cryptomattes_of(const Image& image) {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [key, text] : image.attributes)
@@ -19,7 +19,7 @@ std::vector<std::pair<std::string, std::string>> cryptomattes_of(const Image& im
     return all;
 }
 
-// Whether a layer of EXR is a rank of a Cryptomatte: its name and two digits.
+// Whether an EXR layer is a rank of a Cryptomatte: its name followed by two digits.
 bool is_rank_of(const std::string& layer, const std::string& matte) {
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     return layer.size() == matte.size() + 2 && layer.starts_with(matte) && is_digit(layer[matte.size()]) &&
@@ -38,14 +38,14 @@ std::vector<Layer> layers_of(const Image& image) {
     const auto mattes = cryptomattes_of(image);
     std::vector<Layer> layers{{.name = layer_of_picture, .has_picture = true}};
     for (const Channel& channel : image.further) {
-        if (channel.name == "A") {  // as files with an alpha channel have it beside R, G and B
+        if (channel.name == "A") {  // stored next to R, G and B, as usual for alpha
             layers.front().channels.push_back(&channel);
             continue;
         }
         std::string name = channel.name.substr(0, channel.name.find('.'));
         const auto matte = std::ranges::find_if(mattes, [&](const auto& m) { return is_rank_of(name, m.first); });
         if (matte != mattes.end()) name = matte->first;
-        std::ranges::replace(name, '/', '_');  // who makes channels himself may call them anything
+        std::ranges::replace(name, '/', '_');  // user-defined channels may have any name
         auto layer = std::ranges::find(layers, name, &Layer::name);
         if (layer == layers.end()) {
             layer = layers.insert(layers.end(), Layer{.name = name});
@@ -55,7 +55,7 @@ std::vector<Layer> layers_of(const Image& image) {
         }
         layer->channels.push_back(&channel);
     }
-    // What is no Cryptomatte's is said beside the picture.
+    // Attributes that do not belong to a Cryptomatte go with the picture.
     for (const auto& attribute : image.attributes)
         if (std::ranges::none_of(mattes, [&](const auto& m) { return attribute.first.starts_with(m.second); }))
             layers.front().attributes.push_back(attribute);

@@ -1,4 +1,5 @@
-// The planes of an image as files of their own: "film.{plane}.exr" is film.beauty.exr, film.depth.exr and so on.
+// Writes the planes of an image to separate files: "film.{plane}.exr" stands for film.beauty.exr, film.depth.exr and so
+// on.
 #pragma once
 
 #include <cstddef>
@@ -12,31 +13,31 @@
 
 namespace phasetree::tracer {
 
-/// What stands in a file's name for the name of a plane.
+/// Placeholder for the plane's name in a file name.
 inline constexpr std::string_view plane_in_name = "{plane}";
-/// What the layer of the picture is called.
+/// The name of the layer with the picture.
 inline constexpr const char* layer_of_picture = "beauty";
 
-/// Channels that belong into one file.
+/// Channels that belong in one file.
 struct Layer {
-    std::string name;  ///< good as a part of a file's name
+    std::string name;  ///< usable in a file name
     bool has_picture = false;
-    std::vector<const Channel*> channels{};  ///< of the image's further ones
+    std::vector<const Channel*> channels{};  ///< the additional channels of the image
     std::vector<std::pair<std::string, std::string>> attributes{};
 };
 
-/// All that an image has, as one layer.
+/// The whole image as one layer.
 Layer whole(const Image& image);
 
-/// The picture, "beauty", with its alpha, A, and the image's further channels by what stands before the point in their
-/// names: "depth.Z" is of "depth". The ranks of a Cryptomatte, CryptoPhase00, 01, …, are one layer with its manifest,
-/// as its specification wants them. The channels keep their names, so that a compositor finds the same in many files as
-/// in one.
+/// Splits an image into layers: the picture, "beauty", with its alpha, A; and the image's additional channels, grouped
+/// by the part of their names before the dot, as "depth" for "depth.Z". As its specification requires, the ranks of a
+/// Cryptomatte (CryptoPhase00, 01, …) form one layer with its manifest. Channels keep their names, so a compositor
+/// finds the same names in separate files as in a single one.
 std::vector<Layer> layers_of(const Image& image);
 
-/// Whether a name asks for a file for each plane.
+/// Whether a name asks for one file per plane.
 bool is_for_each_plane(const std::filesystem::path& path);
-/// The file of a plane.
+/// The file name of a plane.
 std::filesystem::path file_of_plane(const std::filesystem::path& path, const std::string& plane);
 
 }  // namespace phasetree::tracer

@@ -18,7 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto redraw_interval = 100ms;
-// Seconds after which a past rate counts 1/e: long against the time of a tile, short against a render.
+// Time in seconds over which the weight of a past rate falls to 1/e: long compared with a tile, short compared with a
+// render.
 constexpr double rate_memory = 10.0;
 constexpr int narrowest_bar = 10;
 constexpr std::string_view to_line_start = "\r";
@@ -28,7 +29,7 @@ double seconds(ProgressOutput::Clock::duration d) {
     return std::chrono::duration<double>(d).count();
 }
 
-/// "0:07", "12:34", "1:02:03"; a day and more in hours.
+/// Formats "0:07", "12:34", "1:02:03"; a day or more is shown in hours.
 std::string duration_text(double s) {
     const auto whole = static_cast<std::int64_t>(std::min(std::max(s, 0.0) + 0.5, 3.6e9));
     const auto h = whole / 3600;
@@ -36,7 +37,7 @@ std::string duration_text(double s) {
     return h > 0 ? fmt::format("{}:{:02}:{:02}", h, m, whole % 60) : fmt::format("{}:{:02}", m, whole % 60);
 }
 
-/// "980", "12.4k", "29.5M": three digits or four.
+/// Formats "980", "12.4k", "29.5M", with three or four digits.
 std::string count_text(std::uint64_t n) {
     if (n < 1000) return std::to_string(n);
     double scaled = static_cast<double>(n);
@@ -46,11 +47,11 @@ std::string count_text(std::uint64_t n) {
     return fmt::format("{:.1f}{}", scaled, prefixes[i]);
 }
 
-/// floor(parts · done / total), and `parts` only when all is done, whatever the rounding.
+/// floor(parts · done / total), but `parts` only when everything is done, regardless of rounding.
 int share(std::uint64_t done, std::uint64_t total, int parts) {
     if (done >= total) return parts;
     const double exact = static_cast<double>(done) / static_cast<double>(total) * parts;
-    // 5 % of 100 is 5 although 0.05 · 20 may round to just below 1.
+    // 5 of 100 is one of 20 parts, although 0.05 · 20 may round to just below 1.
     const int rounded = static_cast<int>(exact + 1e-9);
     return std::min(rounded, parts - 1);
 }
@@ -98,7 +99,7 @@ void Progress::advance(std::uint64_t n) {
     }
     const TimePoint now = output_.now();
     if (now.time_since_epoch().count() < next_draw_.load(std::memory_order_relaxed)) return;
-    // Another thread that is drawing does this thread's work too.
+    // If another thread is drawing, it also draws this thread's progress.
     const std::unique_lock lock(drawing_, std::try_to_lock);
     if (lock.owns_lock() && now.time_since_epoch().count() >= next_draw_.load(std::memory_order_relaxed)) draw_bar(now);
 }
@@ -159,7 +160,7 @@ std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
     const std::string samples =
         !task_.empty() ? task_ : fmt::format("{}/{} samples", count_text(done), count_text(total_));
 
-    // The last column stays free: some terminals wrap as soon as it is filled.
+    // Leave the last column free, because some terminals wrap as soon as it is filled.
     const int width = output_.columns() - 1;
     const std::string tail = fmt::format("{}, {}", samples, at);
     const int bar = std::min(width - static_cast<int>(percent.size() + tail.size()) - 4, 60);
@@ -168,7 +169,7 @@ std::string Progress::bar_line(std::uint64_t done, double elapsed) const {
         return fmt::format("{} [{}{}] {}", percent, std::string(static_cast<std::size_t>(filled), '='),
                            std::string(static_cast<std::size_t>(bar - filled), ' '), tail);
     }
-    // Too narrow: give up the bar, then the samples, then the times.
+    // If the line is too narrow, drop the bar, then the samples, then the times.
     for (const std::string& line : {fmt::format("{} {}", percent, tail), fmt::format("{} {}", percent, at)}) {
         if (static_cast<int>(line.size()) <= width) return line;
     }
@@ -190,7 +191,7 @@ std::uint64_t TimeProgress::milliseconds() const {
 void TimeProgress::tell() {
     const std::uint64_t now = milliseconds();
     std::uint64_t before = told_.load(std::memory_order_relaxed);
-    // One thread alone tells of each millisecond.
+    // Only one thread reports each millisecond.
     while (before < now)
         if (told_.compare_exchange_weak(before, now, std::memory_order_relaxed)) return progress_.advance(now - before);
 }

@@ -1,5 +1,5 @@
-// How far the rendering is, on standard error: a bar on a terminal, otherwise (a log, a pipe) lines
-// "Progress: 15%, 0:12 elapsed, ETA 1:07".
+// Progress of rendering on standard error: a bar on a terminal, otherwise (a log or a pipe) lines "Progress: 15%, 0:12
+// elapsed, ETA 1:07".
 #pragma once
 
 #include <atomic>
@@ -12,32 +12,33 @@
 
 namespace phasetree::tracer {
 
-/// Where and how progress is shown.
+/// Where and how to show progress.
 struct ProgressOutput {
     using Clock = std::chrono::steady_clock;  ///< monotonic: setting the computer's time must not move the estimate
 
-    std::ostream* stream = nullptr;  ///< null: silence
+    std::ostream* stream = nullptr;  ///< null for no output
     bool terminal = false;
     std::function<int()> columns = [] { return 80; };
-    std::function<Clock::time_point()> now = [] { return Clock::now(); };  ///< called from every thread
+    std::function<Clock::time_point()> now = [] { return Clock::now(); };  ///< called from any thread
 
-    /// Standard error; a bar where it is a terminal that can erase a line. Silent if quiet.
+    /// Standard error, with a bar if it is a terminal that can erase lines. No output if `quiet`.
     static ProgressOutput standard_error(bool quiet);
 };
 
 class Progress {
   public:
-    /// total: the number of samples to come; or of something else, of which the bar tells the `task` and not how many.
+    /// `total` is the number of samples to render. With a `task`, it counts something else, and the bar shows the task
+    /// instead of the count.
     Progress(std::uint64_t total, ProgressOutput output, std::string task = {});
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// n more samples are done. Any thread; cheap enough for every tile, not for every sample.
+    /// Reports n more completed samples. Thread-safe. Cheap enough to call per tile, but not per sample.
     void advance(std::uint64_t n);
 
-    /// Removes the bar, or ends the lines with 100 % if all is done. To be called before other text goes to the
-    /// terminal; the destructor does it too. After an interruption the lines end where the work ended.
+    /// Removes the bar, or, if everything is done, ends the lines with 100 %. After an interruption the last line shows
+    /// how far the work got. Call this before other text is printed on the terminal; the destructor calls it too.
     void finish();
 
   private:
@@ -56,20 +57,20 @@ class Progress {
     std::atomic<std::uint64_t> done_{0};
     std::atomic<TimePoint::rep> next_draw_;
     std::atomic<int> shown_twentieths_{-1};
-    std::mutex drawing_;  ///< guards all below, and the stream
+    std::mutex drawing_;  ///< guards everything below, and the stream
     bool finished_ = false;
     TimePoint last_draw_;
     std::uint64_t last_done_ = 0;
-    double recent_samples_ = 0.0;  ///< both with exponentially fading weight; their quotient is the rate
+    double recent_samples_ = 0.0;  ///< exponentially decaying sums; their quotient is the rate
     double recent_seconds_ = 0.0;
 };
 
-/// The progress of something that ends with its time: of the time that has passed.
+/// Progress of work with a deadline: shows the elapsed time.
 class TimeProgress {
   public:
     TimeProgress(ProgressOutput::Clock::time_point end, ProgressOutput output, std::string task);
 
-    /// Any thread; as cheap as Progress::advance.
+    /// Updates the display. Thread-safe, and as cheap as Progress::advance.
     void tell();
 
   private:

@@ -6,7 +6,7 @@
 namespace phasetree::tracer {
 namespace {
 
-// NaN compares false with everything and ends up at 0.
+// NaN compares false with everything, and becomes 0.
 float unit(float v) {
     return v > 0.0f ? std::min(v, 1.0f) : 0.0f;
 }
@@ -14,13 +14,13 @@ float unit(float v) {
 }  // namespace
 
 float dither_threshold(int x, int y) {
-    // 2^32 / ρ and 2^32 / ρ², where ρ³ = ρ + 1; the additions wrap, which is the fractional part.
+    // 2³² / ρ and 2³² / ρ², where ρ³ = ρ + 1. Integer overflow yields the fractional part.
     constexpr std::uint32_t inverse_plastic = 3242174889u;
     constexpr std::uint32_t inverse_plastic_squared = 2447445414u;
     const std::uint32_t h =
         static_cast<std::uint32_t>(x) * inverse_plastic + static_cast<std::uint32_t>(y) * inverse_plastic_squared;
-    // 256 levels at odd multiples of 1/512: rounding errors of the display transform, far below that, cannot push a
-    // value that is a code already over to its neighbour.
+    // 256 levels at odd multiples of 1/512. Rounding errors of the display transform are far smaller, so they cannot
+    // push a value that is exactly a code to a neighbouring one.
     return (static_cast<float>(h >> 24) + 0.5f) / 256.0f;
 }
 

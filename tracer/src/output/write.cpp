@@ -11,10 +11,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-// What `encoding` gives, as a file.
+// Writes the result of `encoding` to a file.
 template <class Encoding>
 void write_encoded(const std::filesystem::path& path, Encoding&& encoding) {
-    check_file_writable(path);  // first, so that what is said is the same before and after rendering
+    check_file_writable(path);  // first, so that errors are the same before and after rendering
     std::vector<unsigned char> bytes;
     try {
         bytes = encoding();
@@ -24,11 +24,11 @@ void write_encoded(const std::filesystem::path& path, Encoding&& encoding) {
     write_file(bytes, path);
 }
 
-// Files are written though another cannot be.
+// If one file fails, the others are still written.
 void write_layers(const Image& image, const std::filesystem::path& path, const Metadata& metadata) {
     std::optional<OutputError> first_error;
     std::vector<Layer> layers = layers_of(image);
-    // The picture comes first there. Here it is written last, so that where its file is the others are, too.
+    // The picture is the first layer. Write it last, so that if its file exists, so do the others.
     std::rotate(layers.begin(), layers.begin() + 1, layers.end());
     for (const Layer& layer : layers) try {
             write_encoded(file_of_plane(path, layer.name), [&] { return encode_layer(image, layer, metadata); });
@@ -38,7 +38,7 @@ void write_layers(const Image& image, const std::filesystem::path& path, const M
     if (first_error) throw *first_error;
 }
 
-// The format; throws OutputError for a name that asks for what cannot be.
+// Returns the format. Throws OutputError if the name asks for something impossible.
 Format checked_format(const std::filesystem::path& path) {
     const Format format = format_of(path);
     if (!is_for_each_plane(path)) return format;

@@ -9,7 +9,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The mean of a texture over places all through the bounds.
+// The mean of a texture over points throughout the bounds.
 glm::vec3 mean(const Texture& texture, const Bounds& b) {
     constexpr int along = 5;
     glm::vec3 sum(0);
@@ -21,8 +21,8 @@ glm::vec3 mean(const Texture& texture, const Bounds& b) {
     return sum / static_cast<float>(along * along * along);
 }
 
-// What a deep, matt-lit layer of a medium that scatters sends back: van de Hulst's fit to the half-space with the
-// similarity s = √((1 − α)/(1 − αg)), of which α is the albedo (Multiple Light Scattering 2, 1980).
+// The reflectance of a deep, diffusely lit layer of a scattering medium: van de Hulst's fit for the half-space with the
+// similarity s = √((1 − α)/(1 − αg)), where α is the albedo (Multiple Light Scattering 2, 1980).
 glm::vec3 reflectance(const ScatteringCoefficients& medium) {
     const glm::vec3 albedo = medium.scattering / glm::max(medium.extinction(), glm::vec3(1e-6f));
     const glm::vec3 s =
@@ -30,19 +30,19 @@ glm::vec3 reflectance(const ScatteringCoefficients& medium) {
     return (1.f - s) * (1.f - 0.139f * s) / (1.f + 1.17f * s);
 }
 
-// What metal reflects head-on.
+// The reflectance of metal at normal incidence.
 glm::vec3 reflectance(const Conductor& c) {
     const glm::vec3 k2 = c.k * c.k, less = c.eta - 1.f, more = c.eta + 1.f;
     return (less * less + k2) / (more * more + k2);
 }
 
-// However strong a light is, its colour should be seen.
+// Shows the colour of a light, however bright it is.
 void show_light(const glm::vec3& light, Look& look) {
     look.kind = Look::glowing;
     look.color = light * std::min(1.f, 3.f / std::max({light.x, light.y, light.z, 1e-6f}));
 }
 
-// The mean density of a medium in a box, by 8³ places.
+// The mean density of a medium in a box, sampled at 8³ points.
 float mean_density(const VaryingMedium& medium, const Bounds& box) {
     float sum = 0;
     for (int row = 0; row < 64; ++row) {
@@ -58,8 +58,8 @@ float mean_density(const VaryingMedium& medium, const Bounds& box) {
     return sum;
 }
 
-// What is in a clear phase: a flame glows, and what scatters looks like a diffuse surface, but for what is so thin that
-// most light passes half of the object. Where the density varies the page shows its mean everywhere.
+// Shows the medium inside a clear phase. Flames glow, and scattering media look like a diffuse surface, unless they are
+// so thin that most light passes half of the object. A varying density is shown as its mean.
 void show(const Medium& interior, const Bounds& bounds, Look& look) {
     constexpr float thin = 0.5f;
     const auto* varying = std::get_if<VaryingMedium>(&interior);
@@ -97,7 +97,7 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
                 look.kind = Look::metal;
                 look.color = m.reflectance ? mean(*m.reflectance, bounds) : reflectance(m);
             } else if constexpr (requires { m.amount; }) {
-                // Pages show one material: the one that there is more of in the middle of the object.
+                // A page shows only one material: the dominant one at the centre of the object.
                 const bool is_second = number_at(m.amount, TexturePoint(bounds.centre())) >= 0.5f;
                 look = look_of(name, is_second ? m.of->second : m.of->first, bounds);
             } else if constexpr (requires { m.light; }) {

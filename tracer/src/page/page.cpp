@@ -27,7 +27,7 @@ std::string base64(std::span<const unsigned char> bytes) {
     return text;
 }
 
-// Compressed as browsers unpack it, and as text.
+// Compressed in a format that browsers can unpack, and encoded as text.
 std::string packed(std::string_view bytes) {
     uLongf size = compressBound(bytes.size());
     std::vector<unsigned char> result(size);
@@ -42,7 +42,7 @@ std::string packed(const std::vector<float>& numbers) {
     return packed(bytes);
 }
 
-// A text in JavaScript, which also stands in HTML.
+// A JavaScript string literal that is safe inside HTML.
 std::string in_script(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {

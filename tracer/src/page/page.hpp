@@ -1,5 +1,5 @@
-// One file that shows an object in a browser, from disk and without a net: the object's shader, its numbers and what
-// moves the camera.
+// A self-contained page that shows an object in a browser, without a network: the object's shader, its numbers, and
+// camera controls.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,7 +19,7 @@ struct PageView {
 
 PageView view_of(const AnyCameraParameters&);
 
-// The page's text. `floor` is the height of the ground.
+// Returns the text of the page. `floor` is the height of the ground.
 std::string make_page(const std::string& title, const GlslShader&, const Bounds&, const std::vector<Look>&,
                       const PageView&, float floor);
 

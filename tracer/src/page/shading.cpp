@@ -1,7 +1,7 @@
-// What a page's shader does with the functions of the object: one path for each pixel, which goes straight on by the
-// strongest of reflection and refraction. At each clear interface Fresnel's part of the surroundings is added, and the
-// rest goes on inside; at an opaque one there is light from the sky and, unless something opaque is in the way, from a
-// lamp.
+// The part of a page's shader that uses the functions of the object. It traces one path per pixel, without branching.
+// At a clear interface the path is refracted, or reflected if reflection is total; where it enters from the vacuum, the
+// Fresnel share of the surroundings is added. At an opaque interface, light from the sky is added, and light from a
+// lamp unless something opaque is in the way.
 #include "page/text.hpp"
 
 namespace phasetree::tracer::page {

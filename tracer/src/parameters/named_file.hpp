@@ -1,4 +1,4 @@
-// Files that scenes name.
+// Files named in scenes.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace phasetree::tracer {
 
-/// All of a file. Throws ParameterError of "file" for one that is none, cannot be read, or is larger than so many
-/// bytes, which the message calls `limit`.
+/// Reads a whole file. Throws ParameterError for "file" if it is not a regular file, cannot be read, or is larger than
+/// `most_bytes`, which the message calls `limit`.
 std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit);
 
 }  // namespace phasetree::tracer

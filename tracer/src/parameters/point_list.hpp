@@ -1,4 +1,4 @@
-// Lists of points as parameters.
+// Parameters that are lists of points.
 #pragma once
 
 #include <glm/vec3.hpp>

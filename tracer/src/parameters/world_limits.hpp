@@ -1,5 +1,5 @@
-// Where things may be and how large. Rays from farther than Embree's 1.8·10¹⁸ end the program there, and differences of
-// coordinates have no digits left long before.
+// Limits on positions and sizes. Rays from beyond Embree's limit of 1.8·10¹⁸ end the program, and differences of
+// coordinates lose all digits long before that.
 #pragma once
 
 #include "phasetree/model/parameter.hpp"

@@ -25,17 +25,17 @@ const std::array<NamedFilter, 2>& filters() {
     return all;
 }
 
-// A camera that names no kind is a thin lens, of which two members at least are required.
+// A camera without a named kind is a thin lens, which requires at least two members.
 bool names_its_kind(Value value) {
     return value.is_object() && value.size() == 1 && value[0].is_object();
 }
 
-// Where a camera stands that is turned by its angle: Rodrigues' formula about the unit vector k,
+// The position of a camera that is rotated by its angle. Rodrigues' formula about the unit vector k is
 //     k (k · d) + (d − k (k · d)) cos a + (k × d) sin a.
 template <class Kind>
 glm::vec3 turned_position(const Kind& kind) {
     if (kind.turn_degrees == 0.0f) return kind.position;
-    // The camera replaces an axis of no length by +y, too.
+    // As in the camera itself, a zero axis is replaced by +y.
     const glm::dvec3 up = kind.up == glm::vec3(0.0f) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(kind.up);
     const glm::dvec3 axis = glm::normalize(up), away = glm::dvec3(kind.position) - glm::dvec3(kind.look_at);
     const double angle = static_cast<double>(kind.turn_degrees) * std::numbers::pi / 180.0;
@@ -57,8 +57,8 @@ AnyCameraParameters read_camera_of_kind(const Document& document, Value members,
     });
 }
 
-// Along the axis to the plane of focus through the point that is given. `across` is the plane's normal, over its cosine
-// with the axis.
+// The distance along the axis to the plane of focus through the given point. `across` is the plane's normal, divided by
+// its cosine with the axis.
 template <class Kind>
 float distance_of_focus(const Kind& kind, const glm::vec3& across) {
     if (kind.focus_distance)
@@ -92,7 +92,7 @@ ThinLensParameters ThinLensKind::made() const {
 TiltShiftParameters TiltShiftKind::made() const {
     TiltShiftParameters p = *this;
     if (focus_at) {
-        // Where the tilted plane through the point meets the axis.
+        // The intersection of the axis with the tilted plane through the point.
         const glm::vec3 axis = glm::normalize(look_at - position);
         const glm::vec3 normal(TiltShift(*this, {1, 1}).focus_normal());
         p.focus_distance = distance_of_focus(*this, normal / glm::dot(normal, axis));

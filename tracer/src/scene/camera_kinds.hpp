@@ -1,5 +1,5 @@
-// The kinds of cameras that a scene file names: one list, from which the reader, the reference and the schema follow.
-// made() is what the scene says of the camera.
+// The kinds of cameras in scene files: one list, which drives the reader, the reference and the schema. made() converts
+// what the scene file says into the camera's parameters.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@
 namespace phasetree::tracer {
 
 std::vector<std::string_view> names_of_filters();
-/// One of these names.
+/// The filter with one of these names.
 PixelFilter filter_of_name(std::string_view name);
 
-/// What a scene file says of every camera beside the parameters of its kind.
+/// Parameters of every camera, in addition to those of its kind.
 struct CameraInFile {
     float turn_degrees = 0;
     std::string filter_name = "blackman_harris";
 };
 
-/// What all kinds have: where the camera stands, and how the film filters its samples.
+/// Visits what all kinds have: the camera's position, and the film's filter.
 template <class P, class V>
 void view_parameters(V&& v) {
     v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
@@ -43,7 +43,7 @@ void view_parameters(V&& v) {
                       names_of_filters});
 }
 
-/// Of cameras with a lens: how wide it sees, its opening, and where it is in focus.
+/// Visits what cameras with a lens have: field of view, aperture and focus.
 template <class P, class V>
 void lens_parameters(V&& v) {
     v(&P::vertical_fov_degrees, Parameter{"fov", "degrees", "Angle between the upper and the lower edge of the image.",
@@ -133,7 +133,7 @@ struct DomeKind : DomeParameters, CameraInFile {
 struct OrthographicKind : OrthographicParameters, CameraInFile {
     static constexpr KindInfo info{"orthographic",
                                    "All rays are parallel, so that lengths across them are the same at any distance."};
-    /// The widest picture is 32,768 times as wide as it is high, and rays start no farther away than `farthest`.
+    /// The widest picture has an aspect ratio of 32,768, and rays start no farther away than `farthest`.
     static constexpr float highest = 1e10f;
 
     template <class V>

@@ -17,7 +17,7 @@ std::string name_of(const PixelFilter& filter) {
         const PixelFilter named = filter_of_name(name);
         if (named.shape() == filter.shape() && named.radius() == filter.radius()) return std::string(name);
     }
-    return CameraInFile().filter_name;  // no scene file gives another
+    return CameraInFile().filter_name;  // no scene file uses another filter
 }
 
 template <class Kind>
@@ -34,7 +34,7 @@ std::string members(const Kind& kind) {
     return "{" + text + "}";
 }
 
-// The kind of a camera with these parameters writes them; a thin lens need not be named.
+// Writes the parameters with the kind that has them. A thin lens need not be named.
 template <class Kind, class Parameters>
 void write_if_of(const Parameters& parameters, const PixelFilter& filter, std::string& text) {
     if constexpr (std::is_base_of_v<Parameters, Kind>) {
@@ -53,7 +53,7 @@ std::string written(TypeList<Kinds...>, const Parameters& parameters, const Pixe
     return text;
 }
 
-// Where an object ends that begins at `from`, in a text that has been read as JSON with comments: behind its bracket.
+// The end of an object that begins at `from`, after its closing bracket. The text must be valid JSON with comments.
 std::size_t end_of_object(const std::string& text, std::size_t from) {
     int depth = 0;
     for (std::size_t i = from; i < text.size(); ++i) {

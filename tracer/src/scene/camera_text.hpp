@@ -1,4 +1,4 @@
-// What a scene file says of a camera: the other direction of read_camera.
+// Writes cameras as scene files contain them; the inverse of read_camera.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace phasetree::tracer {
 
-/// The JSON text that stands behind "camera":, by the kinds' lists of parameters. What may be left out and is as it is
-/// when it is left out, is left out.
+/// The JSON text that follows "camera":, according to the kinds' lists of parameters. Optional parameters with default
+/// values are omitted.
 std::string camera_text(const AnyCameraParameters& camera, const PixelFilter& filter);
 
-/// A scene's text with this camera instead of its own, and all else as it was. SceneError if it has none.
+/// The text of a scene with its camera replaced and everything else unchanged. Throws SceneError if it has no camera.
 std::string with_camera(const Document& document, const std::string& camera);
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// Meshes from files: what the file says, placed in the scene.
+// Reads meshes from files and places them in the scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t most_triangles = 100'000'000;
 
-// In STL files each triangle has vertices of its own.
+// Merges equal vertices. In STL files each triangle has its own.
 void join_corners(Mesh& mesh) {
     JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
     mesh.vertices = std::move(joined.points);
     for (glm::uvec3& t : mesh.triangles) t = {joined.of[t.x], joined.of[t.y], joined.of[t.z]};
 }
 
-// Normals of the vertices: the means of those of the triangles around each, weighted by area.
+// Vertex normals: the area-weighted means of the normals of the adjacent triangles.
 AtCorners<glm::vec3> smooth_normals(const Mesh& mesh) {
     AtCorners<glm::vec3> normals;
     normals.values.assign(mesh.vertices.size(), glm::vec3(0.0f));
@@ -38,7 +38,7 @@ AtCorners<glm::vec3> smooth_normals(const Mesh& mesh) {
 }
 
 void make_unit(glm::vec3& v) {
-    // In doubles, because squares of what floats hold may be beyond floats.
+    // In doubles, because the squares of large floats overflow.
     const double length = glm::length(glm::dvec3(v));
     v = length > 0 ? glm::vec3(glm::dvec3(v) / length) : glm::vec3(0.0f);
 }

@@ -1,5 +1,5 @@
-// The parts of a scene file: one list of its outermost keys, from which their names, the reference and the schema
-// follow.
+// The parts of a scene file: one list of the top-level keys, which determines their names, the reference and the
+// schema.
 #pragma once
 
 #include <optional>

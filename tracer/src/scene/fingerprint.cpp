@@ -52,7 +52,7 @@ void put_value(Checksum& sum, const Document& document, Value value) {
             break;
         }
         case Kind::number: {
-            const double number = value.number() + 0.0;  // −0 is 0
+            const double number = value.number() + 0.0;  // turns −0 into 0
             sum.put(&number, sizeof number);
             break;
         }
@@ -78,13 +78,13 @@ std::uint64_t fingerprint(const Document& document) {
         for (const Value part : d.root())
             if (part.key() != "render") put_value(sum, d, part);
     });
-    // Files of pictures at time 0 are as they were before scenes had a time.
+    // At time 0 the fingerprint is the same as before scenes had a time.
     if (const double seconds = document.seconds(); seconds != 0) sum.put(&seconds, sizeof seconds);
     return sum.get();
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings) {
-    // Guiding and wavelengths are told below, so that films from before there were any are still known.
+    // Guiding and wavelengths are appended below, so that films made before they existed are still recognised.
     constexpr std::array<std::string_view, 8> others{
         "width", "height", "samples", "exposure", "view", "frames_per_second", "guiding", "spectral"};
     const ImageParameters values{settings};
@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, std::string>> settings_of_samples(const Rende
         all.emplace_back("shutter", fmt::format("{},{}", settings.shutter.x, settings.shutter.y));
     if (settings.guiding) all.emplace_back("guiding", "true");
     if (settings.spectral) all.emplace_back("spectral", "true");
-    // By it the noise is judged.
+    // The noise is judged at this exposure.
     if (settings.noise > 0) all.emplace_back("exposure", fmt::format("{}", settings.exposure_ev));
     return all;
 }

@@ -1,4 +1,4 @@
-// Which scene a picture is of.
+// Identifies the scene of a picture.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace phasetree::tracer {
 
-/// A number that differs, but for one chance in 2⁶⁴, if anything differs that a scene file says of the scene: the
-/// values of its JSON, in their order, and the content of every file that one of its strings names. Comments, spaces,
-/// and how numbers are written do not matter, and neither does "render", which says how the picture is made and not of
-/// what. The time at which the document is read counts.
+/// A hash of everything that a scene file says about the scene: its JSON values in order, and the content of every file
+/// that one of its strings names. Different scenes have equal hashes with a probability of 2⁻⁶⁴. Ignores comments,
+/// whitespace, number formatting, and "render", which says how the picture is made and not what it shows. Includes the
+/// time at which the document is read.
 std::uint64_t fingerprint(const Document& document);
 
-/// Those settings of "render" on which a sample of a given number depends, as names and values: all but how many
-/// samples there are, how large the picture is and how it is shown.
+/// The settings of "render" that affect the sample with a given number, as names and values. Excludes the number of
+/// samples, the size of the picture, and how it is displayed.
 std::vector<std::pair<std::string, std::string>> settings_of_samples(const RenderSettings& settings);
 
 }  // namespace phasetree::tracer

@@ -18,7 +18,7 @@ Mesh BackdropParameters::made() const {
     const float z = height;
     const float half = 0.5f * width;
     constexpr int steps = 64;
-    std::vector<std::pair<glm::vec2, glm::vec2>> profile;  // (y, z) and the normal in that plane
+    std::vector<std::pair<glm::vec2, glm::vec2>> profile;  // (y, z), and the normal in that plane
     profile.push_back({{-front, z}, {0, 1}});
     for (int i = 0; i <= steps; ++i) {
         const float a = 0.5f * 3.14159265f * static_cast<float>(i) / steps;

@@ -14,19 +14,19 @@ namespace phasetree::tracer {
 
 namespace {
 
-// With more copies of all objects than this, shining or not, no object has balls: to look for those that shine would
-// take too long.
+// If all objects together, emitting or not, have more copies than this, no object has balls: searching the copies for
+// emitters would take too long.
 constexpr std::uint64_t most_copies_searched = 10'000'000;
-// With more copies that shine than this, none has balls.
+// If there are more emitting copies than this, none of them has balls.
 constexpr std::size_t most_shining_copies = 10'000;
-// While there are more balls than this, the object with the most is reduced to one ball a copy.
+// While there are more balls than this, the object with the most is reduced to one ball per copy.
 constexpr std::size_t most_parts = 50'000;
 
-// As the shutter opens, halfway, and as it closes.
+// At the opening of the shutter, halfway, and at its closing.
 using Places = std::array<Transform, 3>;
 
-// A ball around a ball in all three places; between them it may leave that. None if floats do not hold it, or if it has
-// no radius.
+// A ball that contains another ball in all three positions, though not necessarily in between. Returns nullopt if it
+// exceeds the range of floats or has no radius.
 std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& places) {
     Bounds centres;
     double stretch = 0;
@@ -46,7 +46,7 @@ void add(std::span<const ShiningPart> parts, const Places& places, Lights& light
         if (const auto ball = around(part.ball, places)) lights.add(GlowingPart(*ball, part.luminance, part.of));
 }
 
-// One ball around all of them.
+// A single ball around all parts.
 ShiningPart merged(std::span<const ShiningPart> parts) {
     Bounds box;
     float sum = 0;
@@ -59,7 +59,7 @@ ShiningPart merged(std::span<const ShiningPart> parts) {
     return part_in(box, sum / static_cast<float>(parts.size()), of);
 }
 
-// What of an object shines, and where its copies are, by their numbers.
+// The emitting parts of an object, and the transforms and numbers of its copies.
 struct ShiningObject {
     std::vector<ShiningPart> parts;
     std::map<std::uint32_t, Places> copies;
@@ -73,7 +73,7 @@ std::vector<ShiningObject> shining_objects(const Scene& scene) {
     for (std::size_t i = 0; i < objects.size(); ++i) try {
             objects[i].parts = parts_of_phases(placed.objects[i].tree, scene.materials);
         } catch (const ModelError&) {
-            // It cannot be traced; the world says so once it is built.
+            // The object cannot be traced, which building the world reports.
         }
     std::size_t shining = 0;
     for (std::size_t moment = 0; moment < Places().size(); ++moment)

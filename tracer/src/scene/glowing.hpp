@@ -1,16 +1,16 @@
-// Where the phases and meshes are that shine by themselves, by their surface or by the medium inside: balls around
-// parts of them, towards which shadow rays are sent (lights/glowing_part.hpp).
+// Finds the emitting phases and meshes, whether their surface or their interior emits, and covers them with balls,
+// towards which shadow rays are sent (lights/glowing_part.hpp).
 //
-// Which balls there are is a matter of noise alone: what shines outside all balls is found by the paths' directions,
-// and by shadow rays that something else proposed.
+// The choice of balls affects only the noise. Light from outside all balls is found by directions that paths sample,
+// and by shadow rays that were proposed for something else.
 #pragma once
 
 namespace phasetree::tracer {
 
 struct Scene;
 
-/// Adds the balls to the scene's lights, and the groups of lights that its materials name. The scene has all else, but
-/// for Lights::cluster_lamps(), which is to be called after this. Throws ModelError for a tree that cannot be traced.
+/// Adds the balls to the scene's lights, and the groups of lights that its materials name. Everything else in the scene
+/// must be complete. Call Lights::cluster_lamps() afterwards. Throws ModelError for a tree that cannot be traced.
 void find_glowing_parts(Scene&);
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// The files that a glTF file names: buffers and images in its folder.
+// Files referenced by a glTF file: buffers and images in its folder.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace phasetree::tracer {
 
-/// Whether its name is that of a glTF file, .gltf or .glb in any case.
+/// Whether the file has the extension .gltf or .glb, ignoring case.
 bool is_gltf(const std::filesystem::path& file);
 
-/// Where a file is that a document names, by its path from the document's folder. Throws ParameterError of "file" for
-/// one that a link leads out of that folder.
+/// The path of a referenced file, given its path relative to the document's folder. Throws ParameterError for "file" if
+/// a link leads out of that folder.
 std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std::string& name);
 
-/// All files that a document names, but for those that cannot be used; none if it cannot be read.
+/// All usable files that a document references; empty if the document cannot be read.
 std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gltf);
 
 }  // namespace phasetree::tracer

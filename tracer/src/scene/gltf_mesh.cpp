@@ -1,4 +1,4 @@
-// Meshes from glTF files, one for each material that the file has.
+// Reads meshes from glTF files, one per material.
 #include <fmt/format.h>
 
 #include <system_error>
@@ -21,12 +21,13 @@ bool is_gltf(const std::filesystem::path& file) {
     return has_ending_of_mesh(file, {".gltf", ".glb"});
 }
 
-// Links that lead out of the folder are refused: they could lead out of the one that all files of a scene must lie in.
+// Links that lead out of the folder are rejected, because they could also leave the folder that all files of a scene
+// must be in.
 std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std::string& name) {
     const std::filesystem::path folder = gltf.has_parent_path() ? gltf.parent_path() : ".";
     std::error_code problem;
     const std::filesystem::path real = std::filesystem::canonical(folder / name, problem);
-    if (problem) return folder / name;  // there is none, which its reader says
+    if (problem) return folder / name;  // missing; its reader reports it
     const std::filesystem::path within = std::filesystem::canonical(folder, problem);
     const auto [end, rest] = std::mismatch(within.begin(), within.end(), real.begin(), real.end());
     if (problem || end != within.end())
@@ -38,15 +39,15 @@ std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gl
     std::vector<std::filesystem::path> files;
     try {
         const std::string content = read_whole_file(gltf, most_bytes_of_mesh, most);
-        // Buffers need not be read to know what they are called.
+        // The buffers' names are known without reading them.
         const gltf::Document document(content, [](const std::string&) { return std::string(); });
         for (const std::string& name : document.files()) {
             try {
                 files.push_back(file_of_gltf(gltf, name));
-            } catch (const ParameterError&) {  // a link that leads out of the folder, and is not followed
+            } catch (const ParameterError&) {  // a link that leads out of the folder is not followed
             }
         }
-    } catch (const std::runtime_error&) {  // which whoever reads the mesh finds, too
+    } catch (const std::runtime_error&) {  // reading the mesh reports the same error
     }
     return files;
 }

@@ -1,4 +1,4 @@
-// "render" as a scene file says it: how large the image is, and how it is made.
+// The parameters of "render" in a scene file: the size of the image, and how it is made.
 #pragma once
 
 #include "phasetree/io/kind.hpp"

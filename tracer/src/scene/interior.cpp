@@ -1,4 +1,4 @@
-// The interior medium of a clear material, from what a scene file says of it.
+// The medium inside a clear material, from its parameters in a scene file.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ namespace {
 
 using P = ClearParameters;
 
-// A parameter, and whether it is given.
+// A parameter, and whether it was given.
 struct Given {
     const char* key;
     bool is;
 };
 
-// Throws if two are given of which one alone makes sense.
+// Throws if two mutually exclusive parameters are given.
 void refuse_two_of(std::initializer_list<Given> parameters) {
     const Given* first = nullptr;
     for (const Given& one : parameters) {
@@ -32,7 +32,7 @@ void refuse_two_of(std::initializer_list<Given> parameters) {
     }
 }
 
-// Throws if this is given without what it needs.
+// Throws if a parameter is given without the one that it requires.
 void require(const Given& parameter, bool wanted_is_given, const char* wanted) {
     if (parameter.is && !wanted_is_given)
         throw ParameterError(parameter.key, fmt::format("\"{}\" is of no use without {}", parameter.key, wanted),
@@ -69,7 +69,7 @@ void check(const P& p) {
     require(temperatures, density.is || grid.is, "\"density_grid\" or \"density\"");
 }
 
-// Returns nothing if all temperatures are 0.
+// Returns nullopt if all temperatures are 0.
 std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
     constexpr float hottest = 1e5f, coldest = 100;
     const float greatest = temperatures.greatest_number();
@@ -83,7 +83,7 @@ std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
     return Heat(*temperatures.shares, greatest, reference);
 }
 
-// Throws if products with the coefficients of a medium that varies would overflow, where it is densest and hottest.
+// Throws if products with the coefficients of a varying medium would overflow where it is densest and hottest.
 void check_size(const ScatteringCoefficients& c, const std::optional<Heat>& heat, const char* key) {
     constexpr float most_extinction = 1e15f, most_emission = 1e25f;
     const float emission =
@@ -120,7 +120,7 @@ Medium ClearParameters::interior() const {
         c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.g()));
         c.absorption = measured.absorption * *scale;
     }
-    // By wavelength there may be extinction where a colour has none.
+    // Wavelengths may have extinction where the colour has none.
     const bool has_spectrum = absorption_spectrum || emission_spectrum || temperature_grid;
     const glm::vec3 extinction = has_spectrum ? glm::vec3(c.greatest_extinction()) : c.extinction();
     for (int i = 0; i < 3; ++i)

@@ -1,5 +1,5 @@
-// The kinds of materials as a scene file says them: one list, from which the reader, the reference and the schema
-// follow. made() is the material.
+// The kinds of materials in scene files: one list, which drives the reader, the reference and the schema. made()
+// returns the material.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is
 std::vector<std::string_view> names_of_media();
 std::vector<std::string_view> names_of_glasses();
 
-// What clear, conducting and coated materials have of a thin film on their surface.
+// Thin-film parameters of clear, conducting and coated materials.
 struct FilmParameters {
     std::optional<Number> film_thickness{};
     float film_ior = SurfaceFilm{}.ior;
@@ -42,7 +42,7 @@ struct FilmParameters {
     }
 };
 
-// What opaque materials have that turns the normals of their surface.
+// Parameters of opaque materials that perturb the surface normals.
 struct PerturbationParameters {
     std::optional<Texture> bump_texture{};
     std::optional<float> bump_height{};
@@ -62,7 +62,7 @@ struct PerturbationParameters {
           Parameter{"normal_map", "", "Instead of a bump: an image of normals, on a mesh that has texture coordinates.",
                     limits::any, true});
     }
-    /// Throws ParameterError for what does not fit together.
+    /// Throws ParameterError for inconsistent parameters.
     std::optional<NormalPerturbation> perturbation() const;
 };
 
@@ -206,7 +206,7 @@ struct DiffuseParameters : PerturbationParameters {
 
 std::vector<std::string_view> names_of_metals();
 
-// What brushed metal has of a grain.
+// Grain parameters of brushed metal.
 struct GrainParameters {
     std::optional<glm::vec3> grain_along{};
     std::optional<glm::vec3> grain_around{};
@@ -234,7 +234,7 @@ struct GrainParameters {
           Parameter{"grain_aspect", "", "With a grain: the roughness along the strokes over that across; 0.2 without.",
                     Limits{.low = 0.1f, .high = 1}, true});
     }
-    /// `roughness` is that of the metal. Throws ParameterError for what does not fit together.
+    /// `roughness` is that of the metal. Throws ParameterError for inconsistent parameters.
     std::optional<Grain> grain(const Number& roughness) const;
 };
 
@@ -335,7 +335,7 @@ struct MixParameters {
 using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters,
                                GlowingParameters, MixParameters>;
 
-// Who adds a material and forgets the list is told here.
+// A material missing from the list fails to compile here.
 template <class... Kinds, class... Materials>
 constexpr bool make_all_of(TypeList<Kinds...>, const std::variant<Materials...>*) {
     constexpr auto is_made = []<class M>(const M*) {
@@ -345,7 +345,7 @@ constexpr bool make_all_of(TypeList<Kinds...>, const std::variant<Materials...>*
 }
 static_assert(make_all_of(MaterialKinds(), static_cast<Material*>(nullptr)), "every material has a kind in the list");
 
-// A material's kind, as scene files name it.
+// The name of a material's kind in scene files.
 template <class... Kinds>
 std::string_view kind_name(const Material& material, TypeList<Kinds...>) {
     return std::visit(

@@ -1,4 +1,4 @@
-// Triangles beside the object, of one opaque material; they may have holes.
+// Triangles with one opaque material, in addition to the objects. They may have holes.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,27 +16,27 @@ namespace phasetree::tracer {
 struct Mesh {
     std::vector<glm::vec3> vertices{};
     std::vector<glm::uvec3> triangles{};
-    AtCorners<glm::vec3> normals{};    // of length 1, or 0 where there is none; with them the shading is smooth
-    AtCorners<glm::vec2> uv{};         // texture coordinates, by which images can be laid on it
+    AtCorners<glm::vec3> normals{};    // of length 1, or 0 where undefined; if present, shading is smooth
+    AtCorners<glm::vec2> uv{};         // texture coordinates, for image textures
     AtCorners<glm::vec3> colors{};     // linear Rec.709, each channel in [0, 1]
     AtCorners<glm::vec2> second_uv{};  // for images that are not laid by the first coordinates
     AtCorners<float> alphas{};         // of the colours, each in [0, 1]; only where the opacity follows them
     AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
     std::optional<Opacity> opacity{};  // none is opaque everywhere
     Material material{};
-    // Its kind, with a number behind it from the second of a kind on: "floor", "obj 2". A part of a glTF file
-    // also has the name of its material: "gltf wood".
+    // The kind of the mesh, numbered from the second of a kind on: "floor", "obj 2". A part of a glTF file also has the
+    // name of its material: "gltf wood".
     std::string name{};
 };
 
-// The meshes that come from one file, one for each of its materials.
+// The meshes from one file, one per material.
 struct MeshGroup {
     std::vector<Mesh> meshes;
-    std::vector<std::string> not_shown{};  // sentences about what is in the file and not in the meshes
+    std::vector<std::string> not_shown{};  // sentences about contents of the file that the meshes lack
 };
 
-// The mean of three values at a triangle's corners by barycentric coordinates, of which u belongs to the second corner
-// and v to the third, as Embree has them.
+// Interpolates values at a triangle's corners by barycentric coordinates. As in Embree, u belongs to the second corner
+// and v to the third.
 template <class T>
 T at_barycentric(const Mesh& mesh, const AtCorners<T>& values, std::size_t triangle, float u, float v) {
     const auto corner = [&](int i) { return values.at(mesh.triangles, triangle, i); };

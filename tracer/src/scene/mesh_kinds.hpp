@@ -1,5 +1,5 @@
-// The kinds of meshes as a scene file says them: one list, from which the reader, the reference and the schema follow.
-// made() is the mesh, or a group of meshes from one file.
+// The kinds of meshes in scene files: one list, which drives the reader, the reference and the schema. made() returns
+// the mesh, or a group of meshes from one file.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace phasetree::tracer {
 
 inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
 
-// What meshes that are of one material have of holes.
+// Parameters for holes in meshes of a single material.
 struct OpacityParameters {
     std::optional<Number> opacity_number{};
     std::optional<float> opacity_cutoff{};
@@ -33,11 +33,11 @@ struct OpacityParameters {
                     "With an opacity: below this it is a hole, and else opaque, so that edges are sharp.",
                     limits::fraction, true});
     }
-    /// Throws ParameterError for a cutoff alone.
+    /// Throws ParameterError if only a cutoff is given.
     std::optional<Opacity> opacity() const;
 };
 
-// What meshes from files of one mesh have.
+// Parameters of meshes from files that contain a single mesh.
 struct MeshFileParameters : OpacityParameters {
     Material material{};
     std::filesystem::path file{};
@@ -59,8 +59,8 @@ struct MeshFileParameters : OpacityParameters {
                                 "by the mean of those of the faces around each vertex.",
                                 limits::any, true});
     }
-    // `ending` is that of the format that the file must be of, such as ".obj". Both throw ParameterError; the first
-    // checks what it can without reading the file.
+    // `ending` is the required extension, such as ".obj". Both throw ParameterError. The first checks what it can
+    // without reading the file.
     void check_without_file(std::string_view ending) const;
     Mesh read(std::string_view ending) const;
 };
@@ -160,7 +160,7 @@ struct FloorParameters : OpacityParameters {
     Mesh made() const;
 };
 
-// A photographer's sweep: a floor at z = height that curves up into a wall at y = distance, without an edge.
+// A photographer's sweep: a floor at z = height that curves smoothly up into a wall at y = distance.
 struct BackdropParameters : OpacityParameters {
     static constexpr KindInfo info{
         "backdrop", "A photographer's sweep: a floor that curves up into a wall behind, without an edge."};

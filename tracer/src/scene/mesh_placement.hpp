@@ -1,4 +1,4 @@
-// What reading meshes from files of all kinds has in common: what the files must be, and how they are placed.
+// What readers of mesh files have in common: checks of the file, and placement.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,14 @@ namespace phasetree::tracer {
 
 inline constexpr std::uintmax_t most_bytes_of_mesh = std::uintmax_t{1} << 30;
 
-/// Whether the name of the file has one of these endings, in any case.
+/// Whether the file name has one of these extensions, ignoring case.
 bool has_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings);
 
-/// Throws ParameterError of "file" unless the name of the file has one of these endings, such as ".obj", in any case.
+/// Throws ParameterError for "file" unless its name has one of these extensions, such as ".obj", ignoring case.
 void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_list<std::string_view> endings);
 
-/// Moves vertices, normals and tangents. Throws ParameterError of "file" for coordinates that a scene cannot have.
+/// Transforms vertices, normals and tangents. Throws ParameterError for "file" if coordinates exceed the limits of a
+/// scene.
 void place(Mesh& mesh, const Placement& placement, const std::filesystem::path& file);
 
 }  // namespace phasetree::tracer

@@ -15,7 +15,7 @@ namespace {
 struct Corner {
     glm::vec3 place, normal;
     glm::vec2 uv;
-    float side;         // 1, or −1 where the image is mirrored
+    float side;         // 1, or −1 if the image is mirrored
     glm::vec3 tangent;  // of its own triangle, weighted
 
     auto key() const { return std::tuple(place.x, place.y, place.z, normal.x, normal.y, normal.z, uv.x, uv.y, side); }
@@ -69,7 +69,7 @@ AtCorners<glm::vec4> tangents_of(const Mesh& mesh) {
         for (const Corner& corner : corners_of(mesh, t)) corners.push_back(corner);
     std::vector<std::uint32_t> sorted(corners.size());
     std::iota(sorted.begin(), sorted.end(), 0u);
-    // Stable, so that sums do not depend on how it is sorted.
+    // Stable, so that sums do not depend on the sorting algorithm.
     std::ranges::stable_sort(sorted, {}, [&](std::uint32_t i) { return corners[i].key(); });
 
     AtCorners<glm::vec4> tangents;

@@ -24,7 +24,7 @@ bool has_meshes_alone(const Scene& scene) {
 }
 
 Phased object_beside_meshes_alone() {
-    // Rays that leave a mesh start farther from it where the object is larger than about a metre.
+    // Rays leaving a mesh start farther from it if the object is larger than about a metre.
     constexpr float size = 0.25f;
     return nothing_of_size(size);
 }

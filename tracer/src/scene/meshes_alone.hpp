@@ -1,5 +1,5 @@
-// Scenes that have meshes and no object: they are vacuum everywhere but at the meshes. So that all that works on one
-// tree works on them, their tree is one that is empty.
+// Scenes with meshes but no object, which are vacuum except for the meshes. They are given an empty tree, so that code
+// that works on a tree also works on them.
 #pragma once
 
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace phasetree::tracer {
 
-/// Whether the document has "meshes", and neither "phases" nor anything that would be an object. Throws SceneError if,
-/// beside meshes, there is only one of "phases" and "tree".
+/// Whether the document has "meshes", and neither "phases" nor anything that defines an object. Throws SceneError if it
+/// has meshes and only one of "phases" and "tree".
 bool has_meshes_alone(const Document&);
-/// The same of a scene that was read.
+/// As above, for a scene that has been read.
 bool has_meshes_alone(const Scene&);
 
-/// The object of such a scene: nothing of it is left, and its bounds are small.
+/// The object of such a scene: empty, with small bounds.
 Phased object_beside_meshes_alone();
 
-/// Throws SceneError for such a scene, where an object is needed.
+/// Throws SceneError for such a scene; for use where an object is required.
 void refuse_meshes_alone(const Document&);
 
-/// The smallest box around all meshes.
+/// The bounding box of all meshes.
 Bounds bounds_of(std::span<const Mesh>);
 
 }  // namespace phasetree::tracer

@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A symmetric matrix by its eigenvalues and -vectors, which Jacobi's rotations find (Golub and Van Loan: Matrix
+// The eigenvalues and eigenvectors of a symmetric matrix, computed by Jacobi rotations (Golub and Van Loan: Matrix
 // Computations, section 8.5).
 struct Axes {
     glm::dmat3 directions{1};  // columns
@@ -41,7 +41,7 @@ Axes axes_of(glm::dmat3 m) {
     return axes;
 }
 
-// Of a symmetric matrix, the absolutely greatest eigenvalue at most.
+// An upper bound on the absolute eigenvalues of a symmetric matrix.
 double greatest(const glm::dmat3& symmetric) {
     double most = 0;
     for (int i = 0; i < 3; ++i)
@@ -49,17 +49,17 @@ double greatest(const glm::dmat3& symmetric) {
     return most;
 }
 
-// The angle of the turn from one to the other, the shorter way.
+// The angle of the shorter rotation from one to the other.
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const double cosine = std::min(std::abs(glm::dot(a, b)), 1.0);
-    // Of small angles the cosine says little: the distance of the quaternions says more.
+    // The cosine of a small angle is imprecise; the distance between the quaternions is not.
     const double distance = std::min(glm::length(a - b), glm::length(a + b));
     return cosine > 0.9 ? 4 * std::asin(std::min(distance / 2, 1.0)) : 2 * std::acos(cosine);
 }
 
 }  // namespace
 
-// S = √(Mᵀ M), and R = M S⁻¹; of a transform that mirrors, both with the other sign, so that R turns.
+// S = √(Mᵀ M), and R = M S⁻¹. If the transform mirrors, both change sign, so that R is a rotation.
 Pose Pose::of(const Transform& transform) {
     const Axes axes = axes_of(glm::transpose(transform.matrix) * transform.matrix);
     const double sign = glm::determinant(transform.matrix) < 0 ? -1 : 1;
@@ -86,10 +86,10 @@ Transform MovingTransform::at(double time) const {
     return between(before.pose, after->pose, (time - before.time) / (after->time - before.time)).transform();
 }
 
-// On the way from one moment to the next a point moves along x(s) = R(s) S(s) p + v(s), with s from 0 to 1. R turns at
-// the constant speed θ, S and v change linearly, so |x''| ≤ θ² |S| |p| + 2 θ |S'| |p|. A curve is nowhere farther from
-// the chord between two of its points, h of s apart, than max |x''| h²/8. So the boxes at both ends, united and made
-// larger by that, hold it.
+// Between two moments a point moves along x(s) = R(s) S(s) p + v(s), with s from 0 to 1. R rotates at the constant
+// speed θ, and S and v change linearly, so |x''| ≤ θ² |S| |p| + 2 θ |S'| |p|. The distance of a curve from the chord
+// between two of its points, h apart in s, is at most max |x''| h²/8. So the union of the boxes at both ends, enlarged
+// by that, contains the path.
 Bounds MovingTransform::swept(const Bounds& box) const {
     if (box.empty()) return {};
     double farthest_point = 0;

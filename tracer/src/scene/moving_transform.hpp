@@ -1,10 +1,10 @@
 // A transform that changes while the shutter is open.
 //
-// Between two moments a map is interpolated by its polar decomposition M = R S, of a rotation and a symmetric matrix
-// (Shoemake and Duff: Matrix Animation and Polar Decomposition, Graphics Interface 1992): where the origin goes, and S,
-// change linearly, and R by spherical linear interpolation the shorter way (Shoemake: Animating Rotation with
-// Quaternion Curves, SIGGRAPH 1985). So a turn is a turn, without shrinking on the way, and a stretch stays along its
-// own axes.
+// Between two moments, a map is interpolated by its polar decomposition M = R S into a rotation and a symmetric matrix
+// (Shoemake and Duff: Matrix Animation and Polar Decomposition, Graphics Interface 1992). The translation and S are
+// interpolated linearly, and R by spherical linear interpolation the shorter way (Shoemake: Animating Rotation with
+// Quaternion Curves, SIGGRAPH 1985). A rotation thus stays a rotation, without shrinking on the way, and a stretch
+// stays along its own axes.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -14,7 +14,7 @@
 
 namespace phasetree::tracer {
 
-/// A transform, taken apart: p ↦ turn (stretch p) + by.
+/// A decomposed transform: p ↦ turn (stretch p) + by.
 struct Pose {
     glm::dquat turn{1, 0, 0, 0};
     glm::dmat3 stretch{1};  ///< symmetric; negative definite if the transform mirrors
@@ -25,24 +25,24 @@ struct Pose {
     bool mirrors() const { return glm::determinant(stretch) < 0; }
 };
 
-/// By a share in [0, 1] of the way from one to the other. Both mirror, or neither; what is between them then is as far
-/// from being flat as they are.
+/// Interpolates by `share`, in [0, 1]. Both or neither must mirror; every map in between is then as far from singular
+/// as they are.
 Pose between(const Pose& from, const Pose& to, double share);
 
 class MovingTransform {
   public:
     struct Moment {
-        double time = 0;  ///< a share of the time in which the shutter is open
+        double time = 0;  ///< as a fraction of the time in which the shutter is open
         Pose pose{};
     };
 
-    /// At two moments at least, in the order of their times, which rise from 0 to 1.
+    /// Requires at least two moments, with increasing times from 0 to 1.
     explicit MovingTransform(std::vector<Moment> moments) : moments_(std::move(moments)) {}
 
     Transform at(double time) const;
     /// A box around the images of a box at all times.
     Bounds swept(const Bounds& box) const;
-    /// By how much it makes lengths longer at most, at any time.
+    /// An upper bound on the factor by which lengths grow at any time.
     double stretch() const;
 
   private:

@@ -18,17 +18,17 @@ std::optional<std::filesystem::path> named_file(const Document& document, Value 
         std::error_code problem;
         std::filesystem::path path = document.file(string);
         if (std::filesystem::is_regular_file(path, problem)) return path;
-    } catch (const SceneError&) {  // not within the folder that files must lie in, so none that is read
+    } catch (const SceneError&) {  // outside the folder that files must be in, so it is never read
     }
     return std::nullopt;
 }
 
-// "#rrggbb", and what looks like it, is no name of a file.
+// Text like "#rrggbb" is not a file name.
 bool is_colour(std::string_view text) {
     return text.starts_with('#') && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string_view::npos;
 }
 
-// The images of a stack; none if it is no name of one.
+// The images of a stack; empty if the string does not name one.
 std::vector<std::filesystem::path> layers_named_by(const Document& document, Value string) {
     std::vector<std::filesystem::path> layers;
     try {
@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> layers_named_by(const Document& document, Val
             std::error_code problem;
             if (std::filesystem::is_regular_file(layer, problem)) layers.push_back(std::move(layer));
         }
-    } catch (const std::runtime_error&) {  // which whoever reads it says, if it should be one
+    } catch (const std::runtime_error&) {  // the reader reports it if there should be a stack
     }
     return layers;
 }
@@ -83,7 +83,7 @@ std::uint64_t bytes_of_named_files(const Document& document) {
     std::uint64_t bytes = 0;
     try {
         each_document(document, [&](const Document& d) { bytes += bytes_named_in(d, d.root()); });
-    } catch (const SceneError&) {  // which whoever reads the scene finds, too
+    } catch (const SceneError&) {  // reading the scene reports the same error
     }
     return bytes;
 }

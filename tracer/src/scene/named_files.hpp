@@ -10,17 +10,17 @@
 
 namespace phasetree::tracer {
 
-/// The regular file that a string names, if there is one, and those that it names itself; and the images of the stack
-/// that a string such as "layer_###.png" names. Which strings name files only their readers know: one that is a file's
-/// name by chance counts, too. No file that lies outside of the folder that files must lie in is asked for.
+/// The regular file that a string names, if it exists, together with the files that it references; or the images of a
+/// stack, for a string such as "layer_###.png". Only readers know which strings are file names, so a string that
+/// happens to name a file counts too. Files outside the permitted folder are never accessed.
 std::vector<std::filesystem::path> named_files(const Document& document, Value string);
 
-/// Calls f with each document from which a scene takes an object, after `document` itself. Throws SceneError for one
-/// that cannot be read.
+/// Calls f with `document`, then with each document that provides an object of the scene. Throws SceneError for a
+/// document that cannot be read.
 void each_document(const Document& document, const std::function<void(const Document&)>& f);
 
-/// How many bytes all files have that a scene names, each as often as it is named; where an object's file cannot be
-/// read, without those behind it.
+/// The total size in bytes of all files that a scene names, counted once per mention. If an object's file cannot be
+/// read, later ones are not counted.
 std::uint64_t bytes_of_named_files(const Document& document);
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// What scene files say of objects and of their places, as lists of parameters.
+// Parameter lists of objects and their placement in scene files.
 #pragma once
 
 #include "phasetree/io/kind.hpp"
@@ -12,7 +12,7 @@
 
 namespace phasetree::tracer {
 
-/// Those of the tree's nodes that are affine maps, with their own parameters.
+/// The tree nodes that are affine maps, with their own parameters.
 using TransformKinds = TypeList<Translate, Rotate, Scale, Stretch, Affine>;
 
 inline constexpr std::string_view transform_schema = R"({"$ref": "#/definitions/transform"})";

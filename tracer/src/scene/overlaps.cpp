@@ -14,13 +14,13 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A few of each pair of objects, so that those of one pair do not hide another pair.
+// Few per pair of objects, so that overlaps of one pair do not hide those of another.
 constexpr std::size_t most_found = 12, most_found_of_objects = 3;
 constexpr std::size_t most_pairs = 200'000, most_evaluations_of_pair = 4096;
 constexpr std::size_t most_evaluations = 4'000'000;
 // Copies beyond these are ignored.
 constexpr std::uint32_t most_looked_at = 2'000'000;
-// Of the smaller box's diagonal.
+// As a fraction of the smaller box's diagonal.
 constexpr double depth_that_counts = 1e-4;
 
 struct CopyInBox {
@@ -29,14 +29,14 @@ struct CopyInBox {
     Transform to_object;
 };
 
-// How deep a point of the scene is inside of an object: at least so far from all that is outside of it.
+// A lower bound on the depth of a scene point inside an object: its distance to the object's exterior.
 class DepthField {
   public:
     explicit DepthField(const Phased& tree) : evaluator_(record(tree)) {}
-    // Of a point of the object's space, in its unit of length.
+    // For a point in object space, in its unit of length.
     double at(const glm::vec3& p) const {
         const Phases<float> phi = evaluator_.distances(p, Evaluator::thread_workspace());
-        // The vacuum's component is positive inside. An object that has none is everywhere.
+        // The vacuum's component is positive inside. An object without a vacuum is everywhere.
         return static_cast<double>(phi.has(0) ? phi[0] : Bounds::infinity);
     }
 
@@ -45,7 +45,7 @@ class DepthField {
 };
 
 struct Part {
-    double bound = 0;  // no point of the box is deeper in both
+    double bound = 0;  // upper bound on the depth in both objects over the box
     std::size_t number = 0;
     Bounds box;
     bool operator<(const Part& other) const { return std::tie(bound, other.number) < std::tie(other.bound, number); }
@@ -96,7 +96,7 @@ class Search {
         return box;
     }
 
-    // Pairs in a range of copies: those within its halves, and those between them.
+    // Finds pairs in a range of copies: within each half, and between the halves.
     void within(std::size_t from, std::size_t to) {
         if (to - from < 2 || is_over()) return;
         const std::size_t middle = divide(from, to);
@@ -104,7 +104,7 @@ class Search {
         within(middle, to);
         between(from, middle, middle, to);
     }
-    // Along the longest side, by the middles of their boxes.
+    // Partitions along the longest side, by the centres of the boxes.
     std::size_t divide(std::size_t from, std::size_t to) {
         const glm::vec3 extent = box_of(from, to).extent();
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -130,8 +130,8 @@ class Search {
         }
     }
 
-    // Looks for a point that is deep enough in both by branch and bound: since a component changes by no more than the
-    // distance, no point of a box is deeper than its centre plus half of its diagonal.
+    // Searches for a sufficiently deep point in both by branch and bound. A component changes by no more than the
+    // distance, so no point of a box is deeper than its centre plus half the diagonal.
     void look_at(const CopyInBox& a, const CopyInBox& b) {
         const auto objects = std::minmax(a.copy.object, b.copy.object);
         const auto is_of_these = [&](const Overlap& o) {
@@ -169,7 +169,7 @@ class Search {
     double depth_in(const CopyInBox& copy, const glm::vec3& p) const {
         return depths_[copy.copy.object].at(glm::vec3(copy.to_object(p)));
     }
-    // Lengths in the scene are at least this many times those in the object.
+    // A lower bound on the ratio of lengths in the scene to lengths in the object.
     static double shrink(const Transform& to_object) {
         const glm::dmat3 gram = glm::transpose(to_object.matrix) * to_object.matrix;
         std::vector<double> entries;
@@ -178,7 +178,7 @@ class Search {
         return 1 / std::sqrt(largest_eigenvalue(std::move(entries), 3));
     }
 
-    std::vector<Bounds> boxes_;  // of the objects
+    std::vector<Bounds> boxes_;  // one per object
     std::vector<DepthField> depths_;
     std::vector<CopyInBox> copies_;
     Overlaps result_;

@@ -1,4 +1,4 @@
-// Where objects of a scene overlap, which they should not.
+// Detection of overlapping objects, which are usually mistakes.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,23 +9,23 @@
 namespace phasetree::tracer {
 
 struct OverlappingCopy {
-    std::uint32_t number = 0;  ///< of the copy
+    std::uint32_t number = 0;  ///< number of the copy
     std::uint32_t object = 0;
 };
 
 struct Overlap {
-    OverlappingCopy first, second;  ///< by rising numbers
-    glm::vec3 at{0};                ///< a point that is in both
+    OverlappingCopy first, second;  ///< in increasing order of their numbers
+    glm::vec3 at{0};                ///< a point in both
 };
 
 struct Overlaps {
-    std::vector<Overlap> found;  ///< at most a few, and fewer of each pair of objects
-    bool has_more = false;       ///< whether other copies were not looked at because enough was found
-    bool is_cut_short = false;   ///< whether not all pairs whose boxes meet could be looked at
+    std::vector<Overlap> found;  ///< only a few, and fewer per pair of objects
+    bool has_more = false;       ///< whether the search stopped because enough were found
+    bool is_cut_short = false;   ///< whether the work limit prevented checking all pairs whose boxes overlap
 };
 
-/// Objects that touch do not overlap: they do where a ball of a ten-thousandth of the smaller one's size is in both.
-/// Takes seconds at most, however many copies there are.
+/// Objects that merely touch do not overlap. Objects overlap if a ball with a radius of a ten-thousandth of the smaller
+/// one's size is in both. Takes seconds at most, however many copies there are.
 Overlaps find_overlaps(const PlacedObjects&);
 
 }  // namespace phasetree::tracer

@@ -12,7 +12,7 @@ namespace phasetree {
 
 namespace {
 
-// Prepares a texture, map or voxels for evaluation, unless that would open a file that the document leaves closed.
+// Prepares a texture, map or voxels for evaluation, unless this would open a file that the document must not open.
 template <class Kind>
 Kind prepared(const Document& document, Kind kind) {
     if constexpr (requires { kind.prepare(); }) {

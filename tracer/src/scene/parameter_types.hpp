@@ -1,4 +1,4 @@
-// How parameters that are textures, materials of meshes, or whole parts of a file are read and described.
+// Reading and description of parameters that are textures, materials of meshes, or whole parts of a file.
 #pragma once
 
 #include "phasetree/io/parameter_type.hpp"
@@ -8,13 +8,13 @@
 
 namespace phasetree::tracer {
 
-// A part of a scene file that has a reader of its own: its type in words, and its schema as JSON text.
+// A part of a scene file with its own reader: its type in words, and its schema as JSON text.
 struct PartParameter : Parameter {
     std::string_view type;
     std::string_view schema;
 };
 
-// The light of what is hot, as a scene file says it.
+// Blackbody emission, as described in a scene file.
 struct BlackbodyParameters {
     static constexpr KindInfo info{"blackbody", "The spectrum of what shines because it is hot."};
 
@@ -32,7 +32,7 @@ struct BlackbodyParameters {
 
 namespace phasetree {
 
-// A colour, or one of the textures.
+// A colour or a texture.
 template <>
 struct ParameterType<tracer::Texture, Parameter> {
     static tracer::Texture read(const Document&, Value, std::string_view what, const Parameter&);
@@ -71,7 +71,7 @@ struct ParameterType<tracer::SharedLightSpectrum, Parameter> {
     static std::string written(const tracer::SharedLightSpectrum&) { return "none"; }
 };
 
-// A number, or one that follows a field. The limits are those of each of its values.
+// A constant number, or one that depends on a field. The limits apply to each of its values.
 template <>
 struct ParameterType<tracer::Number, Parameter> {
     static tracer::Number read(const Document&, Value, std::string_view what, const Parameter&);
@@ -82,7 +82,7 @@ struct ParameterType<tracer::Number, Parameter> {
     }
 };
 
-// The image is read.
+// Reads the image.
 template <>
 struct ParameterType<tracer::NormalMap, Parameter> {
     static tracer::NormalMap read(const Document&, Value, std::string_view what, const Parameter&);
@@ -90,7 +90,7 @@ struct ParameterType<tracer::NormalMap, Parameter> {
     static std::string written(const tracer::NormalMap&) { return "none"; }
 };
 
-// The file is read.
+// Reads the file.
 template <>
 struct ParameterType<tracer::Voxels, Parameter> {
     static tracer::Voxels read(const Document&, Value, std::string_view what, const Parameter&);
@@ -98,7 +98,7 @@ struct ParameterType<tracer::Voxels, Parameter> {
     static std::string written(const tracer::Voxels&) { return "none"; }
 };
 
-// Not a clear one: meshes have no inside.
+// Clear materials are excluded, because meshes have no interior.
 template <>
 struct ParameterType<tracer::Material, Parameter> {
     static tracer::Material read(const Document&, Value, std::string_view what, const Parameter&);
@@ -106,7 +106,7 @@ struct ParameterType<tracer::Material, Parameter> {
     static std::string written(const tracer::Material&) { return "none"; }
 };
 
-// A field of the tree: a node or the name of a shape.
+// A field of the tree: a node, or the name of a shape.
 template <>
 struct ParameterType<Field, Parameter> {
     static Field read(const Document&, Value value, std::string_view what, const Parameter&);

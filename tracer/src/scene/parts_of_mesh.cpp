@@ -67,7 +67,7 @@ std::vector<Triangle> triangles_of(const Mesh& mesh) {
     return triangles;
 }
 
-// The light is examined in the centres of at most 16 triangles, evenly spaced in the list.
+// Samples the light at the centres of at most 16 triangles, evenly spaced in the list.
 float luminance_of(const Set& set, const Glowing& material) {
     constexpr std::size_t most = 16;
     const std::size_t count = std::min(set.triangles.size(), most);

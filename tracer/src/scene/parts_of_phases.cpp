@@ -11,12 +11,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// More balls aim better, and choosing among them takes longer. Halving the boxes doubles their number along a rod that
-// is thinner than they are, and quadruples it on a surface. Growth below 3 counts as a rod: the smaller the balls, the
-// more of each the rod fills.
+// More balls allow better aiming, but choosing among them takes longer. Halving the boxes doubles their number along a
+// rod thinner than they are, and quadruples it on a surface. Growth below 3 is taken for a rod, which may have more
+// balls because it fills smaller balls better.
 constexpr std::size_t most_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
-constexpr float finest = 1e-4f;  // of the object's diagonal
+constexpr float finest = 1e-4f;  // as a fraction of the object's diagonal
 
 std::array<Bounds, 8> eighths(const Bounds& box) {
     std::array<Bounds, 8> parts;
@@ -27,7 +27,7 @@ std::array<Bounds, 8> eighths(const Bounds& box) {
     return parts;
 }
 
-// The centres of a box's eighths.
+// The centres of a box's octants.
 PointBatch centres_of_eighths(const Bounds& box) {
     const std::array<Bounds, 8> parts = eighths(box);
     static_assert(batch_size == parts.size());
@@ -41,15 +41,15 @@ PointBatch centres_of_eighths(const Bounds& box) {
     return points;
 }
 
-// No point of the box is farther than this from its centre. The margin keeps rounding from losing a surface that passes
-// through a corner.
+// An upper bound on the distance of the box's points from its centre. The margin prevents rounding from losing a
+// surface that passes through a corner.
 float circumradius(const Bounds& box) {
     return 1.001f * 0.5f * box.diagonal();
 }
 
 enum class Counts { surface_alone, inside_too };
 
-// Finds those boxes that may have some of a phase.
+// Finds boxes that may contain a part of a phase.
 class PhaseFinder {
   public:
     explicit PhaseFinder(const Phased& tree)
@@ -57,7 +57,7 @@ class PhaseFinder {
           evaluator_(record(tree)),
           values_(evaluator_.program().outputs.size()) {}
 
-    // Boxes that together cover what counts of the phase in `within`; none if nothing does.
+    // Boxes that cover the relevant part of the phase in `within`; empty if there is none.
     std::vector<Bounds> boxes_of(Phase phase, const Bounds& within, Counts counts) {
         std::vector<Bounds> boxes{intersect(bounds_, within)};
         if (boxes.front().empty()) return {};
@@ -75,7 +75,7 @@ class PhaseFinder {
         }
     }
 
-    // φ at the centres of a box's eighths.
+    // φ at the centres of a box's octants.
     BatchOfFloats distances(const PointBatch& at, Phase phase) {
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
@@ -98,7 +98,7 @@ class PhaseFinder {
     std::vector<BatchOfFloats> values_;
 };
 
-// How bright the ball around a box is, by 64 places in it.
+// Estimates the brightness of the ball around a box from 64 points in it.
 class Brightness {
   public:
     Brightness(PhaseFinder& finder, Phase phase, const Material& material)
@@ -110,7 +110,8 @@ class Brightness {
     }
 
   private:
-    // An even surface across the box is near half of the places. What is near fewer, such as a rod, fills less of it.
+    // A flat surface across the box is near half of the points. Something near fewer of them, such as a rod, fills less
+    // of the box.
     float of(const Glowing& glowing, const Bounds& box) const {
         constexpr float places_near_even_surface = 32;
         float near_surface = 0, sum = 0;
@@ -126,8 +127,8 @@ class Brightness {
         }
         return glowing.radiance * sum / std::max(near_surface, places_near_even_surface);
     }
-    // The radiance that the medium in the box would send without absorption, averaged over the ball's cross section; at
-    // most that of an infinitely deep medium.
+    // The radiance that the medium in the box would emit without absorption, averaged over the ball's cross section,
+    // and at most that of an infinitely deep medium.
     float of(const Clear& clear, const Bounds& box) const {
         float inside = 0;
         for (const Bounds& eighth : eighths(box)) {
@@ -138,7 +139,7 @@ class Brightness {
             for (std::size_t i = 0; i < batch_size; ++i)
                 if (distance[i] < 0.0f) inside += (varying ? brightness[i] : 1.0f) / 64;
         }
-        // The volume of a large box is more than a float holds.
+        // The volume of a large box overflows a float.
         const glm::dvec3 extent(box.extent());
         const double radius = 0.5 * static_cast<double>(box.diagonal());
         const double through =
@@ -152,7 +153,7 @@ class Brightness {
         return 0.0f;
     }
 
-    // How bright it is if all of the box shines.
+    // The brightness if the whole box emits.
     float most(const Bounds& box) const {
         if (const Glowing* glowing = std::get_if<Glowing>(&material_)) return glowing->radiance;
         const Medium& medium = std::get<Clear>(material_).interior;
@@ -164,7 +165,7 @@ class Brightness {
     const Material& material_;
 };
 
-// Where it shines: outside of this box there is nothing of it.
+// The extent of the emission: there is none outside this box.
 Bounds bounds_of_light(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
     const VaryingMedium* varying = clear ? std::get_if<VaryingMedium>(&clear->interior) : nullptr;

@@ -11,7 +11,7 @@ std::vector<bool> PlacedObjects::moving_objects() const {
                 (place.is_group ? groups_move : objects_move)[place.of] = true;
     };
     go_through(places, false);
-    // The groups in which a group stands have greater numbers.
+    // Groups that contain a group have larger numbers.
     for (std::size_t i = groups.size(); i-- > 0;) go_through(groups[i].places, groups_move[i]);
     return objects_move;
 }

@@ -1,6 +1,6 @@
-// A scene of many objects: what there is, and where it stands. Objects have places; groups are lists of places of
-// objects and of other groups, which stand in turn. What a place leads to in the end, through all groups, is a *copy*
-// of an object; copies are numbered in the order of the places, so that every one has a number of its own.
+// A scene of many objects and where they are placed. A place refers to an object or to a group, which is a list of
+// places itself. A *copy* is an object as reached from the scene through one chain of places. Copies are numbered in
+// the order of the places, so each has a unique number.
 #pragma once
 
 #include <cstdint>
@@ -15,46 +15,47 @@
 
 namespace phasetree::tracer {
 
-/// Instead of a number of PlacedObjects::moving.
+/// Used instead of an index into PlacedObjects::moving.
 inline constexpr std::uint32_t stands_still = 0xFFFFFFFF;
 
 struct PlacedObject {
     std::string name;
-    Phased tree;      ///< in its own space; its phases are numbered as the scene's
-    Transform first;  ///< its own transform, which comes before that of each place; as the shutter opens, if it moves
-    std::uint32_t moving = stands_still;  ///< which of PlacedObjects::moving that is
+    Phased tree;      ///< in its own space; uses the scene's phase numbers
+    Transform first;  ///< its own transform, applied before those of places; at shutter opening if it moves
+    std::uint32_t moving = stands_still;  ///< index of this transform in PlacedObjects::moving
 };
 
-/// Where an object or a group stands.
+/// The placement of an object or a group.
 struct Place {
-    Transform transform{};  ///< from what stands there to what the place is in, unless it moves: then before that
+    Transform transform{};  ///< from the object or group to the list's space; applied before any motion
     std::uint32_t of = 0;   ///< number of an object, or of a group
     bool is_group = false;
-    std::uint32_t moving = stands_still;  ///< which of PlacedObjects::moving it goes through after `transform`
+    std::uint32_t moving = stands_still;  ///< index in PlacedObjects::moving of the motion applied after `transform`
 };
 
 struct PlacedGroup {
     std::string name;
-    std::size_t offset = 0;     ///< of its name in the file, in bytes
+    std::size_t offset = 0;     ///< byte offset of its name in the file
     std::vector<Place> places;  ///< groups among them have smaller numbers
-    std::uint64_t copies = 0;   ///< of objects, through all groups
-    std::size_t depth = 1;      ///< how many groups are nested here, with this one
+    std::uint64_t copies = 0;   ///< number of object copies, through all groups
+    std::size_t depth = 1;      ///< number of nested groups, including this one
 };
 
 struct PlacedObjects {
     std::vector<PlacedObject> objects;
     std::vector<PlacedGroup> groups;
-    std::vector<Place> places;  ///< of the scene
+    std::vector<Place> places;  ///< places of the scene itself
     std::vector<MovingTransform> moving;
 
-    /// Where an object stands by itself, and a place in its list, at a share of the time in which the shutter is open.
+    /// The own transform of an object, and the transform of a place, at a moment given as a fraction of the time in
+    /// which the shutter is open.
     Transform first_of(const PlacedObject& object, double time) const {
         return object.moving == stands_still ? object.first : moving[object.moving].at(time);
     }
     Transform transform_of(const Place& place, double time) const {
         return place.moving == stands_still ? place.transform : moving[place.moving].at(time) * place.transform;
     }
-    /// Of each object, whether any copy of it moves.
+    /// For each object, whether any copy of it moves.
     std::vector<bool> moving_objects() const;
 
     bool empty() const { return objects.empty(); }
@@ -67,7 +68,8 @@ struct PlacedObjects {
     std::uint64_t copies() const { return copies_of(places); }
 
     /// Calls use(number, object, transform from the object's tree to the scene) for each copy, in the order of their
-    /// numbers, until it says false. There may be billions. `time` is a share of that in which the shutter is open.
+    /// numbers, until it returns false. There may be billions. `time` is a fraction of the time in which the shutter is
+    /// open.
     template <class Use>
     void each_copy(Use&& use, double time = 0) const {
         std::uint32_t next = 0;
@@ -89,10 +91,10 @@ struct PlacedObjects {
     }
 };
 
-/// Numbers of copies are below this, and this many lists of places there may be in all.
+/// Exclusive upper bound of copy numbers, and the maximum number of places in all lists.
 inline constexpr std::uint64_t most_copies = 1'000'000'000, most_places = 20'000'000;
 
-/// What a scene file says of its objects, without their materials, which are read from the places that are named.
+/// The objects of a scene file without their materials, which are read from the listed sources.
 struct ObjectsModel {
     struct Source {
         Document document;
@@ -103,10 +105,10 @@ struct ObjectsModel {
     PlacedObjects placed;
 };
 
-/// Whether the document is a scene of several objects: whether it has "objects".
+/// Whether the document is a scene of several objects, that is, has "objects".
 bool has_objects(const Document&);
-/// Reads "objects", "groups" and "instances", and "tree" as one object more, with the phases and shapes that they need.
-/// Throws SceneError. `places` is told of the objects' nodes.
+/// Reads "objects", "groups" and "instances", with the phases and shapes that they need, and "tree" as an additional
+/// object. Throws SceneError. `places` receives the positions of the objects' nodes in the text.
 ObjectsModel read_placed_objects(const Document&, const Shutter& = {}, NodePlaces* places = nullptr);
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// Where what a file holds goes in the scene: it is made larger or smaller first, then turned, then moved.
+// Placement of a file's content in the scene: it is scaled first, then rotated, then translated.
 #pragma once
 
 #include <cmath>
@@ -30,13 +30,13 @@ class Placement {
           cosine_(std::cos(glm::radians(rotate_z_degrees))),
           sine_(std::sin(glm::radians(rotate_z_degrees))) {}
 
-    /// Of a direction, whose length stays.
+    /// Rotates a direction, preserving its length.
     glm::vec3 turned(glm::vec3 p) const {
         if (y_up_) p = {p.x, -p.z, p.y};
         return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y, p.z};
     }
     glm::vec3 operator()(const glm::vec3& p) const { return turned(scale_ * p) + translate_; }
-    /// The same but for the translation.
+    /// The matrix of scaling and rotation, without the translation.
     glm::mat3 linear() const { return {turned({scale_, 0, 0}), turned({0, scale_, 0}), turned({0, 0, scale_})}; }
     const glm::vec3& translate() const { return translate_; }
 

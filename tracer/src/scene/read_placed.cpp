@@ -1,5 +1,6 @@
-// The objects of a scene file and their places. Phases are numbered as they are found: those of the file itself, then
-// of each other file that is taken, and those to which an object gives a material of its own.
+// Reads the objects of a scene file and their placement. Phases are numbered in the order in which they are found:
+// those of the file itself, then those of each other file that is used, and those that get their own material from an
+// object.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,13 +25,13 @@ namespace {
 
 constexpr std::string_view name_of_tree = "tree";
 
-/// An object as the file has it, before its phases have their numbers in the scene.
+/// An object in the file, before its phases are numbered for the scene.
 struct Found {
-    Document document;  ///< that has its tree
-    Value at;           ///< its place in the scene's file, for errors
-    PhaseNames names;   ///< of its tree's phases
+    Document document;  ///< the document with its tree
+    Value at;           ///< its location in the scene's file, for errors
+    PhaseNames names;   ///< names of its tree's phases
     std::optional<Value> own_phases;
-    std::string from;  ///< the file from which it is taken; empty if its tree stands in the scene's own
+    std::string from;  ///< the file that it is read from; empty if its tree is in the scene's own file
     PlacedObject object;
 };
 
@@ -95,7 +96,7 @@ class ObjectsReader {
         for (std::size_t i = 0; i < read.size(); ++i) found_[of[i]].object.tree = read[i];
     }
 
-    // The document of another file. That there is none is an error of the place that names it.
+    // The document of another file. If it does not exist, the error is located where it is named.
     Document document_beside(Value named, const std::string& name) const {
         try {
             return document_.beside(named);
@@ -105,7 +106,7 @@ class ObjectsReader {
         }
     }
 
-    // Takes the tree of another file. A file that several objects name is read once.
+    // Reads the tree of another file. A file named by several objects is read once.
     void take(Value named, Found& found) {
         const std::string name = as<std::string>(document_, named, "\"file\"");
         auto known = files_.find(name);
@@ -132,7 +133,7 @@ class ObjectsReader {
         if (is_there) throw document_.error(at, fmt::format("there is another object \"{}\"", name));
     }
 
-    // Adds a phase to those of the scene, and returns its number. A name that is taken gets a number behind it.
+    // Adds a phase to the scene and returns its number. If the name is already used, a number is appended.
     Phase new_phase(std::string name, const Document& document, Value material, Value at) {
         std::vector<std::string>& names = model_.phases.names;
         if (names.size() == Phase::capacity)
@@ -145,7 +146,7 @@ class ObjectsReader {
         return Phase{static_cast<std::uint8_t>(names.size() - 1)};
     }
 
-    // The material that the object itself gives to a phase of this name.
+    // The material that the object itself defines for the phase with this name.
     std::optional<Value> own_material(const Found& found, const std::string& phase) const {
         return found.own_phases ? found.own_phases->find(phase) : std::nullopt;
     }
@@ -185,7 +186,7 @@ class ObjectsReader {
             if (is_changed)
                 found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
             found.object.tree = with_bounds(found.object.tree);
-            (void)prepare_to_trace(found.object.tree);  // This only asks whether the tree can be traced.
+            (void)prepare_to_trace(found.object.tree);  // only checks whether the tree can be traced
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
         }
@@ -193,7 +194,7 @@ class ObjectsReader {
         model_.placed.objects.push_back(found.object);
     }
 
-    // A node stands where it stood, whatever numbers its phases have.
+    // Renumbers the phases. The nodes' positions in the text do not change.
     Phased with_numbers(const Phased& tree, std::span<const Phase> numbers) const {
         if (!node_places_) return renumbered(tree, numbers);
         return renumbered(tree, numbers, [&](const void* of, const auto& copy) { node_places_->add_copy(of, copy); });
@@ -207,8 +208,8 @@ class ObjectsReader {
         for (const Value group : *groups_) (void)group_number(group);
     }
 
-    // The number of a group, which is read here if it was not yet. The groups that it names are read before it, so they
-    // have smaller numbers.
+    // The number of a group, which is read now if necessary. The groups that it names are read before it, so they have
+    // smaller numbers.
     std::uint32_t group_number(Value group) {
         const std::string name(group.key());
         if (const auto known = group_numbers_.find(name); known != group_numbers_.end()) return known->second;
@@ -216,8 +217,8 @@ class ObjectsReader {
             throw document_.error(group.key_offset(), fmt::format("there is an object \"{}\", too", name));
         if (std::ranges::find(open_, name) != open_.end())
             throw document_.error(group.key_offset(), fmt::format("the group \"{}\" is made of itself", name));
-        // Groups may be listed before or after those that they name, so neither of the two limits is enough: the one
-        // ends this recursion, and the other that of the rays.
+        // Groups may be listed before or after those that they name, so both limits are needed: one bounds this
+        // recursion, the other the rays' recursion.
         const auto require_depth = [&](std::size_t depth) {
             if (depth > deepest)
                 throw document_.error(group.key_offset(), fmt::format("more than {} groups are nested", deepest));
@@ -299,8 +300,8 @@ class ObjectsReader {
         return static_cast<std::uint32_t>(model_.placed.moving.size() - 1);
     }
 
-    // An object that neither an instance nor a group names stands by its own transform alone. Such objects come first,
-    // in the order of the file.
+    // Places objects that no instance or group names, by their own transform alone. They come first, in the order of
+    // the file.
     void place_what_no_instance_names() {
         is_named_.resize(model_.placed.objects.size());
         std::vector<Place> alone;
@@ -313,12 +314,12 @@ class ObjectsReader {
                                   "no object stands anywhere: all are in groups, and there are no \"instances\"");
     }
 
-    static constexpr std::size_t deepest = 32;  // At most this many groups are nested.
+    static constexpr std::size_t deepest = 32;  // maximum nesting depth of groups
 
     struct TakenFile {
         Document document;
         SceneTree tree;
-        std::array<Phase, Phase::capacity> numbers{};  // in the scene; the vacuum's for those that it has not yet
+        std::array<Phase, Phase::capacity> numbers{};  // in the scene; the vacuum's for phases without a number yet
     };
 
     const Document& document_;
@@ -329,7 +330,7 @@ class ObjectsReader {
     std::vector<Found> found_;
     std::map<std::string, TakenFile, std::less<>> files_;
     std::optional<Value> groups_;
-    std::vector<std::string> open_;  // the groups that are being read, to find cycles
+    std::vector<std::string> open_;  // groups being read, to detect cycles
     std::map<std::string, std::uint32_t, std::less<>> object_numbers_, group_numbers_;
     std::vector<bool> is_named_;
     std::uint64_t places_read_ = 0;

@@ -14,7 +14,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A setting of the image or of the camera is easily written one level too high.
+// Settings of the image or the camera are easily written one level too high.
 void refuse_misplaced_settings(ObjectReader& root) {
     for (const Value member : root.document().root()) {
         const std::string_view key = member.key();
@@ -30,7 +30,7 @@ void refuse_misplaced_settings(ObjectReader& root) {
     }
 }
 
-// The parts that the file has, whether they are needed or not: a tree alone is good for something, too.
+// All parts of the file, including optional ones: a tree alone is useful too.
 FileParts parts_of(ObjectReader& root) {
     FileParts::parameters([&](auto, const auto& p) { root.allow({p.name}); });
     refuse_misplaced_settings(root);
@@ -40,7 +40,7 @@ FileParts parts_of(ObjectReader& root) {
     return parts;
 }
 
-// A part that is needed.
+// Returns a required part.
 Value needed(ObjectReader& root, std::optional<Value> FileParts::*wanted) {
     std::string_view name;
     FileParts::parameters([&](auto part, const auto& p) {
@@ -49,7 +49,7 @@ Value needed(ObjectReader& root, std::optional<Value> FileParts::*wanted) {
     return root.required_value(name);
 }
 
-// Where the schema is does not matter here, but it must be a name, as the schema itself says.
+// The location of the schema does not matter, but as the schema itself says, it must be a string.
 void check_schema(const Document& document, const FileParts& parts) {
     if (parts.schema) (void)as<std::string>(document, *parts.schema, "\"$schema\"");
 }
@@ -73,10 +73,10 @@ Material read_phase_material(const Document& document, Value phase) {
     return material;
 }
 
-// Counts the voxels of materials, of which all together must fit into a machine's memory.
+// Counts the voxels of materials, which together must fit into the memory of a machine.
 class VoxelBytes {
   public:
-    // Throws SceneError at the phase whose material is too much.
+    // Throws SceneError at the phase whose material exceeds the limit.
     void add(const Document& document, Value phase, const Material& material) {
         constexpr std::size_t most = std::size_t{4} << 30;
         if (const Clear* clear = std::get_if<Clear>(&material))
@@ -95,7 +95,7 @@ void refuse_places_of_nothing(const Document& document) {
             throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
 }
 
-// What a file is read for: a picture needs all that a picture needs; a model, no more than its tree or objects.
+// What a file is read for. A picture needs a complete scene; a model needs only a tree or objects.
 enum class Purpose { picture, model };
 
 // Whether a file must have a version, and a material for each phase.
@@ -106,7 +106,7 @@ bool must_be_whole(const FileParts& parts, Purpose purpose) {
 void read_placed_into(const Document& document, const Shutter& shutter, NodePlaces* places, Purpose purpose,
                       Scene& scene, std::vector<ObjectsModel::Source>& materials) {
     ObjectsModel model = read_placed_objects(document, shutter, places);
-    // A model is that of the document's time, but what is wrong while the shutter is open is an error, too.
+    // A model is that of the document's time, but errors while the shutter is open count too.
     if (purpose == Purpose::model && (shutter.open != 0 || shutter.close != 0)) model = read_placed_objects(document);
     scene.phases = std::move(model.phases);
     scene.placed = std::move(model.placed);
@@ -138,8 +138,8 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
     }
 }
 
-// Reads and checks all parts of a file. Every command reads files by this function, so that what is wrong with one is
-// wrong for all of them.
+// Reads and checks all parts of a file. Every command uses this function, so an error for one command is an error for
+// all.
 Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) {
     ObjectReader root(document, document.root(), "the scene");
     const FileParts parts = parts_of(root);

@@ -50,7 +50,7 @@ Transform read_one(const Document& document, Value value) {
     return transform;
 }
 
-// Where the unit vectors go, and where the origin goes.
+// The images of the unit vectors, and of the origin.
 Transform of_twelve(const float* n) {
     Transform t;
     for (int column = 0; column < 3; ++column)
@@ -71,7 +71,7 @@ namespace {
 
 constexpr const char* turned_inside_out = "between this key and the one before it space would be turned inside out";
 
-// What is between two transforms that are usable is so too: the moving transform's file says why.
+// Interpolation between two usable transforms is usable too; see moving_transform.cpp for the reason.
 Transform between_keys(const Document& document, Value value) {
     const Keys keys(document, value, "what changes with time");
     const Keys::Place place = keys.at(document.seconds());

@@ -1,4 +1,4 @@
-// Transforms as scene files write them.
+// Reads transforms from scene files.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +12,21 @@
 
 namespace phasetree::tracer {
 
-/// {"translate": {"by": […]}} and the like, or a list of such, of which the first comes first, or keys of either; at
+/// Reads {"translate": {"by": […]}} and the like, or a list of such, which are applied in order, or keys of either; at
 /// the document's time. Throws SceneError.
 Transform read_transform(const Document&, Value);
 
-/// A transform as it is when the shutter opens, and how it changes until it closes, if it may.
+/// A transform at the opening of the shutter, and, if it may move, how it changes until the shutter closes.
 struct ReadTransform {
     Transform at_opening{};
     std::optional<MovingTransform> moving{};
 };
-/// The same while the shutter is open. Throws SceneError.
+/// Reads a transform for the time in which the shutter is open. Throws SceneError.
 ReadTransform read_transform(const Document&, Value, const Shutter&);
-/// A list of [x, y, z] and of lists of twelve numbers. Throws SceneError.
+/// Reads a list of [x, y, z] and of lists of twelve numbers. Throws SceneError.
 std::vector<Transform> read_transforms(const Document&, Value list);
-/// The same from the file that the value names (object_kinds.hpp has its format). Throws SceneError at the value.
+/// Reads such transforms from the file that the value names (see object_kinds.hpp for the format). Throws SceneError at
+/// the value.
 std::vector<Transform> read_transforms_file(const Document&, Value named);
 
 }  // namespace phasetree::tracer

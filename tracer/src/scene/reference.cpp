@@ -13,7 +13,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Those that a mesh may be of.
+// The kinds that a mesh may have.
 template <class... Kinds>
 std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     std::vector<KindPage> pages;
@@ -24,7 +24,7 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     return pages;
 }
 
-// One, a list of such, or keys.
+// A single transform, a list of them, or keys.
 std::string schema_of_transform(const std::string& one) {
     return R"({"anyOf": [)" + one + R"(, {"type": "array", "minItems": 1, "items": )" + one + "}, " +
            schema_reference("keys") + "]}";

@@ -1,4 +1,4 @@
-// All that a scene file can say: the library's nodes, and the path tracer's lists of parameters.
+// The reference of scene files: the library's nodes, and the path tracer's lists of parameters.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ std::vector<Chapter> scene_chapters();
 std::string scene_reference_text();
 std::string scene_reference_markdown();
 
-// A JSON Schema of scene files, scenes/scene.schema.json.
+// The JSON Schema of scene files, scenes/scene.schema.json.
 std::string scene_json_schema();
 
 }  // namespace phasetree::tracer

@@ -1,4 +1,4 @@
-// A scene file, read: everything an image needs, as plain values.
+// A scene after reading: everything that an image needs, as plain values.
 #pragma once
 
 #include <filesystem>
@@ -17,74 +17,74 @@
 
 namespace phasetree::tracer {
 
-// How the light of lamps is found: by shadow rays, by directions that surfaces and media sample, and by photons if the
-// scene asks for caustics, weighted by the power heuristic; or by one of the first two alone, which shows in a
-// measurement what each is good for. It is as right, but that shadow rays alone miss what glows outside of all balls
+// How the light of lamps is found. `all` combines shadow rays, directions sampled at surfaces and media, and, if the
+// scene asks for caustics, photons, weighted by the power heuristic. The others use one of the first two alone, to
+// measure its contribution. The result is still correct, except that shadow rays alone miss emitters outside all balls
 // (scene/glowing.hpp).
 enum class Techniques { all, shadow_rays_alone, directions_alone };
 
 struct RenderSettings {
     int samples = 64;  // per pixel
-    float noise = 0;   // the error at which pixels stop before that (render/noise_limit.hpp); 0 if none does
+    float noise = 0;   // the error at which pixels stop early (render/noise_limit.hpp); 0 to disable
     Techniques techniques = Techniques::all;
     std::uint32_t seed = 0;
-    // The most surfaces that a path meets, those between equal indices included, and points in media that scatter it;
-    // what it would bring beyond is lost.
-    // Roulette ends paths long before where light is absorbed. In lossless glass a few in a million meet thousands of
-    // surfaces, and to cut those off would lose light.
+    // The maximum number of surfaces that a path meets, including those between equal indices, and of scattering points
+    // in media. Light beyond is lost.
+    // Where light is absorbed, Russian roulette ends paths long before this. In lossless glass, a few paths in a
+    // million meet thousands of surfaces, and cutting them off would lose light.
     int max_depth = 1 << 16;
     bool spectral = false;    // whether paths carry wavelengths instead of colours (spectrum/wavelengths.hpp)
     bool guiding = false;     // whether paths learn where light comes from (guiding/guide.hpp)
-    bool caustics = false;    // whether photons look for caustics (caustics/caustics.hpp)
-    float photons = 1;        // of each pass, per pixel of the whole picture
-    float photon_radius = 2;  // in which they are gathered in the first pass, in pixels
+    bool caustics = false;    // whether photons are traced for caustics (caustics/caustics.hpp)
+    float photons = 1;        // per pass, per pixel of the whole picture
+    float photon_radius = 2;  // gathering radius in the first pass, in pixels
     float exposure_ev = 0.0f;
     std::optional<std::string> view;  // of the display transform
-    glm::vec2 shutter{0.0f};          // when it opens and closes, in seconds from the time at which the scene is read
+    glm::vec2 shutter{0.0f};          // opening and closing, in seconds relative to the time of the scene
 };
 
 // The objects of a scene, without materials, lights and surroundings.
 struct SceneModel {
     PhaseNames phases;
-    Phased object;         // of a scene of one tree; empty otherwise
-    PlacedObjects placed;  // of a scene of several objects; empty otherwise
+    Phased object;         // of a scene with one tree; otherwise empty
+    PlacedObjects placed;  // of a scene with several objects; otherwise empty
     PhaseSet opaque;       // the phases that light does not travel in; phases without a material are clear
 };
 
 struct Scene {
     std::filesystem::path file;
     PhaseNames phases;
-    Phased object;                    // of a scene of one tree; empty otherwise
-    PlacedObjects placed;             // of a scene of several objects; empty otherwise
+    Phased object;                    // of a scene with one tree; otherwise empty
+    PlacedObjects placed;             // of a scene with several objects; otherwise empty
     std::vector<Material> materials;  // by phase; [0] is the vacuum
     std::vector<Mesh> meshes;
-    std::vector<std::string> not_shown;  // sentences about what is in the files of meshes and not in the scene
+    std::vector<std::string> not_shown;  // sentences about contents of mesh files that the scene lacks
     Lights lights;
-    AnyCameraParameters camera;                // as the shutter opens
-    std::vector<CameraMoment> camera_moments;  // while it is open; none of a camera that stands still
+    AnyCameraParameters camera;                // at the opening of the shutter
+    std::vector<CameraMoment> camera_moments;  // while the shutter is open; empty if the camera does not move
     FilmSettings film;
     RenderSettings settings;
 
-    // Whether any phase of the objects, or any mesh, shines by itself.
+    // Whether any phase or mesh emits light.
     bool shines() const;
     // Whether anything moves while the shutter is open.
     bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
 };
 
-// Reads a whole scene. Files it names are relative to it. Throws SceneError with the place in the text.
-// `places` is told where the object's nodes stand.
+// Reads a whole scene. Files that it names are relative to it. Throws SceneError with the location in the text.
+// `places` receives the positions of the object's nodes in the text.
 Scene read_scene(const Document& document, NodePlaces* places = nullptr);
 
-// What objects and meshes are called, in the order of their numbers (Surface::object).
+// The names of objects and meshes, in the order of their numbers (Surface::object).
 std::vector<std::string> object_names(const Scene& scene);
 
-// Reads the model of a file that need not be a whole scene, and checks everything else in the file, with the same
-// errors in the same order as read_scene. A file with a camera needs a version and a material for each phase, as
-// read_scene demands. A file without one needs neither: its phases may have anything that is no object instead of a
-// material. Whether the object can be traced, seen and lit is not checked. Throws SceneError.
+// Reads the model of a file that need not be a complete scene, and checks everything else in it, with the same errors
+// in the same order as read_scene. A file with a camera needs a version and a material for each phase, as in
+// read_scene. A file without a camera needs neither, and its phases may have anything but an object instead of a
+// material. Does not check whether the object can be traced, seen and lit. Throws SceneError.
 SceneModel read_scene_without_camera(const Document& document);
 
-// The same, without opening the files of lights, meshes, textures and voxels (Document::without_assets).
+// As above, but does not open the files of lights, meshes, textures and voxels (Document::without_assets).
 SceneModel read_scene_model(const Document& document);
 
 // The phases that light does not travel in.

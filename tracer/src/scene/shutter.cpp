@@ -8,7 +8,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// So many equal steps, so that a turn that is keyed by its angle stays a turn.
+// The number of equal steps. With this many, a rotation keyed by its angle stays a rotation.
 constexpr int steps = 16;
 
 // Each moment reads all keys of the value.

@@ -1,4 +1,4 @@
-// When the shutter is open, and at which moments meanwhile the scene file is read.
+// The time in which the shutter is open, and the moments at which the scene file is read for it.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace phasetree::tracer {
 
-/// In seconds, from the document's time.
+/// In seconds, relative to the document's time.
 struct Shutter {
     double open = 0, close = 0;
 
     bool is_instant() const { return open == close; }
 };
 
-/// Moments at which what changes is read, as shares of the time in which the shutter is open: equally far apart, and
-/// those of the value's own keys. Between them it is interpolated. None if the value has no keys, or the shutter is
-/// open for no time. Throws SceneError if that would be too much work.
+/// The moments at which a changing value is read, as fractions of the time in which the shutter is open: equally spaced
+/// ones, and those of the value's own keys. Between them the value is interpolated. Empty if the value has no keys, or
+/// if the shutter opens only for an instant. Throws SceneError if reading would take too long.
 std::vector<double> moments_of(const Document&, Value, const Shutter&);
 /// The document at such a moment.
 Document at_moment(const Document&, const Shutter&, double moment);

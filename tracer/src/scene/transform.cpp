@@ -13,7 +13,7 @@ Bounds Transform::image(const Bounds& box) const {
     const glm::dvec3 to = (*this)(centre);
     const glm::dmat3 sizes{glm::abs(matrix[0]), glm::abs(matrix[1]), glm::abs(matrix[2])};
     const glm::dvec3 reach = sizes * half;
-    const glm::dvec3 margin = 1e-6 * (glm::abs(to) + reach);  // more than floats round away
+    const glm::dvec3 margin = 1e-6 * (glm::abs(to) + reach);  // more than the rounding of floats
     return {glm::vec3(to - reach - margin), glm::vec3(to + reach + margin)};
 }
 

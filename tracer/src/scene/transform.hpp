@@ -1,4 +1,4 @@
-// An affine map of space, in double precision so that chains of groups add no rounding to speak of.
+// An affine map, in double precision so that rounding in chains of groups is negligible.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,15 +14,15 @@ struct Transform {
 
     bool operator==(const Transform&) const = default;
     glm::dvec3 operator()(const glm::dvec3& p) const { return matrix * p + by; }
-    /// First the other, then this one.
+    /// Composition: applies the other map first, then this one.
     Transform operator*(const Transform& first) const { return {matrix * first.matrix, (*this)(first.by)}; }
     Transform inverse() const {
         const glm::dmat3 back = glm::inverse(matrix);
         return {back, -(back * by)};
     }
-    /// By how much it makes lengths longer at most: a bound, which is exact for turns, mirrorings, scales, and a
-    /// stretch along the axes before them, and else at most 1.32 times too large. It is √‖MᵀM‖∞: the greatest singular
-    /// value of M is √‖MᵀM‖₂, and of a symmetric matrix ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
+    /// An upper bound on the factor by which lengths grow. It is exact for rotations, reflections, scaling, and a
+    /// stretch along the axes before them; otherwise it is at most 1.32 times too large. It is √‖MᵀM‖∞: the largest
+    /// singular value of M is √‖MᵀM‖₂, and a symmetric matrix has ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
     double stretch() const {
         const glm::dmat3 squared = glm::transpose(matrix) * matrix;
         double most = 0;
@@ -32,7 +32,7 @@ struct Transform {
     }
     /// A box around the image of a box, rounded outward.
     Bounds image(const Bounds& box) const;
-    /// Whether M is invertible by far, and all numbers are such as coordinates and lengths may be.
+    /// Whether M is well-conditioned, and all numbers are within the limits of coordinates and lengths.
     bool is_usable() const;
 };
 

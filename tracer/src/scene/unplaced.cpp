@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_found = 8;
 
-// Objects and groups that are named by some places.
+// Objects and groups that some places refer to.
 struct Named {
     explicit Named(const PlacedObjects& placed) : objects(placed.objects.size()), groups(placed.groups.size()) {}
 
@@ -20,7 +20,8 @@ struct Named {
     std::vector<bool> objects, groups;
 };
 
-// All that places lead to. The groups that a group names have smaller numbers, so one pass down the numbers is enough.
+// Everything that places lead to. The groups that a group names have smaller numbers, so one pass in descending order
+// is enough.
 Named reached_from(const PlacedObjects& placed, std::span<const Place> places) {
     Named reached(placed);
     reached.add(places);

@@ -1,4 +1,4 @@
-// Groups of places that stand nowhere, so that what is in them is not seen: most often one forgot to name them.
+// Groups that are never placed, so that their content is invisible. Usually a reference to them was forgotten.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace phasetree::tracer {
 
-/// A group that neither a place of the scene nor another group names.
+/// A group that neither a place of the scene nor another group refers to.
 struct UnplacedGroup {
     std::uint32_t group = 0;
-    std::vector<std::uint32_t> lost;  ///< the objects in it, through all its groups, that stand nowhere in the scene
+    std::vector<std::uint32_t> lost;  ///< its objects, through all its groups, that are placed nowhere in the scene
 };
 
-/// A group that only such groups name is not among them, because it stands as soon as they do.
+/// Groups that are only used by such groups are not listed, because placing those places them too.
 struct UnplacedGroups {
-    std::vector<UnplacedGroup> found;  ///< at most a few, in the order of the file
-    std::size_t more = 0;              ///< than these
+    std::vector<UnplacedGroup> found;  ///< only a few, in the order of the file
+    std::size_t more = 0;              ///< number of further ones
 };
 
 UnplacedGroups find_unplaced_groups(const PlacedObjects&);

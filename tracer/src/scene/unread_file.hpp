@@ -4,8 +4,8 @@
 
 namespace phasetree::tracer {
 
-/// Whether a kind's file stays closed because its document is read without assets. What can be checked without the
-/// file still is: check(), if the kind has one, throws ParameterError.
+/// Whether a kind's file must not be opened because its document is read without assets. Whatever can be checked
+/// without the file is still checked: check(), if the kind has it, throws ParameterError.
 template <class Kind>
 bool is_left_unread(const Document& document, const Kind& kind) {
     if constexpr (requires { kind.file; }) {

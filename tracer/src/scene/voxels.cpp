@@ -28,9 +28,9 @@ void Voxels::prepare() {
             is_openvdb ? read_number_grid(file, grid) : PlacedVoxels{read_number_stack(file, glm::dvec3(*spacing))};
         shares.emplace(std::move(voxels.grid),
                        VoxelPlacement{linear * voxels.linear, linear * voxels.translation + glm::dvec3(translate)});
-    } catch (const std::runtime_error& e) {  // of the file
+    } catch (const std::runtime_error& e) {  // from reading the file
         throw ParameterError("file", e.what());
-    } catch (const std::invalid_argument& e) {  // of its place
+    } catch (const std::invalid_argument& e) {  // from its placement
         throw ParameterError("file", e.what());
     }
     for (int i = 0; i < 3; ++i)

@@ -1,4 +1,4 @@
-// Numbers at voxels as a scene file says them: which file, and where it goes.
+// Voxel data in a scene file: which file, and its placement.
 #pragma once
 
 #include <filesystem>
@@ -27,9 +27,9 @@ struct Voxels {
     float rotate_z_degrees = 0.0f;
     glm::vec3 translate{0.0f};
     bool y_up = false;
-    std::optional<VoxelDensity> shares{};  // of the greatest number, once the file is read
+    std::optional<VoxelDensity> shares{};  // as fractions of the largest number, once the file is read
 
-    /// The greatest of the numbers, each multiplied by the factor.
+    /// The largest of the numbers, multiplied by the factor.
     float greatest_number() const { return factor * shares->greatest_number(); }
 
     template <class V>
@@ -55,7 +55,7 @@ struct Voxels {
     }
     /// Checks the parameters without reading the file. Throws ParameterError.
     void check() const;
-    /// Checks the parameters and reads the file. Throws ParameterError for one that cannot be used.
+    /// Checks the parameters and reads the file. Throws ParameterError if the file is unusable.
     void prepare();
 };
 

@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::uintmax_t most_bytes_of_font = std::uintmax_t{64} << 20;
 constexpr std::size_t most_bytes_of_text = 10'000;
-// HarfBuzz reckons in whole numbers. Of a variable font the outlines lie between those of its grid.
+// HarfBuzz computes in integers. The outlines of a variable font lie between the points of its grid.
 constexpr int parts_of_unit = 16;
-constexpr float farthest_of_letter = 1000;  // ems; no letter is that large
+constexpr float farthest_of_letter = 1000;  // in ems; no letter is that large
 
 template <auto destroy>
 struct Destroy {
@@ -47,7 +47,7 @@ std::string content_of(const std::filesystem::path& path) {
     return content;
 }
 
-// What HarfBuzz calls for each point of a letter; the pen is what it was given.
+// The functions that HarfBuzz calls for each point of a letter, with the pen as user data.
 DrawFunctions functions_of_pen() {
     DrawFunctions functions(hb_draw_funcs_create());
     hb_draw_funcs_set_move_to_func(
@@ -82,7 +82,7 @@ DrawFunctions functions_of_pen() {
     return functions;
 }
 
-// The bytes of the letter that begins there, in UTF-8.
+// The UTF-8 bytes of the letter that begins at `start`.
 std::string letter_at(std::string_view text, std::size_t start) {
     std::size_t end = start + 1;
     while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;
@@ -110,7 +110,7 @@ class Typesetter {
         const Buffer buffer(hb_buffer_create());
         const int bytes = static_cast<int>(text.size());
         hb_buffer_add_utf8(buffer.get(), text.data(), bytes, 0, bytes);
-        // Of no language: that of the process would let the same text look different elsewhere.
+        // No language: that of the process would make the same text look different elsewhere.
         hb_buffer_set_language(buffer.get(), hb_language_from_string("und", -1));
         hb_buffer_guess_segment_properties(buffer.get());
         hb_shape(font_.get(), buffer.get(), nullptr, 0);
@@ -140,7 +140,7 @@ class Typesetter {
                     throw std::runtime_error("one of its letters is larger than a thousand of its ems");
         if (!pen.contours.empty()) line.letters.push_back({line.width, line.places, std::move(pen.contours)});
         line.width += ems_ * static_cast<float>(position.x_advance);
-        // Accents have no place of their own.
+        // Accents do not occupy a place of their own.
         if (position.x_advance != 0) ++line.places;
     }
 
@@ -163,7 +163,7 @@ TextOutlines read_text(const std::filesystem::path& font, const std::string& tex
         for (std::size_t start = 0; start <= all.size();) {
             const std::size_t end = std::min(all.find('\n', start), all.size());
             std::string_view line = all.substr(start, end - start);
-            if (line.ends_with('\r')) line.remove_suffix(1);  // lines of files that end with both
+            if (line.ends_with('\r')) line.remove_suffix(1);  // for files whose lines end with \r\n
             outlines.lines.push_back(typesetter.line(line));
             start = end + 1;
         }

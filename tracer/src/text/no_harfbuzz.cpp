@@ -1,4 +1,4 @@
-// What replaces harfbuzz.cpp where the library is missing.
+// Replaces harfbuzz.cpp in builds without the library.
 #include <stdexcept>
 
 #include "text/read_text.hpp"

@@ -8,19 +8,18 @@ namespace phasetree::tracer {
 
 namespace {
 
-// In ems, of the curves that are nearest on the whole. Those that have the cubic's tangents are off by up to twice
-// that.
+// Maximum error in ems of the best-fitting curves. Curves with the cubic's tangents may be off by twice as much.
 constexpr double tolerance = 1e-4;
 
-// Where the tangents at the ends of a part of a cubic meet, so that the quadratic curves of two parts have one tangent
-// where they meet; or, where that is nowhere near, the control point of the curve that is nearest on the whole.
+// The intersection of the tangents at both ends of a part of a cubic, so that the quadratic curves of adjacent parts
+// share a tangent. If the intersection is too far away, the control point of the best-fitting curve instead.
 glm::dvec2 control_point(const glm::dvec2& start, const glm::dvec2& control1, const glm::dvec2& control2,
                          const glm::dvec2& end) {
     const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
     const glm::dvec2 leaving = control1 - start, arriving = end - control2, chord = end - start;
     const double turn = cross(leaving, arriving);
     const double along = cross(chord, arriving) / turn, before_end = cross(leaving, chord) / turn;
-    // Between the ends' own control points and twice as far the quadratic curve is like the cubic.
+    // Up to twice as far away as the ends' own control points, the quadratic curve resembles the cubic.
     if (std::isfinite(along) && along > 0.75 && along < 3 && before_end > 0.75 && before_end < 3)
         return start + along * leaving;
     return 0.25 * (3.0 * (control1 + control2) - start - end);
@@ -51,7 +50,8 @@ void Pen::quadratic_to(const glm::vec2& control, const glm::vec2& p) {
 
 void Pen::cubic_to(const glm::vec2& control1, const glm::vec2& control2, const glm::vec2& p) {
     const glm::dvec2 p0 = at_, p1 = placed(control1), p2 = placed(control2), p3 = placed(p);
-    // A quadratic curve instead of one of n equal parts of a cubic is off by at most √3/36 |p₃ − 3p₂ + 3p₁ − p₀| / n³.
+    // Replacing each of n equal parts of a cubic by a quadratic curve causes an error of at most √3/36 |p₃ − 3p₂ + 3p₁
+    // − p₀| / n³.
     const double off = std::sqrt(3.0) / 36 * glm::length(p3 - 3.0 * p2 + 3.0 * p1 - p0);
     const int parts = static_cast<int>(std::clamp(std::ceil(std::cbrt(off / tolerance)), 1.0, 32.0));
     const auto point = [&](double t) {

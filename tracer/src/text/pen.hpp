@@ -1,4 +1,4 @@
-// What a font says of a letter, point after point, becomes outlines of quadratic curves.
+// Converts a letter's path from a font to outlines of quadratic curves.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,13 +10,13 @@ namespace phasetree::tracer {
 
 class Pen {
   public:
-    // Points are multiplied by `scale`, after which the em is 1, and moved by `offset`.
+    // Points are scaled by `scale`, so that the em is 1, and then moved by `offset`.
     Pen(float scale, const glm::vec2& offset) : scale_(scale), offset_(offset) {}
 
     void move_to(const glm::vec2& p);
     void line_to(const glm::vec2& p);
     void quadratic_to(const glm::vec2& control, const glm::vec2& p);
-    // A cubic curve becomes a few quadratic ones that are nowhere further from it than a five-thousandth of the em.
+    // Approximates a cubic curve by a few quadratic ones, with an error of at most a five-thousandth of the em.
     void cubic_to(const glm::vec2& control1, const glm::vec2& control2, const glm::vec2& p);
     void close();
 
@@ -29,7 +29,7 @@ class Pen {
     float scale_;
     glm::dvec2 offset_;
     glm::dvec2 at_{0.0};
-    TextOutlines::Contour contour_{};  // ends on a point of the curve, until it is closed
+    TextOutlines::Contour contour_{};  // ends at a point of the curve until it is closed
 };
 
 }  // namespace phasetree::tracer

@@ -1,5 +1,5 @@
-// A text as a font draws it, for the node `text`. HarfBuzz lays it out: it knows which letters belong closer together,
-// which are joined, and in which direction a script runs.
+// Outlines of a text in a font, for the node `text`. HarfBuzz shapes the text: it handles kerning, ligatures and the
+// direction of scripts.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace phasetree::tracer {
 
-// `text` is UTF-8; \n begins another line. Whatever is wrong is std::runtime_error "cannot use the font "<path>": …",
-// which quotes nothing of the file; a letter that the font does not have is.
+// `text` is UTF-8; \n starts a new line. All errors are std::runtime_error "cannot use the font "<path>": …". The
+// message never quotes the file, but it does quote a letter that the font lacks.
 TextOutlines read_text(const std::filesystem::path& font, const std::string& text);
 
-// Whether this program was built with HarfBuzz.
+// Whether this build includes HarfBuzz.
 bool can_read_fonts();
 
-// HarfBuzz's version; empty if this program was built without it.
+// HarfBuzz's version; empty if this build does not include it.
 std::string harfbuzz_version();
 
 }  // namespace phasetree::tracer

@@ -11,7 +11,7 @@ namespace phasetree::tracer::view {
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
-    // So few bytes come all at once, or not at all.
+    // Requests this small are never filled partially.
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
         throw std::system_error(errno, std::generic_category(), "the system gives no random numbers");
     std::string token;
@@ -33,7 +33,7 @@ bool Access::allows(std::string_view host, std::string_view origin, std::string_
     if (!origin.empty() && !(origin.starts_with(scheme) && is_ours(origin.substr(scheme.size())))) return false;
     const std::size_t length = token_.size();
     if (path.size() < length + 2 || path[0] != '/' || path[length + 1] != '/') return false;
-    // All characters are compared, however early one differs, so that the time tells nothing of the token.
+    // Compare all characters, however early one differs, so that the time reveals nothing about the token.
     unsigned difference = 0;
     for (std::size_t i = 0; i < length; ++i)
         difference |=

@@ -1,8 +1,8 @@
-// Who may talk to the server: who knows the token, and, of browsers, only the page that it gave them itself.
+// Access control of the server: clients must know the token, and browsers must also be on the server's own page.
 //
-// The address is the loopback one, but any page in the user's browser can send requests there, and a name of a
-// stranger's can be made to point there (DNS rebinding). So the Host must be ours, and the Origin, where a browser
-// names one, too; and neither is enough without the token, which other users of the machine do not know.
+// The server listens on the loopback address, but any page in the user's browser can send requests there, and an
+// attacker can make a host name point there (DNS rebinding). So the Host must be ours, and so must the Origin, if the
+// browser sends one. Neither is sufficient without the token, which other users of the machine do not know.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer::view {
 
-/// 128 random bits of the system's, in hexadecimal digits. Throws std::system_error.
+/// 128 random bits from the system, in hexadecimal. Throws std::system_error.
 std::string random_token();
 
 class Access {
@@ -21,9 +21,9 @@ class Access {
     std::string url() const;
     /// "/TOKEN/"
     std::string path() const { return "/" + token_ + "/"; }
-    /// Whether a request may be answered. `origin` is empty where there is none.
+    /// Whether a request may be answered. `origin` is empty if there is none.
     bool allows(std::string_view host, std::string_view origin, std::string_view path) const;
-    /// Of a path that is allowed, what follows the token: "picture" of "/TOKEN/picture".
+    /// The part of an allowed path after the token: "picture" for "/TOKEN/picture".
     std::string_view within(std::string_view path) const { return path.substr(token_.size() + 2); }
 
   private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view end_of_head = "\r\n\r\n";
 
-// Parts of pictures, of which one request could ask for thousands, are not given: the line is taken out.
+// Removes the Range header. Partial pictures are not supported, because one request could ask for thousands of parts.
 void drop_ranges(std::string& head, std::size_t end) {
     constexpr std::string_view name = "range:";
     for (std::size_t from = 0; (from = head.find("\r\n", from)) < end; from += 2) {
@@ -24,7 +24,7 @@ void drop_ranges(std::string& head, std::size_t end) {
         if (head.size() - from - 2 < name.size() ||
             !std::equal(name.begin(), name.end(), head.begin() + static_cast<std::ptrdiff_t>(from + 2), is_same))
             continue;
-        // It keeps its length and gets a name that means nothing.
+        // Keep the length, and change the name to a meaningless one.
         head[from + 2] = 'x';
     }
 }
@@ -33,7 +33,7 @@ void drop_ranges(std::string& head, std::size_t end) {
 
 Connection::Connection(int socket) : socket_(socket) {}
 
-// What has come and was not read would make the system throw away the answer: it is read first.
+// Read what has arrived, because unread data would make the system discard the answer.
 Connection::~Connection() {
     ::shutdown(socket_, SHUT_WR);
     std::array<char, 4096> unread;

@@ -1,5 +1,5 @@
-// A connection to a client that is not trusted: nothing is waited for longer than until a deadline, and nothing larger
-// is read than a limit. What it gives to cpp-httplib is a head that is complete.
+// A connection to an untrusted client. Waiting is limited by a deadline, and reading by a maximum size. cpp-httplib
+// only sees complete request heads.
 #pragma once
 
 #include <httplib.h>
@@ -11,7 +11,7 @@
 
 namespace phasetree::tracer::view {
 
-// Which of the functions override one of the library depends on its version, so some are not marked `override`.
+// Which functions override one of the library's depends on its version, so some are not marked `override`.
 #ifdef __clang__
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Winconsistent-missing-override"
@@ -24,15 +24,15 @@ class Connection : public httplib::Stream {
     static constexpr std::chrono::milliseconds to_send_a_request{3000};
     static constexpr std::chrono::milliseconds to_take_an_answer{10000};
 
-    /// Closes the socket in the end.
+    /// Takes ownership of the socket, which the destructor closes.
     explicit Connection(int socket);
     ~Connection() override;
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// Reads until the empty line that ends a request's head. Whether that came in time and is not too large.
+    /// Reads up to the empty line that ends a request's head. Returns whether it arrived in time and is not too large.
     bool read_head();
-    /// Answers without the library.
+    /// Sends an answer without using the library.
     void refuse(std::string_view status);
 
     // The library calls the first two before 0.19 and the others from then on, so none can be marked `override`.
@@ -55,9 +55,9 @@ class Connection : public httplib::Stream {
     ssize_t receive(char* to, std::size_t size);
 
     int socket_;
-    std::string head_;          ///< and what came with it
-    std::size_t given_ = 0;     ///< of that to the library
-    std::size_t received_ = 0;  ///< in all
+    std::string head_;          ///< and data that arrived with it
+    std::size_t given_ = 0;     ///< bytes of it passed to the library
+    std::size_t received_ = 0;  ///< in total
     Clock::time_point deadline_ = Clock::now() + to_send_a_request;
     bool is_answering_ = false;
 };

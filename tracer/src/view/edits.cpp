@@ -12,9 +12,9 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// Black would absorb without bounds.
+// Black would have unbounded absorption.
 constexpr float darkest = 1e-4f;
-// Of what is made clear and had no index: glass.
+// For phases made clear that had no index of refraction: glass.
 constexpr float usual_ior = 1.5f;
 
 std::optional<float> constant(const Number& number) {
@@ -27,7 +27,7 @@ std::optional<glm::vec3> constant(const Texture& texture) {
     return value ? std::optional<glm::vec3>(value->color) : std::nullopt;
 }
 
-// What a clear phase shows of its inside: in milk nothing is left to be told as a colour.
+// The colour of a clear phase's interior. Scattering media, such as milk, have none.
 std::optional<glm::vec3> color_of(const Medium& medium, float depth) {
     const auto* absorbing = std::get_if<AbsorbingMedium>(&medium);
     return absorbing ? std::optional<glm::vec3>(beer_lambert(absorbing->absorption.rgb(), depth)) : std::nullopt;
@@ -55,7 +55,7 @@ Material looking(const Material& material, const Look& look, float depth) {
                 if (look.ior) kind.ior = *look.ior;
             if constexpr (requires { kind.roughness; })
                 if (look.roughness) kind.roughness = *look.roughness;
-            // A glass that splits light has an index at each wavelength, and is smooth.
+            // A dispersive glass has an index per wavelength, and is smooth.
             if constexpr (requires { kind.dispersion; })
                 if (look.ior || look.roughness) kind.dispersion.reset();
         },
@@ -115,7 +115,7 @@ float half_diagonal(const Phased& object) {
 
 Scene edited(const Scene& scene, const Edits& edits) {
     Scene result = scene;
-    // Colours must not change when a part is hidden or cut off.
+    // Computed from the unedited scene, because colours must not change when a part is hidden or cut off.
     const float depth = half_diagonal(scene.object);
     for (std::size_t i = 1; i < scene.phases.names.size(); ++i)
         if (const auto look = edits.looks.find(scene.phases.names[i]); look != edits.looks.end())

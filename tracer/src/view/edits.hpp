@@ -1,5 +1,5 @@
-// What the page changes of a scene that is viewed, and the file does not know: phases hidden, phases that look
-// otherwise, and a plane that cuts the object open. The picture is then that of a scene whose file says the same.
+// Changes that the page makes to a viewed scene, without changing its file: hidden phases, phases with other materials,
+// and a cutting plane. The picture is the same as if the file contained them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,47 +12,48 @@
 
 namespace phasetree::tracer::view {
 
-/// What is changed of a phase's material. What has no value stays, and what a material does not have is not changed.
+/// Changes to a phase's material. Members without a value change nothing, and neither do those that the material lacks.
 struct Look {
-    bool is_clear = false;  ///< made so, whatever it is: light travels inside
-    /// The reflectance, or of a clear phase what is left of white light after half the diagonal of the object's box.
+    bool is_clear = false;  ///< make the phase clear, regardless of its material, so that light travels inside
+    /// The reflectance; for a clear phase, the fraction of white light left after half the diagonal of the object's
+    /// box.
     std::optional<glm::vec3> color{};
     std::optional<float> ior{}, roughness{};
 };
 
-/// What lies on the side to which the normal points is cut away: the node `intersect_shape` with the node `plane`.
+/// Cuts away what lies on the side that the normal points to: the node `intersect_shape` with the node `plane`.
 struct CutPlane {
-    glm::vec3 normal{1, 0, 0};  ///< of any length but zero
-    float offset = 0;           ///< from the origin along the normal
+    glm::vec3 normal{1, 0, 0};  ///< any length except zero
+    float offset = 0;           ///< distance from the origin along the normal
 };
 
-/// Names of phases that the scene does not have count for nothing: the file may be saved with others.
+/// Names of phases that the scene lacks are ignored, because the file may be saved with other phases.
 struct Edits {
-    std::vector<std::string> hidden;  ///< vacuum takes their place, as by the node `remove`
+    std::vector<std::string> hidden;  ///< replaced by vacuum, as by the node `remove`
     std::map<std::string, Look> looks;
     std::optional<CutPlane> cut;
 };
 
-/// Throws ModelError if the plane's normal has no direction.
+/// Throws ModelError if the plane's normal is zero.
 Scene edited(const Scene& scene, const Edits& edits);
 
-/// What a material has that a Look can change, as it is.
+/// The properties of a material that a Look can change.
 struct Optics {
-    std::string kind;                             ///< as scene files name it
-    bool has_color = true, has_roughness = true;  ///< also where these vary from place to place
+    std::string kind;                             ///< the kind's name in scene files
+    bool has_color = true, has_roughness = true;  ///< also true if the value varies from place to place
     std::optional<glm::vec3> color{};
-    std::optional<float> ior{};  ///< none of what has no index
+    std::optional<float> ior{};  ///< empty for materials without one
     std::optional<float> roughness{};
 };
 
-/// Of a clear phase the colour is as in Look; `depth` is half the diagonal of the object's box. What varies from place
-/// to place has no value.
+/// For a clear phase, the colour is defined as in Look; `depth` is half the diagonal of the object's box. Properties
+/// that vary from place to place have no value.
 Optics optics_of(const Material& material, float depth);
 
-/// What becomes of them by a look.
+/// The properties after applying a look.
 Optics looking(const Optics& optics, const Look& look);
 
-/// Half the diagonal of the object's box, or 1 where the object has no end.
+/// Half the diagonal of the object's box, or 1 for an unbounded object.
 float half_diagonal(const Phased& object);
 
 }  // namespace phasetree::tracer::view

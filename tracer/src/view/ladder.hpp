@@ -1,5 +1,5 @@
-// The first pictures after a change: small ones, of a sample a pixel, each a few times as large as the one before, so
-// that something is seen at once and the whole picture soon.
+// The first pictures after a change: small ones with one sample per pixel, each several times larger than the previous
+// one, so that something is visible at once and the whole picture soon.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace phasetree::tracer::view {
 
 class Ladder {
   public:
-    /// How many times coarser along a side than the whole picture each picture is, the coarsest first, 1 last.
+    /// For each picture, how many times coarser it is per side than the whole picture, from the coarsest to 1.
     std::vector<int> scales(const glm::ivec2& resolution) const {
         const double pixels = static_cast<double>(resolution.x) * resolution.y;
         int coarsest = 1;
@@ -21,19 +21,19 @@ class Ladder {
         result.push_back(1);
         return result;
     }
-    /// Learns how fast pictures are.
+    /// Updates the estimated speed.
     void learn(std::uint64_t pixels, double seconds) {
         if (pixels > 0) pixels_a_second_ = static_cast<double>(pixels) / std::max(seconds, 1e-4);
     }
 
   private:
     static constexpr int most = 32;
-    static constexpr double most_seconds = 0.06;  // for the first
+    static constexpr double most_seconds = 0.06;  // for the first picture
 
-    double pixels_a_second_ = 100'000;  // of a slow scene, until it is known better
+    double pixels_a_second_ = 100'000;  // that of a slow scene, until measured
 };
 
-/// The size of a picture that is this many times coarser.
+/// The size of a picture that is `scale` times coarser.
 inline glm::ivec2 coarser(const glm::ivec2& resolution, int scale) {
     return {std::max(1, resolution.x / scale), std::max(1, resolution.y / scale)};
 }

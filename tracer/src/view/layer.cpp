@@ -27,7 +27,7 @@ glm::vec3 three_of(const std::vector<const Channel*>& channels, std::size_t pixe
     return {channels[0]->values[pixel], channels[1]->values[pixel], channels[2]->values[pixel]};
 }
 
-// A colour for a number: hues that follow each other by the golden ratio differ, whatever the numbers are.
+// A distinct colour per number: hues spaced by the golden ratio.
 glm::vec3 colour_of_number(std::uint32_t number) {
     const double turns = number * 0.6180339887498949;
     const auto hue = static_cast<float>(turns - std::floor(turns));
@@ -39,7 +39,7 @@ glm::vec3 colour_of_number(std::uint32_t number) {
     return 0.25f + 0.7f * colour;
 }
 
-// Depths where nothing is met are so large that all else would be black.
+// Excludes the depth of pixels that hit nothing, which is so large that everything else would be black.
 bool is_something(float value) {
     return std::isfinite(value) && value < no_depth;
 }
@@ -115,7 +115,7 @@ std::vector<glm::vec3> layer_on_display(const Image& image, const std::string& l
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::vec3 v = three_of(channels, i);
         if (is_cryptomatte)
-            // The first channel has the bits of a number as a float, the second how much of the pixel it covers.
+            // The first channel holds the bits of a number as a float, the second its coverage of the pixel.
             pixels.push_back(v.y * colour_of_number(std::bit_cast<std::uint32_t>(v.x)));
         else if (is_colour)
             pixels.push_back(v);

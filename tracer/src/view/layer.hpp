@@ -1,4 +1,5 @@
-// The film's planes as the page shows them. A layer is what an EXR file has under one name: "depth", "light_sun".
+// Displays the film's planes on the page. A layer is a named group of channels of an EXR file, such as "depth" or
+// "light_sun".
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,18 +13,18 @@ namespace phasetree::tracer::view {
 
 struct FilmLayer {
     std::string name;
-    std::size_t plane = 0;  ///< in the order of Planes
+    std::size_t plane = 0;  ///< index in the order of Planes
 };
 
-/// All that a film of these subjects can have beside the picture. Of a Cryptomatte plane it is the first layer, which
-/// has what covers most of a pixel.
+/// All layers that a film of these subjects can have besides the picture. For a Cryptomatte plane it is the first
+/// layer, with what covers most of a pixel.
 std::vector<FilmLayer> layers_of_film(const PlaneSubjects& subjects);
 
-/// What a layer of the image looks like, in [0, 1]. Colours are shown as the picture is. Normals are turned from [−1,
-/// 1] into [0, 1], positions from the box of the ball around `centre`. Numbers of phases and objects, and
-/// Cryptomatte's, become colours, one for each. Depths are grey from the farthest, which is dark, to the nearest, which
-/// is white. All else is grey from 0 to the largest value of the image. Where there is nothing, or no such layer, all
-/// is black.
+/// The appearance of a layer of the image, in [0, 1]. Colours are displayed like the picture. Normals are mapped from
+/// [−1, 1] to [0, 1], and positions from the bounding box of the ball around `centre`. Numbers of phases, objects and
+/// Cryptomatte become distinct colours. Depths range from dark grey for the farthest to white for the nearest.
+/// Everything else is grey, from 0 to the image's maximum. Where nothing is hit, or if the layer does not exist, the
+/// result is black.
 std::vector<glm::vec3> layer_on_display(const Image& image, const std::string& layer, const DisplayTransform& display,
                                         const glm::vec3& centre, float radius);
 

@@ -1,4 +1,4 @@
-// Instead of server.cpp in a build without cpp-httplib.
+// Replaces server.cpp in builds without cpp-httplib.
 #include "view/server.hpp"
 
 #include <stdexcept>

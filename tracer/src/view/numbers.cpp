@@ -6,7 +6,7 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// A key within a pointer (RFC 6901, Section 3).
+// Escapes a key for a JSON pointer (RFC 6901, Section 3).
 std::string escaped(std::string_view key) {
     std::string result;
     for (const char c : key) {
@@ -20,8 +20,8 @@ std::string escaped(std::string_view key) {
     return result;
 }
 
-// Calls visit(number, pointer) for each number of the text, in its order, and leave(value, pointer, whether there was
-// any) behind each value.
+// Calls visit(number, pointer) for each number of the text, in order, and leave(value, pointer, whether it contained
+// any) after each value.
 template <class Visit, class Leave>
 bool each_number(Value value, const std::string& pointer, const Visit& visit, const Leave& leave) {
     bool has_any = value.is_number();
@@ -35,7 +35,7 @@ bool each_number(Value value, const std::string& pointer, const Visit& visit, co
     return has_any;
 }
 
-// Calls replace(number, what stands in its place) for each number that is edited, in the order of the text.
+// Calls replace(number, replacement) for each edited number, in the order of the text.
 template <class Replace>
 void each_replacement(const Document& document, const NumberEdits& edits, const Replace& replace) {
     const auto visit = [&](Value number, const std::string& pointer) {
@@ -57,7 +57,7 @@ TextNumbers numbers_of(const Document& document) {
             result.has_more = true;
             return;
         }
-        // Lines end as SceneError counts them: at LF, CR LF or CR.
+        // Line endings as SceneError counts them: LF, CR LF or CR.
         for (; counted < number.offset(); ++counted)
             if (text[counted] == '\n' || (text[counted] == '\r' && text[counted + 1] != '\n')) ++line;
         result.numbers.push_back({pointer, line, number.number()});
@@ -82,7 +82,7 @@ std::string with_numbers(const Document& document, const NumberEdits& edits) {
 }
 
 std::size_t offset_without_numbers(const Document& document, const NumberEdits& edits, std::size_t offset) {
-    std::size_t longer = 0, shorter = 0;  // by how much the text before is
+    std::size_t longer = 0, shorter = 0;  // growth and shrinkage of the text before
     each_replacement(document, edits, [&](Value number, const std::string& by) {
         if (number.offset() + longer - shorter >= offset) return;
         longer += by.size();

@@ -1,5 +1,5 @@
-// The numbers in the text of the scene's file, which the page shows as sliders. A number is known by its JSON pointer
-// (RFC 6901), as "/tree/set/of/sphere/radius", which stays the same while other lines of the file are edited.
+// The numbers in the text of a scene file, which the page shows as sliders. A number is identified by its JSON pointer
+// (RFC 6901), such as "/tree/set/of/sphere/radius", which does not change when other lines of the file are edited.
 #pragma once
 
 #include <map>
@@ -14,28 +14,28 @@ namespace phasetree::tracer::view {
 struct NumberInText {
     std::string pointer;
     std::size_t line = 0;  ///< from 1
-    double value = 0;      ///< as the file has it
+    double value = 0;      ///< in the file
 };
 
-/// What is to stand instead of some numbers. Pointers to nothing, or to what is no number, count for nothing: the file
-/// may be saved with others.
+/// Replacements of numbers. Pointers that do not refer to a number are ignored, because the file may have been saved
+/// with other content.
 using NumberEdits = std::map<std::string, double>;
 
 struct TextNumbers {
     static constexpr std::size_t most = 5000;
 
-    std::vector<NumberInText> numbers;  ///< in the order of the text, but for the file's version; `most` at most
-    bool has_more = false;              ///< than these
-    /// By where its key begins: the pointer of each member of an object that has numbers among these in it.
+    std::vector<NumberInText> numbers;  ///< in the order of the text, at most `most`, without the file's version
+    bool has_more = false;              ///< whether there are more
+    /// The pointer of each member of an object that contains any of these numbers, by the offset of its key.
     std::unordered_map<std::size_t, std::string> members;
 };
 
 TextNumbers numbers_of(const Document&);
 
-/// The text with the numbers replaced, and all else as it was.
+/// The text with these numbers replaced and everything else unchanged.
 std::string with_numbers(const Document&, const NumberEdits&);
 
-/// Where in the document's own text that stands which is at an offset of with_numbers(), and is no number.
+/// Maps an offset in with_numbers(), outside of numbers, to the offset in the document's own text.
 std::size_t offset_without_numbers(const Document&, const NumberEdits&, std::size_t offset);
 
 }  // namespace phasetree::tracer::view

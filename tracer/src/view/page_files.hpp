@@ -1,4 +1,4 @@
-// The page's files, which the build puts into the program (tracer/cmake/embed_files.cmake).
+// The page's files, embedded into the program by the build (tracer/cmake/embed_files.cmake).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// A scene that is ready for rays.
+// A scene prepared for rays.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,15 @@ namespace phasetree::tracer::view {
 
 class Prepared {
   public:
-    /// Shares the scene, whose camera, film and number of samples its owner may go on to change: nothing here reads
-    /// them. Throws as World does.
+    /// Shares ownership of the scene. Its owner may still change the camera, the film and the number of samples, which
+    /// are not read here. Throws as World does.
     Prepared(std::shared_ptr<const Scene> scene, const WorldOptions& options);
 
     const Scene& scene() const { return *scene_; }
     const World& world() const { return world_; }
-    /// Whether it is for a first look (WorldOptions::is_first_look).
+    /// Whether it was built for a first look (WorldOptions::is_first_look).
     bool is_first_look() const { return is_first_look_; }
-    /// Traces through opaque phases, too. It is made when it is first asked for, which no picture does. Throws
-    /// ModelError.
+    /// Traces through opaque phases too. Created on first use; pictures do not need it. Throws ModelError.
     const InterfaceTracer& tracer() const;
 
   private:

@@ -47,7 +47,7 @@ std::vector<ProbedNode> path_to(const ViewedScene& viewed, const Phased& object,
     return path;
 }
 
-// Fills in what is met first: the object, or a mesh before it.
+// Fills in what the ray hits first: the object, or a mesh before it.
 void meet(const ViewedScene& viewed, const Prepared& prepared, Probed& result) {
     const World& world = prepared.world();
     PathCounters counters;
@@ -62,7 +62,7 @@ void meet(const ViewedScene& viewed, const Prepared& prepared, Probed& result) {
         try {
             result.path = path_to(viewed, prepared.scene().object, surface->near_side.origin, entered);
         } catch (const ModelError&) {
-            // The tree stands for too many nodes; the rest can be told all the same.
+            // The tree has too many nodes; report the rest.
         }
     } else {
         result.met = prepared.scene().meshes[surface->object - 1].name;
@@ -79,7 +79,7 @@ void meet(const ViewedScene& viewed, const Prepared& prepared, Probed& result) {
 Probed probe(const Picture& picture, const glm::vec2& place) {
     const FlushSubnormals flush;
     const Camera camera(picture.camera, picture.viewed->scene.film.resolution());
-    // The middle of a lens is the middle of the unit square.
+    // The middle of the unit square is the middle of the lens.
     const CameraRay ray = camera.generate(place, glm::vec2(0.5f));
     Probed result;
     result.origin = ray.origin;

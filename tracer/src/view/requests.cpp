@@ -68,7 +68,7 @@ Json written(const ShownPhase& phase) {
             {"look", look}};
 }
 
-// Names of a scene may hold any bytes that JSON texts may; what a terminal or a system says may hold others.
+// Formats JSON as one line. Names from the scene are valid JSON text, but messages of the system may contain any bytes.
 std::string line(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -24,7 +24,7 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// How long a request for the next picture waits for it, and how many may wait: the others are told what there is.
+// How long a request waits for the next picture, and how many requests may wait. Others get the current state at once.
 constexpr std::chrono::milliseconds longest_wait{5000};
 constexpr int most_waiting = 6;
 
@@ -44,7 +44,7 @@ std::uint64_t number(const httplib::Request& request, const char* name) {
     return error == std::errc() && end == text.data() + text.size() ? value : 0;
 }
 
-// cpp-httplib with connections of our own instead of its.
+// cpp-httplib with our own connections.
 class Server : public httplib::Server {
   public:
     /// Ends all connections.
@@ -55,7 +55,7 @@ class Server : public httplib::Server {
     }
 
   private:
-    // A request a connection: what was left unread of one is never taken for another.
+    // One request per connection, so that the unread rest of one is never mistaken for another.
     bool process_and_close_socket(socket_t socket) override {
         Connection connection(socket);
         if (Workers::is_refusing()) {
@@ -78,7 +78,7 @@ class Server : public httplib::Server {
         return is_answered;
     }
 
-    // From 0.15 on the library wants to know the addresses, which nobody here asks for.
+    // From 0.15 on, the library asks for the addresses, which are not used here.
     template <class Self>
     static bool answer(Self& self, Connection& connection, bool& is_closed) {
         if constexpr (requires { self.process_request(connection, true, is_closed, {}); })
@@ -97,7 +97,7 @@ class Answers {
     Answers(Session& session, Access access, bool may_be_framed)
         : session_(session), access_(std::move(access)), may_be_framed_(may_be_framed) {}
 
-    // Before the body is read. Whether it is answered already.
+    // Called before the body is read. Returns whether the request has already been answered.
     bool head(const httplib::Request& request, httplib::Response& response) const {
         set_headers(response);
         if (!access_.allows(request.get_header_value("Host"), request.get_header_value("Origin"), request.path))
@@ -151,7 +151,7 @@ class Answers {
     }
 
   private:
-    // The page may load nothing from elsewhere and be shown in no stranger's frame, and its address goes nowhere.
+    // The page may not load anything from elsewhere or be shown in a foreign frame, and its address is not passed on.
     void set_headers(httplib::Response& response) const {
         response.set_header(
             "Content-Security-Policy",
@@ -179,7 +179,7 @@ class Answers {
             }
         return false;
     }
-    // What is shown after a version as a line of JSON, and behind it the picture's pixels, if the client has not got
+    // Sends the state after a version as a line of JSON, followed by the picture's pixels if the client does not have
     // them yet.
     bool picture(const httplib::Request& request, httplib::Response& response) const {
         const bool may_wait = waiting_.fetch_add(1) < most_waiting;
@@ -226,7 +226,7 @@ void serve(Session& session, const ServeOptions& options) {
     server.new_task_queue = [] { return new Workers; };
     server.set_payload_max_length(Connection::most_bytes_of_body);
     server.set_tcp_nodelay(true);
-    // Instead of the library's SO_REUSEPORT, with which another program could take a share of the requests.
+    // Replaces the library's SO_REUSEPORT, which would let another program receive some of the requests.
     server.set_socket_options([](socket_t socket) {
         const int yes = 1;
         ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);

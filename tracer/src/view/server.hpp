@@ -1,4 +1,4 @@
-// Serves the page of a session on the loopback address.
+// Serves a session's page on the loopback address.
 #pragma once
 
 #include <functional>
@@ -8,21 +8,21 @@
 
 namespace phasetree::tracer::view {
 
-/// Whether this build can serve pages: it had the library for it.
+/// Whether this build includes the server library.
 bool can_serve();
-/// That library and its version, "cpp-httplib 0.11.4"; empty if this build cannot serve pages.
+/// The name and version of the server library, as in "cpp-httplib 0.11.4"; empty if this build cannot serve pages.
 std::string server_library();
 
 struct ServeOptions {
-    int port = 0;  ///< 0: any that is free
-    /// Whether pages of other servers of this machine, such as a notebook's, may show the page within them.
+    int port = 0;  ///< 0 selects any free port
+    /// Whether pages of other servers on this machine, such as a notebook's, may embed the page.
     bool may_be_framed = false;
     std::function<bool()> is_over;
-    std::function<void(const std::string& url)> serving;  ///< is told where, once requests are answered
+    std::function<void(const std::string& url)> serving;  ///< receives the address once requests are answered
 };
 
-/// Answers requests until it is over; then the session is stopped. Throws std::runtime_error where the port cannot be
-/// had.
+/// Answers requests until the server is stopped, then stops the session. Throws std::runtime_error if the port is
+/// unavailable.
 void serve(Session& session, const ServeOptions& options);
 
 }  // namespace phasetree::tracer::view

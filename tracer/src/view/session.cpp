@@ -1,4 +1,4 @@
-// What a page asks a session for: changes are taken down as wishes, and what is shown is handed out.
+// The interface between the page and the session: records changes as wishes, and returns what is shown.
 #include "view/session.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// What the page's controls say must not go back to what was wished before.
+// The page's controls must not jump back to earlier values.
 void show_wishes(const Edits& edits, const NumberEdits& numbers, Shown& shown) {
     shown.cut = edits.cut;
     shown.numbers = numbers;
@@ -77,7 +77,7 @@ void Session::write_numbers() {
     const std::lock_guard lock(writing_);
     const NumberEdits numbers = shown()->numbers;
     options_.write_numbers(numbers);
-    // Others may have been wished for meanwhile.
+    // Other changes may have been requested meanwhile.
     Change change;
     change.numbers = shown()->numbers;
     for (const auto& [pointer, value] : numbers)
@@ -103,7 +103,7 @@ std::uint64_t Session::change(const Change& change) {
         if (change.has_camera || change.layer || change.is_of_object() || change.is_of_text())
             wishes_.since = Clock::now();
         announce_wishes();
-        // Before the thread can have done it, or the page would be told of what is over.
+        // Set this before the thread can finish the work, or the page would be shown an outdated message.
         if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
         if (change.is_of_text()) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
         if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Taking the picture"; });
@@ -112,7 +112,7 @@ std::uint64_t Session::change(const Change& change) {
     return shown()->version;
 }
 
-// A file is read when it has been the same at two looks, because some programs save in several steps.
+// Reads a file only after two checks with the same state, because some programs save in several steps.
 void Session::look_at_files() {
     const std::lock_guard lock(mutex_);
     if (is_to_be_read_) return;

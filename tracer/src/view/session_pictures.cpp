@@ -1,4 +1,5 @@
-// The pictures of a session: coarse ones with the first cells, then the whole one with better cells, pass by pass.
+// Renders the pictures of a session: coarse ones with the first cells, then the whole one with better cells, pass by
+// pass.
 #include <fmt/format.h>
 
 #include <utility>
@@ -11,10 +12,10 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While the camera is turned, or a slider is drawn, each wish comes before the picture of the last is there. A first
-// coarse picture is finished all the same, until so long after it was begun.
+// While the camera is rotated or a slider is dragged, each wish arrives before the picture of the last one is complete.
+// A first coarse picture is completed anyway, unless it takes longer than this.
 constexpr std::chrono::milliseconds first_picture_deadline{250};
-// Pictures that follow each other faster than this are not shown one by one.
+// Pictures that follow each other faster than this are not all shown.
 constexpr std::chrono::milliseconds between_pictures{100};
 
 std::vector<std::uint8_t> on_display(const Picture& picture) {
@@ -29,7 +30,7 @@ std::vector<std::uint8_t> on_display(const Picture& picture) {
     return quantise8(pixels, picture.linear.width, 0, 0);
 }
 
-// The film of a picture of which this layer is shown; the others are those that `render` keeps by itself.
+// The planes of a film for showing this layer: its own, and those that `render` keeps by default.
 Planes::Choice planes_with(const Scene& scene, const std::string& layer) {
     Planes::Choice planes = Planes::by_default();
     for (const FilmLayer& known : layers_of_film(subjects_of(scene)))
@@ -46,7 +47,7 @@ bool Session::draw(const Wishes& wishes) {
     scene_->camera = wishes.camera.value_or(file.camera);
     scene_->film.planes = planes_with(file, wishes.layer);
     show([&](Shown& shown) {
-        // What went wrong with an earlier picture is over; that the file cannot be read is not.
+        // Errors of an earlier picture are obsolete; an unreadable file is not.
         if (last_read_well_ == last_read_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
         shown.doing = "Taking the picture";
@@ -54,8 +55,7 @@ bool Session::draw(const Wishes& wishes) {
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(wishes, scale)) return false;
     if (prepared_->is_first_look()) {
-        // Where the whole picture is quick there is no coarser one, and something is to be seen before better cells
-        // are.
+        // A fast picture has no coarser ones. Show something before better cells are built.
         if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
         surfaces_->begin_scene();
@@ -71,7 +71,7 @@ bool Session::draw(const Wishes& wishes) {
     return true;
 }
 
-// Warns if the camera is inside an opaque phase, where it sees nothing.
+// Returns a warning if the camera is inside an opaque phase, where it sees nothing.
 std::string Session::warning_of_camera() const {
     const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
     if (is_clear(scene_->materials[phase.index])) return {};
@@ -79,19 +79,20 @@ std::string Session::warning_of_camera() const {
                        scene_->phases[phase]);
 }
 
-// Whether a picture is to be left unfinished, for later wishes.
+// Whether to abandon a picture in favour of later wishes.
 bool Session::is_given_up(const Wishes& wishes, bool is_first) const {
     const bool is_over = !is_first || Clock::now() - drawing_since_ > first_picture_deadline;
     return is_of_another_reading(wishes) || (is_over && is_stale(wishes));
 }
 
-// Returns whether the picture was finished and is still wished for.
+// Returns whether the picture was completed and is still wanted.
 bool Session::draw_coarser(const Wishes& wishes, int scale) {
     const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
     scene_->film.width = size.x;
     scene_->film.height = size.y;
     scene_->settings.samples = 1;
-    // Photons and guides would take longer than all of a coarse picture, because where light is is learnt again.
+    // Photons and guiding would take longer than the whole coarse picture, because they would start learning from
+    // scratch.
     scene_->settings.caustics = scene_->settings.guiding = false;
     const bool is_first = is_first_of(wishes);
     RenderJob job;
@@ -124,7 +125,7 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
     };
     Rendering rendering = render(prepared_->world(), *scene_, job);
     if (rendering.cancelled || is_stale(wishes)) return false;
-    // Where pixels stop by their noise nobody knows before which pass is the last.
+    // If pixels stop by their noise, it is not known in advance which pass is the last.
     if (scene_->settings.noise > 0) show_picture(wishes, std::move(rendering.image), 1, samples);
     return true;
 }
@@ -157,8 +158,8 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
     expose();
 }
 
-// Shows the last picture with the exposure that is wished, if it has another. Meanwhile another picture may come, or
-// another wish, so this is repeated until both agree.
+// Shows the last picture with the current exposure, if it differs. The picture or the exposure may change meanwhile, so
+// this is repeated until both agree.
 void Session::expose() {
     while (true) {
         std::optional<float> wished;

@@ -1,5 +1,5 @@
-// A session's thread follows the last wish: it reads the scene's file, edits the scene, and builds its cells. The
-// pictures that it then takes are in session_pictures.cpp.
+// The thread of a session, which follows the last wish: it reads the scene's file, edits the scene, and builds its
+// cells. The pictures are rendered in session_pictures.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While a slider is drawn, each wish comes before the picture of the last is there. Its coarse cells are finished all
-// the same, until so long after they were begun.
+// While a slider is dragged, each wish arrives before the picture of the last one is complete. Its coarse cells are
+// completed anyway, unless they take longer than this.
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
-// What a terminal would show.
+// The message that a terminal would show.
 std::string error_text(std::exception_ptr failure) {
     try {
         std::rethrow_exception(failure);
@@ -42,7 +42,7 @@ std::vector<ShownPhase> shown_phases(const Scene& scene) {
 }
 
 void set_width(FilmSettings& film, int width) {
-    constexpr double highest = 32768;  // Scene files have the same limit.
+    constexpr double highest = 32768;  // the same limit as in scene files
     film.height =
         static_cast<int>(std::clamp(std::round(static_cast<double>(width) * film.height / film.width), 1.0, highest));
     film.width = width;
@@ -64,7 +64,7 @@ void Session::work() {
         try {
             follow(wishes);
         } catch (const BuildCancelled&) {
-            // Another wish has come, which the next turn follows.
+            // A newer wish has arrived; handle it in the next iteration.
         } catch (...) {
             fail(error_text(std::current_exception()));
         }
@@ -79,7 +79,7 @@ void Session::follow(Wishes wishes) {
     if (!viewed_) return stop_by_error();
     const ObjectNumber object{last_read_well_, wishes.object};
     if (object != built_for_) {
-        // Set first: what cannot be built is not tried again before another object is wished for.
+        // Set this first, so that a failed build is not repeated until another object is wanted.
         built_for_ = object;
         build(wishes);
     }
@@ -89,7 +89,7 @@ void Session::follow(Wishes wishes) {
     if (draw(wishes)) finished_for_ = picture;
 }
 
-// Where the scene cannot be read, the last one stays.
+// If the scene cannot be read, the previous one stays.
 void Session::read(Wishes& wishes) {
     show([](Shown& shown) { shown.doing = "Reading the scene"; });
     WatchedFiles files;
@@ -107,9 +107,9 @@ void Session::read(Wishes& wishes) {
         const std::lock_guard lock(mutex_);
         files_ = std::move(files);
         is_to_be_read_ = false;
-        // Who edits the camera in the file wants to see that, and not where the mouse has turned it.
+        // Someone who edits the camera in the file wants to see that camera, not where the mouse has turned it.
         const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
-        // A camera that has been wished for meanwhile came later and stays.
+        // A camera that was requested meanwhile is newer, and stays.
         if (viewed && viewed_ && text(viewed->scene) != text(viewed_->scene)) {
             if (wishes_.view == wishes.view) wishes_.camera.reset();
             wishes.camera.reset();
@@ -148,7 +148,7 @@ void Session::build(const Wishes& wishes) {
         built_for_ = {};
         throw;
     } catch (...) {
-        prepared_.reset();  // It is of another scene than viewed_, and its picture would be wrong.
+        prepared_.reset();  // it belongs to another scene than viewed_, and its picture would be wrong
         throw;
     }
     scene_ = scene;
@@ -169,7 +169,7 @@ void Session::build(const Wishes& wishes) {
         shown.samples = scene->settings.samples;
         shown.phases = shown_phases(viewed_->scene);
         shown.layers = layers_of_film(subjects_of(viewed_->scene));
-        // Hiding a part must not move what the camera turns around.
+        // Hiding a part must not move the point that the camera turns around.
         const Bounds bounds =
             is_of_meshes ? bounds_of(viewed_->scene.meshes) : phasetree::bounds(viewed_->scene.object);
         if (bounds.empty() || !bounds.finite()) return;
@@ -178,7 +178,7 @@ void Session::build(const Wishes& wishes) {
     });
 }
 
-// What shows the same object, of other materials or from elsewhere, keeps the cells that there are.
+// Keeps the existing cells if only materials or the camera differ.
 void Session::keep_cells(const Scene& scene, WorldOptions& options) const {
     if (!prepared_) return;
     options.known_cells = prepared_->world().geometry().objects().front();

@@ -1,5 +1,5 @@
-// What the page shows at a time: a picture and what is to be said of it. A value that is never changed, so that any
-// number of threads may hold the last one.
+// What the page shows at one moment: a picture and information about it. Immutable once published, so any number of
+// threads may hold it.
 #pragma once
 
 #include <cstdint>
@@ -20,51 +20,51 @@
 namespace phasetree::tracer::view {
 
 struct Picture {
-    std::uint64_t number = 0;  ///< grows from one to the next
+    std::uint64_t number = 0;  ///< increases from picture to picture
     Image linear;
-    std::vector<std::uint8_t> pixels;  ///< as the display shows them: red, green and blue, row by row
-    int scale = 1;                     ///< of the whole picture's pixels along a side of one of these
-    int samples = 0;                   ///< in each pixel
+    std::vector<std::uint8_t> pixels;  ///< display values: red, green and blue, row by row
+    int scale = 1;                     ///< pixels of the whole picture per side of one of these pixels
+    int samples = 0;                   ///< per pixel
     AnyCameraParameters camera;
-    std::string layer;                          ///< that is shown of it; empty for the picture itself
-    glm::vec3 centre{0.0f};                     ///< of the object, for that,
-    float radius = 1;                           ///< and of a ball around it
-    std::shared_ptr<const ViewedScene> viewed;  ///< what it was taken of …
-    std::shared_ptr<const Prepared> prepared;   ///< … ready for rays
-    float exposure_ev = 0;                      ///< with which the display shows it
+    std::string layer;                          ///< the layer shown; empty for the picture itself
+    glm::vec3 centre{0.0f};                     ///< of the object, for showing the layer,
+    float radius = 1;                           ///< and the radius of a ball around it
+    std::shared_ptr<const ViewedScene> viewed;  ///< the scene that was rendered …
+    std::shared_ptr<const Prepared> prepared;   ///< … prepared for rays
+    float exposure_ev = 0;                      ///< of the display transform
 };
 
 struct ShownPhase {
     std::string name;
-    bool is_hidden = false;  ///< as it is wished, before there is a picture of that
-    Optics optics;           ///< as the file says it
-    Look look;               ///< what is wished to be changed of that
+    bool is_hidden = false;  ///< as requested, even before there is a picture of it
+    Optics optics;           ///< in the file
+    Look look;               ///< requested changes to it
 };
 
 struct Shown {
-    std::uint64_t version = 0;  ///< grows whenever anything here changes
+    std::uint64_t version = 0;  ///< increases whenever anything here changes
     std::shared_ptr<const Picture> picture;
-    std::string doing;         ///< what is worked on: a sentence for people
-    std::string error;         ///< as a terminal shows it; empty if all is well
+    std::string doing;         ///< the current work, as a sentence for people
+    std::string error;         ///< as shown on a terminal; empty if there is none
     std::string warning;       ///< likewise
-    std::string scene;         ///< what it is called
+    std::string scene;         ///< name of the scene
     glm::ivec2 resolution{0};  ///< of the whole picture
-    int samples = 0;           ///< that a pixel is to have in the end
+    int samples = 0;           ///< final number per pixel
     std::vector<ShownPhase> phases;
-    std::optional<CutPlane> cut;    ///< likewise
-    std::string layer;              ///< likewise; empty for the picture itself
-    std::vector<FilmLayer> layers;  ///< that there are
-    NumberEdits numbers;            ///< likewise, instead of those of the file
-    /// Those of the file, and how often it has been read until they were there.
+    std::optional<CutPlane> cut;    ///< as requested
+    std::string layer;              ///< as requested; empty for the picture itself
+    std::vector<FilmLayer> layers;  ///< the available layers
+    NumberEdits numbers;            ///< as requested, instead of those in the file
+    /// The numbers in the file, and how often the file had been read when they were found.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;
-    double seconds = 0;            ///< likewise: the time of what is shown,
-    std::optional<TimeSpan> keys;  ///< and from the scene's first key to its last
-    std::string camera_text;       ///< likewise, as the scene's file would say it; empty until there is an object
+    double seconds = 0;            ///< as requested: the time that is shown,
+    std::optional<TimeSpan> keys;  ///< and the range from the scene's first key to its last
+    std::string camera_text;       ///< as requested, as text for a scene file; empty until there is an object
     glm::vec3 centre{0.0f};        ///< of the object
     float radius = 1;              ///< of a ball around it
     float exposure_ev = 0;
-    double seconds_to_picture = 0;  ///< from the last change to the first picture of it
+    double seconds_to_picture = 0;  ///< from the last change to its first picture
 };
 
 }  // namespace phasetree::tracer::view

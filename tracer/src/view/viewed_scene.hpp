@@ -1,4 +1,4 @@
-// The scene that is viewed, as whoever starts the view reads it.
+// The scene being viewed, and how it is read.
 #pragma once
 
 #include <functional>
@@ -13,35 +13,35 @@
 
 namespace phasetree::tracer::view {
 
-/// From a time to a later one, in seconds.
+/// A range of times, in seconds.
 struct TimeSpan {
     double first = 0, last = 0;
 };
 
-/// What is wished to stand instead of what the file and the command say.
+/// Values that override those of the file and the command line.
 struct Reading {
     NumberEdits numbers{};
-    std::optional<double> seconds{};  ///< the time at which it is read
+    std::optional<double> seconds{};  ///< the time at which the scene is read
 };
 
 struct ViewedScene {
     Scene scene;
-    /// How the scene is shown, but for the exposure.
+    /// How the scene is displayed, except for the exposure.
     std::function<DisplayTransform(float exposure_ev)> display;
-    std::optional<Document> file{};  ///< of the scene, without the numbers that stand instead of its own:
+    std::optional<Document> file{};  ///< of the scene, without these edits:
     NumberEdits edits{};
     TextNumbers numbers{};           ///< of the file
-    NodePlaces places{};             ///< of the object's nodes, with those numbers
-    std::string warnings{};          ///< of the reader, each with a newline behind it
+    NodePlaces places{};             ///< of the object's nodes, with the overridden numbers
+    std::string warnings{};          ///< from the reader, each with a newline at the end
     double seconds = 0;              ///< the time at which it was read,
-    std::optional<TimeSpan> keys{};  ///< and from the first key to the last; nothing where nothing changes with time
+    std::optional<TimeSpan> keys{};  ///< and the range of the keys; empty if nothing changes with time
 
-    /// Where a node stands in its file, as that is; nothing for one that stands in none.
+    /// The position of a node in the unmodified file; nullopt for a node that is not in a file.
     std::optional<NodePlace> place_of(const void* node) const;
 };
 
-/// Reads the scene as it is wished, and names each file before it reads it. Throws what reading a scene throws; the
-/// files that were named until then are watched all the same.
+/// Reads the scene as requested. Adds each file before reading it, so that files added before an exception are watched
+/// too. Throws what reading a scene throws.
 using ReadScene = std::function<ViewedScene(WatchedFiles&, const Reading&)>;
 
 }  // namespace phasetree::tracer::view

@@ -1,4 +1,4 @@
-// Files that a scene is read from, as they were when they were read, to see when one of them is saved.
+// The files that a scene was read from, and their state at that time, for detecting when one is saved.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@ namespace phasetree::tracer::view {
 
 class WatchedFiles {
   public:
-    /// To be called before the file is opened: what is saved while it is read must count as a change. The file need
-    /// not be there; then its coming is the change. Beyond `most` files nothing is added.
+    /// Adds a file. Call this before opening it, so that saving it during reading counts as a change. The file may be
+    /// missing; then its creation is the change. Beyond `most` files, nothing is added.
     void add(const std::filesystem::path& file);
 
-    /// The same files as they are now.
+    /// The same files in their current state.
     WatchedFiles now() const;
     /// Whether both are the same files in the same state.
     bool operator==(const WatchedFiles&) const = default;
@@ -21,7 +21,7 @@ class WatchedFiles {
     static constexpr std::size_t most = 1024;
 
   private:
-    /// What changes when a file is written in place, or replaced by another.
+    /// Changes when a file is written in place, or replaced by another.
     struct Stamp {
         bool is_there = false;
         std::uint64_t inode = 0, size = 0;

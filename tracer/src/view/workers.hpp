@@ -1,4 +1,4 @@
-// The threads that answer requests: a fixed number, with room for a few connections to wait.
+// The threads that answer requests: a fixed number, with a queue for a few connections.
 #pragma once
 
 #include <httplib.h>
@@ -18,16 +18,16 @@ class Workers : public httplib::TaskQueue {
     static constexpr std::size_t threads = 12;
     static constexpr std::size_t most_waiting = 64;
 
-    /// Before 0.15 nothing, from then on whether the task was taken; it always is.
+    /// void before 0.15; from then on, whether the task was accepted, which is always true.
     using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 
     Workers();
 
-    /// Where no more may wait, runs the task at once in the caller's thread, with is_refusing().
+    /// If the queue is full, runs the task at once in the caller's thread, with is_refusing() true.
     Enqueued enqueue(std::function<void()> task) override;
     void shutdown() override;
 
-    /// Whether the calling thread runs a task only to refuse what it stands for.
+    /// Whether the calling thread runs a task only to reject its request.
     static bool is_refusing();
 
   private:

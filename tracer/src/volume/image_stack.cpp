@@ -1,5 +1,5 @@
-// Voxels as a stack of images, one per layer. Labels of a segmented scan are grey integers, or the indices of a PNG
-// file with a palette. Other voxels are quantities: integers are scaled to 0 … 1, and floats are taken as they are.
+// Reads voxels from a stack of images, one per layer. Labels of a segmented scan are grey integers, or the indices of a
+// PNG file with a palette. Other voxels are quantities: integers are scaled to 0 … 1, and floats are used as they are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name in which a run of # stands for a number of at least as many digits.
+// A name in which a run of # stands for a number with at least that many digits.
 struct Pattern {
     std::string before, behind;
     std::size_t digits;
@@ -79,8 +79,8 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
 
 namespace {
 
-// Adds a layer's voxels to those of the layers below it. The first layer sets the size, after `check` has accepted its
-// header; `number` makes a voxel's number of a grey value; `read` reads a file.
+// Appends the voxels of a layer. The first layer sets the size, after `check` has accepted its header. `number`
+// converts a grey value to a voxel's number, and `read` reads a file.
 template <class T, class Check, class Number, class Read>
 void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, std::vector<T>& voxels,
                const Check& check, const Number& number, const Read& read) {
@@ -99,7 +99,7 @@ void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, st
     read(file, "layer", begin, [&](std::span<const float> values) {
         for (const float v : values) voxels.push_back(number(v));
     });
-    // The first row is at the largest y; in the grid y rises.
+    // The first row has the largest y, but the grid is in the order of increasing y.
     const auto columns = static_cast<std::ptrdiff_t>(size[0]);
     auto low = voxels.begin() + static_cast<std::ptrdiff_t>(first), high = voxels.end() - columns;
     for (; low < high; low += columns, high -= columns) std::swap_ranges(low, low + columns, high);
@@ -117,7 +117,7 @@ LabelGrid labels_of_images(const fs::path& path) {
     LabelGrid grid;
     grid.lattice.size[2] = static_cast<int>(layers.size());
     LabelNumbers numbers(grid);
-    // The greatest integer of the images' type, by which read_image() divides.
+    // The largest integer of the images' type, by which read_image() divides.
     double greatest = 255;
     const auto check = [&](const ImageHeader& header) {
         constexpr const char* must_be = "labels must be grey integers of at most 32 bits, or the palette of a PNG";
@@ -128,7 +128,7 @@ LabelGrid labels_of_images(const fs::path& path) {
                                                  header.bits));
         greatest = std::exp2(header.is_signed ? header.bits - 1 : header.bits) - 1;
     };
-    // Floats tell integers of 32 bits apart as long as they are not greater.
+    // Up to this limit, floats can represent 32-bit integers distinctly.
     constexpr double most = 1 << 20;
     const auto label = [&](float v) {
         const double number = std::round(static_cast<double>(v) * greatest);

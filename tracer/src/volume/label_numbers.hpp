@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-// Adds voxels to a grid, in the order in which it keeps them, and their numbers to its list as they come.
+// Appends voxels to a grid in its storage order, and adds each new number to the list.
 class LabelNumbers {
   public:
     explicit LabelNumbers(LabelGrid& grid) : grid_(grid) {}
@@ -34,7 +34,7 @@ class LabelNumbers {
     std::uint8_t last_index_ = 0;
 };
 
-// Throws std::runtime_error if there are more voxels than labels, and numbers of images, may have.
+// Throws std::runtime_error if there are more voxels than label grids and numeric stacks may have.
 inline std::size_t checked_count(const std::array<int, 3>& size) {
     std::size_t count = 1;
     for (const int n : size) {

@@ -1,4 +1,4 @@
-// What replaces openvdb.cpp where the library is missing.
+// Replaces openvdb.cpp in builds without the library.
 #include <stdexcept>
 
 #include "volume/formats.hpp"

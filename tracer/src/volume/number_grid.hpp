@@ -1,4 +1,4 @@
-// Numbers at voxels of which there is none below 0, such as densities and temperatures.
+// Non-negative numbers at voxels, such as densities and temperatures.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 namespace phasetree::tracer {
 
-// Simulations leave values a little below 0. What is no number stays that, and is rejected with its place.
+// Clamps to 0, because simulations leave slightly negative values. NaN is kept, so that it is rejected with its
+// position.
 inline float number_at_voxel(float value) {
     return value < 0.0f ? 0.0f : value;
 }

@@ -1,7 +1,7 @@
-// Grids in OpenVDB files (Museth, "VDB: High-Resolution Sparse Volumes with Dynamic Topology", 2013), by the OpenVDB
-// library. Its headers are large, so only this file includes them.
+// Reads grids from OpenVDB files (Museth, "VDB: High-Resolution Sparse Volumes with Dynamic Topology", 2013) with the
+// OpenVDB library. Its headers are large, so only this file includes them.
 //
-// A grid's values are in leaves of 8³ voxels and in tiles of one value; blocks of a VoxelGrid are laid on the leaves.
+// A grid stores values in leaves of 8³ voxels and in constant tiles; blocks of a VoxelGrid are aligned with the leaves.
 // OpenVDB trusts files, so vdb_structure.hpp checks them first.
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
@@ -28,7 +28,7 @@ namespace {
 
 using openvdb::CoordBBox, openvdb::GridBase;
 
-// Runs what calls OpenVDB. Its messages quote files, so they are not handed on.
+// Runs code that calls OpenVDB. Its messages quote files, so they are replaced.
 template <class Read>
 auto by_openvdb(const Read& read) {
     static const bool is_ready = (openvdb::initialize(), true);
@@ -74,7 +74,7 @@ std::string why_no_numbers(const GridBase& grid) {
     return fmt::format("it is {}, but numbers are floats or doubles", kind_of(grid));
 }
 
-// Reads the grid of a name, or the only one that is wanted.
+// Reads the grid with this name, or the only suitable one.
 template <class IsWanted, class WhyNot>
 GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& name, const GridsCalled& called,
                         const IsWanted& is_wanted, const WhyNot& why_not) {
@@ -90,7 +90,7 @@ GridBase::Ptr read_grid(const std::filesystem::path& path, const std::string& na
     return grid;
 }
 
-// The active voxels and some around them.
+// The bounding box of the active voxels, enlarged by `around`.
 CoordBBox active_voxels(const GridBase& grid, int around) {
     CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) throw std::runtime_error("its grid has no active voxels");
@@ -101,7 +101,7 @@ CoordBBox active_voxels(const GridBase& grid, int around) {
     return box;
 }
 
-// The same, extended to whole leaves.
+// As active_voxels(), extended to whole leaves.
 CoordBBox active_leaves(const GridBase& grid, int around) {
     CoordBBox box = active_voxels(grid, around);
     for (int i = 0; i < 3; ++i) {
@@ -111,7 +111,7 @@ CoordBBox active_leaves(const GridBase& grid, int around) {
     return box;
 }
 
-// The values of voxels in the order of a lattice, whose blocks are leaves as those of active_leaves() are.
+// The values of voxels in the order of a lattice whose blocks coincide with leaves, like those of active_leaves().
 template <class Grid, class Value>
 VoxelGrid voxels_of(const Grid& grid, const OrderedLattice& voxels, const char* who, const Value& value) {
     const auto at = grid.getConstAccessor();
@@ -138,16 +138,16 @@ VoxelGrid voxels_of(const Grid& grid, const OrderedLattice& voxels, const char* 
 
 template <class Grid>
 VoxelGrid level_set_of(const Grid& grid) {
-    // The background is all around.
+    // Include a layer of background all around.
     const CoordBBox box = active_leaves(grid, 1);
     if (!(static_cast<double>(grid.background()) > 0))
         throw std::runtime_error("its background is not positive, so that it has no outside");
-    // What is next to the box is the background.
+    // The background surrounds the box.
     return voxels_of(grid, lattice_of(grid, box), "volume", [](auto v) { return static_cast<float>(v); });
 }
 
-// Numbers may be in a rotated or sheared grid. Its own space then has axes along those of the index space, with the
-// same unit of length as the world.
+// Grids of numbers may be rotated or sheared. The grid's own space then has axes along those of the index space, with
+// the world's unit of length.
 OrderedLattice lattice_of_own_space(const GridBase& grid, const CoordBBox& box, PlacedVoxels& placed) {
     if (auto found = lattice_along_axes(grid, box)) return *std::move(found);
     OrderedLattice own{{.size = size_of(box)}, VoxelOrder(box)};
@@ -163,7 +163,7 @@ OrderedLattice lattice_of_own_space(const GridBase& grid, const CoordBBox& box, 
 template <class Grid>
 PlacedVoxels numbers_of(const Grid& grid) {
     PlacedVoxels placed;
-    // A frame of a simulation may have nothing yet.
+    // The grid may be empty, for example in the first frame of a simulation.
     if (grid.evalActiveVoxelBoundingBox().empty()) {
         placed.grid = number_grid({.size = {1, 1, 1}}, {0.0f});
         return placed;
@@ -177,7 +177,7 @@ PlacedVoxels numbers_of(const Grid& grid) {
 
 template <class Grid>
 LabelGrid labels_of(const Grid& grid) {
-    // The background around them gives the outermost voxels a surface.
+    // The surrounding background gives the outermost voxels a surface.
     const auto [lattice, order] = lattice_of(grid, active_voxels(grid, 2));
     LabelGrid found;
     found.lattice = lattice;

@@ -1,4 +1,4 @@
-// Which of an OpenVDB file's grids is read, by its name and kind.
+// Chooses which of an OpenVDB file's grids to read, by name and kind.
 //
 // Only openvdb.cpp includes this, because OpenVDB's headers are large.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace phasetree::tracer {
 
-// What the wanted grids are called in messages.
+// How messages refer to the wanted grids.
 struct GridsCalled {
     const char* one;
     const char* several;
 };
 
-// A grid of a file, of which only the metadata has been read. Its name is that by which OpenVDB finds it: "density", or
-// "density[0]" and "density[1]" if two grids have that name.
+// A grid of a file, of which only the metadata has been read. Its name is the one by which OpenVDB finds it: "density",
+// or "density[0]" and "density[1]" if two grids have that name.
 struct ListedGrid {
     std::string name;
     openvdb::GridBase::ConstPtr grid;
@@ -31,7 +31,7 @@ struct ListedGrid {
 inline std::vector<ListedGrid> grids_of(openvdb::io::File& file) {
     std::vector<ListedGrid> grids;
     const openvdb::GridPtrVecPtr metadata = file.readAllGridMetadata();
-    auto name = file.beginName();  // goes through the grids in the same order
+    auto name = file.beginName();  // iterates over the grids in the same order
     for (const openvdb::GridBase::Ptr& grid : *metadata) {
         grids.push_back({*name, grid});
         ++name;
@@ -39,7 +39,7 @@ inline std::vector<ListedGrid> grids_of(openvdb::io::File& file) {
     return grids;
 }
 
-// "density" (float fog volume), "v" (vec3s) and 3 more
+// Formats a list of grids: "density" (float fog volume), "v" (vec3s) and 3 more
 inline std::string listed(const std::vector<ListedGrid>& grids) {
     constexpr std::size_t most_grids = 8, most_bytes_of_name = 40;
     std::string list;
@@ -57,7 +57,7 @@ inline std::string listed(const std::vector<ListedGrid>& grids) {
     return list;
 }
 
-// The grids of a name: the one that has it together with its index, or all that have it without.
+// The grids with a name: the one that has it including its index, or all that have it without an index.
 inline std::vector<ListedGrid> grids_called(const std::string& name, const std::vector<ListedGrid>& grids) {
     std::vector<ListedGrid> found;
     std::ranges::copy_if(grids, std::back_inserter(found), [&](const ListedGrid& g) { return g.name == name; });
@@ -67,7 +67,7 @@ inline std::vector<ListedGrid> grids_called(const std::string& name, const std::
     return found;
 }
 
-// The name of the grid to read: the only one that is wanted, or the one of the given name.
+// The name of the grid to read: the only suitable one, or the one with the given name.
 template <class IsWanted, class WhyNot>
 inline std::string chosen_grid(const std::vector<ListedGrid>& grids, const std::string& name, const GridsCalled& called,
                                const IsWanted& is_wanted, const WhyNot& why_not) {

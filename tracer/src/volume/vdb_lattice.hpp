@@ -1,4 +1,4 @@
-// Where the voxels of an OpenVDB grid are in the world, and how they become a lattice along the axes.
+// Positions of an OpenVDB grid's voxels in the world, and their conversion to a lattice along the axes.
 //
 // Only openvdb.cpp includes this, because OpenVDB's headers are large.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace phasetree::tracer {
 
-// The directions and lengths of the steps from voxel to voxel along the three index axes.
+// The steps between voxels along the three index axes, as vectors in the world.
 inline glm::dmat3 steps_of(const openvdb::GridBase& grid) {
     const openvdb::math::Transform& transform = grid.transform();
     if (!transform.isLinear())
@@ -54,10 +54,10 @@ inline std::array<int, 3> size_of(const openvdb::CoordBBox& box) {
     return size;
 }
 
-// The voxels of a box of a grid in the order of a lattice.
+// How the voxels in a box of a grid are ordered in a lattice.
 struct VoxelOrder {
-    openvdb::Coord first;                ///< the voxel of the grid that is the lattice's first
-    std::array<openvdb::Coord, 3> step;  ///< from there to the next along the lattice's axes
+    openvdb::Coord first;                ///< the grid's voxel that comes first in the lattice
+    std::array<openvdb::Coord, 3> step;  ///< the step to the next voxel along each of the lattice's axes
 
     explicit VoxelOrder(const openvdb::CoordBBox& box) : first(box.min()), step{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}} {}
 
@@ -73,9 +73,9 @@ struct OrderedLattice {
     VoxelOrder order;
 };
 
-// The lattice of a box of voxels whose index axes lie along the world's axes, in any order and direction; nothing if
-// they do not. A step may deviate by a millionth of the shortest one, as transforms in floats do. That moves the voxels
-// of the largest lattice by a hundredth of their size.
+// The lattice of a box of voxels whose index axes are parallel to the world's axes, in any order and direction; nullopt
+// if they are not. A step may deviate by a millionth of the shortest one, as it does for transforms stored in floats.
+// That moves the voxels of the largest lattice by a hundredth of their size.
 inline std::optional<OrderedLattice> lattice_along_axes(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
     const glm::dmat3 steps = steps_of(grid);
     const std::array<int, 3> size = size_of(box);

@@ -1,5 +1,5 @@
-// The layout is that which OpenVDB's io/Archive.h, io/Compression.h and the readTopology() and readBuffers() of its
-// tree's nodes read. All numbers are little-endian.
+// The layout is the one read by OpenVDB's io/Archive.h, io/Compression.h and the readTopology() and readBuffers() of
+// its tree nodes. All numbers are little-endian.
 #include "volume/vdb_structure.hpp"
 
 #include <fmt/format.h>
@@ -20,9 +20,9 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr std::uint64_t magic = 0x56444220;
-constexpr std::uint32_t oldest = 222;  // with compression by masks
+constexpr std::uint32_t oldest = 222;  // has compression by masks
 constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30;
-constexpr std::uint32_t zip = 1, active_mask = 2, blosc = 4;  // a grid's compression
+constexpr std::uint32_t zip = 1, active_mask = 2, blosc = 4;  // a grid's compression flags
 
 class Bytes {
   public:
@@ -42,7 +42,7 @@ class Bytes {
     }
     void skip(std::uint64_t count) {
         if (count > size_ - at_) cut_off();
-        // Few bytes are read, because seeking empties the stream's buffer.
+        // Read short ranges instead, because seeking discards the stream's buffer.
         if (count <= 4096) {
             at_ += count;
             in_.ignore(static_cast<std::streamsize>(count));
@@ -80,8 +80,8 @@ class Bytes {
     std::uint64_t size_ = 0, at_ = 0;
 };
 
-// How many bytes OpenVDB reads of a value of this type, whatever length the file gives it; nothing where it reads as
-// many as the file says. Another length would let it go on at another place than this walk.
+// The number of bytes that OpenVDB reads for a value of this type, whatever length the file states; nullopt if it reads
+// as many as stated. With any other length it would continue at another position than this walk.
 std::optional<std::uint32_t> metadata_bytes(const std::string& type) {
     if (type == "bool") return 1;
     for (const auto& [number, bytes] :
@@ -95,8 +95,8 @@ std::optional<std::uint32_t> metadata_bytes(const std::string& type) {
     return std::nullopt;
 }
 
-// Skips `packed` bytes that Blosc compressed: a header of 16 bytes, with the unpacked length at byte 4 and the packed
-// one at byte 12, and the data. Blosc believes its header, so neither length may be more than there is room for.
+// Skips `packed` bytes compressed by Blosc: a 16-byte header, with the unpacked length at byte 4 and the packed length
+// at byte 12, followed by the data. Blosc trusts its header, so both lengths must fit the available space.
 void skip_blosc(Bytes& file, std::uint64_t packed, std::initializer_list<std::uint64_t> allowed_unpacked) {
     if (packed < 16) Bytes::cut_off();
     file.skip(4);
@@ -107,7 +107,7 @@ void skip_blosc(Bytes& file, std::uint64_t packed, std::initializer_list<std::ui
 }
 
 // Skips an array of the metadata below and returns its length in the file. `packed` is its length if it is compressed,
-// else 0. Arrays of less than 128 bytes are padded to 128 before they are compressed.
+// else 0. Arrays of less than 128 bytes are padded to 128 before compression.
 std::uint64_t skip_array(Bytes& file, std::uint32_t packed, std::uint64_t bytes) {
     constexpr std::uint64_t padded = 128;
     if (packed == 0)
@@ -117,8 +117,8 @@ std::uint64_t skip_array(Bytes& file, std::uint32_t packed, std::uint64_t bytes)
     return packed == 0 ? bytes : packed;
 }
 
-// Skips the metadata with which OpenVDB can load leaves when they are needed: one byte per leaf and, unless the second
-// length is the largest number, eight more. A later version may append to it.
+// Skips the metadata for loading leaves on demand: one byte per leaf and, unless the second length is the largest
+// number, eight more. Later versions may append to it.
 void skip_delayed_load(Bytes& file, std::uint32_t bytes) {
     if (bytes == 0) return;
     const auto leaves = file.number<std::uint32_t>();
@@ -131,7 +131,7 @@ void skip_delayed_load(Bytes& file, std::uint32_t bytes) {
     file.skip(bytes - read);
 }
 
-// A list of names, types and values.
+// Skips a list of names, types and values.
 void skip_metadata(Bytes& file) {
     const auto count = file.number<std::uint32_t>();
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -147,7 +147,7 @@ void skip_metadata(Bytes& file) {
     }
 }
 
-// How many doubles tell of a transform of this type, if it is linear.
+// The number of doubles that describe a linear transform of this type; nullopt for other types.
 std::optional<std::uint64_t> doubles_of_linear_transform(const std::string& type) {
     const std::array<std::pair<const char*, std::uint64_t>, 7> doubles{{{"UniformScaleMap", 15},
                                                                         {"ScaleMap", 15},
@@ -164,8 +164,8 @@ std::optional<std::uint64_t> doubles_of_linear_transform(const std::string& type
 void skip_transform(Bytes& file) {
     std::string type = file.text();
     if (type == "NonlinearFrustumMap") {
-        // A box, a taper and a depth, and the transform that comes after it. OpenVDB follows one within another to any
-        // depth; nobody writes one that is not linear.
+        // A box, a taper and a depth, followed by another transform. OpenVDB follows nested ones to any depth; in
+        // practice the inner one is always linear.
         file.skip(8 * 8);
         type = file.text();
     }
@@ -174,7 +174,7 @@ void skip_transform(Bytes& file) {
     file.skip(8 * *doubles);
 }
 
-// A mask of the 2^(3 log2) places of a node.
+// A mask of the 2^(3 log2) positions of a node.
 struct Mask {
     std::vector<std::uint64_t> words;
 
@@ -190,9 +190,9 @@ struct ValueBytes {
     unsigned in_memory, in_file;
 };
 
-// The size of a value in a tree of this type; nothing if grids of the type are not read. OpenVDB can store
+// The size of a value in a tree of this type; nullopt if grids of the type are not read. OpenVDB can store
 // floating-point numbers as halves. It gives the type of such a grid a suffix, even if its values are integers, which
-// it stores as they are.
+// are stored unchanged.
 std::optional<ValueBytes> value_bytes_of(const std::string& type) {
     for (const auto& [name, bytes] : {std::pair{"float", 4u}, std::pair{"double", 8u}}) {
         if (type == fmt::format("Tree_{}_5_4_3", name)) return ValueBytes{bytes, bytes};
@@ -204,7 +204,7 @@ std::optional<ValueBytes> value_bytes_of(const std::string& type) {
     return std::nullopt;
 }
 
-// One grid's tree: a root, nodes of 32³ and of 16³ places, and leaves of 8³.
+// Walks one grid's tree: a root, nodes of 32³ and of 16³ positions, and leaves of 8³.
 class TreeWalk {
   public:
     TreeWalk(Bytes& file, std::uint32_t compression, const ValueBytes& bytes)
@@ -215,11 +215,11 @@ class TreeWalk {
           has_halves_(bytes.in_file != bytes.in_memory) {}
 
     void operator()() {
-        file_.skip(4);             // the number of buffers, once
+        file_.skip(4);             // the number of buffers, stored once
         file_.skip(value_bytes_);  // the background
         const auto tiles = file_.number<std::uint32_t>(), children = file_.number<std::uint32_t>();
         file_.skip(std::uint64_t{tiles} * (13 + value_bytes_));
-        // Each takes more than a thousand bytes.
+        // Each child takes more than a thousand bytes.
         if (children > file_.size() / 1024) Bytes::cut_off();
         pay(std::uint64_t{tiles} * 96);
         for (std::uint32_t i = 0; i < children; ++i) {
@@ -242,7 +242,7 @@ class TreeWalk {
         const std::uint64_t children = has_child.count();
         for (std::uint64_t i = 0; i < children; ++i) node(log2 - 1);
     }
-    // The values of a node: how inactive ones are stored, these, and the rest, which may be compressed.
+    // Skips the values of a node: how inactive ones are stored, their values, and the rest, which may be compressed.
     void values(const Mask& is_active, unsigned log2) {
         const std::uint64_t places = std::uint64_t{1} << (3 * log2);
         const auto how = file_.number<std::int8_t>();
@@ -252,14 +252,14 @@ class TreeWalk {
         if (how >= 3 && how <= 5) file_.skip(places / 8);
         const bool is_short = (compression_ & active_mask) != 0 && how != 6;
         const std::uint64_t bytes = (is_short ? is_active.count() : places) * stored_bytes_;
-        // An empty array of halves has not even a length.
+        // An empty array of halves does not even have a length.
         if (bytes == 0 && has_halves_) return;
         if ((compression_ & (zip | blosc)) == 0) return file_.skip(bytes);
         const auto packed = file_.number<std::int64_t>();
         if (packed > 0 && (compression_ & blosc) != 0)
             return skip_blosc(file_, static_cast<std::uint64_t>(packed), {bytes});
         if (packed > 0) return file_.skip(static_cast<std::uint64_t>(packed));
-        // Uncompressed values follow minus their length.
+        // Uncompressed values are preceded by their negated length.
         if (0 - static_cast<std::uint64_t>(packed) != bytes) Bytes::cut_off();
         file_.skip(bytes);
     }
@@ -306,7 +306,7 @@ void check_vdb_structure(const std::filesystem::path& path) {
         const auto grid = file.number<std::int64_t>();
         file.skip(8);
         const auto end = file.number<std::int64_t>();
-        // Each grid lies behind what tells of it, and the next one behind it, so that nothing is walked through twice.
+        // Each grid must follow its own description, and the next one must follow it, so that nothing is walked twice.
         if (grid < 0 || static_cast<std::uint64_t>(grid) < file.at()) Bytes::cut_off();
         file.go_to(static_cast<std::uint64_t>(grid));
         check_grid(file, type, is_instance);

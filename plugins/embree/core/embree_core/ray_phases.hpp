@@ -10,7 +10,7 @@
 
 namespace phasetree::embree {
 
-/// The phase of one object that a ray is in and carries from hit to hit.
+/// A phase of one object that a ray is in and carries from hit to hit.
 struct CarriedPhase {
     ObjectInstance object;
     Phase phase;

@@ -1,4 +1,4 @@
-// Convex volumes around trees.
+// Convex bounds of trees.
 
 #include "phasetree/carving/carve.hpp"
 
@@ -28,7 +28,7 @@ CarveOptions checked(const PhasetreeCarveOptions* given) {
     return options;
 }
 
-// Outward: what the rounding of a normal moves within the box, and more.
+// Rounds outward, by more than rounding the normal can move the plane within the box.
 PhasetreePlane rounded(const HalfSpace& plane, const Bounds& box) {
     double farthest = std::abs(plane.offset);
     for (int i = 0; i < 8; ++i) farthest = std::max(farthest, glm::length(glm::dvec3(box.corner(i))));
@@ -40,7 +40,7 @@ CarvedBounds carved(const Phased& object, PhaseSet of, const CarveOptions& optio
     try {
         return carve(object, of, options);
     } catch (const CarvingCancelled&) {
-        throw BuildCancelled();  // one error for all that is cancelled
+        throw BuildCancelled();  // all cancellations raise the same error
     }
 }
 

@@ -1,4 +1,4 @@
-// From the application's options to an object with its cells.
+// Builds an object and its cells from the application's options.
 
 #include "api/build.hpp"
 
@@ -54,7 +54,7 @@ CellOptions cell_options(const PhasetreeGeometryOptions& options) {
     cells.opaque = {options.opaquePhases};
     if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
     cells.most_bytes = options.mostBytes;
-    // The application's two ways to end a build.
+    // Set by either of the application's two ways to end a build.
     const auto is_ended = std::make_shared<std::atomic<bool>>(false);
     if (options.cancelled || options.progress)
         cells.cancelled = [&options, is_ended] {
@@ -110,7 +110,7 @@ std::unique_ptr<const Object> build_object(RTCDevice device, const Phased& tree,
                                            const PhasetreeGeometryOptions& options, unsigned flags) {
     const CellOptions with = cell_options(options);
     const auto cells = std::make_shared<const InterfaceCells>(tree, with);
-    // When progress is told of 1, last of all, it may end the call, and nothing asks after that.
+    // The final progress report, of 1, may cancel the call, which nothing checks after that.
     if (with.cancelled && with.cancelled()) throw BuildCancelled();
     return object_of(device, cells, flags);
 }

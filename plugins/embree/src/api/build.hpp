@@ -4,16 +4,16 @@
 
 namespace phasetree::embree::api {
 
-/// The application's options, or the defaults where it gives none. Throws ApiError for what cannot be.
+/// Returns the application's options, or the defaults if there are none. Throws ApiError for invalid options.
 PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions*);
 
-/// Throws ApiError where a phase is opaque and not shown: rays pass through what is not shown.
+/// Throws ApiError if a phase is opaque but not shown, because rays pass through what is not shown.
 void require_shown(PhasetreePhaseSet opaque, PhasetreePhaseSet shown);
-/// Throws ApiError unless everything is shown, for a geometry whose primitives are the cells.
+/// Throws ApiError unless all phases are shown; for geometries whose primitives are the cells.
 void require_all_shown(PhasetreePhaseSet shown);
 
-/// An object for a geometry with these flags: with cells that are built, or read from a file. Both throw what
-/// InterfaceCells and read_cells do, and ApiError for what Embree refuses.
+/// Creates the object of a geometry with these flags, from cells that are built or read from a file. Both throw what
+/// InterfaceCells and read_cells throw, and ApiError if Embree fails.
 std::unique_ptr<const Object> build_object(RTCDevice, const Phased& tree, const PhasetreeGeometryOptions&,
                                            unsigned flags);
 std::unique_ptr<const Object> read_object(RTCDevice, const Phased& tree, const PhasetreeGeometryOptions&,

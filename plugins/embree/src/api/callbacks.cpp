@@ -1,4 +1,4 @@
-// What Embree calls while it builds and traces.
+// Callbacks that Embree calls while it builds and traces.
 
 #include "api/packet.hpp"
 #include "embree_core/cell_callbacks.hpp"
@@ -8,8 +8,8 @@ namespace phasetree::embree::api {
 
 namespace {
 
-// For a geometry whose primitives are the cells: the lanes' carried phases come from the application's context, and
-// crossings go there.
+// For a geometry whose primitives are the cells. Carried phases are read from the application's context, and crossings
+// are written to it.
 void trace_cell(const GeometryData& data, const RTCIntersectFunctionNArguments& arguments) {
     const PhasetreeRayContext* const context = extended(data, arguments.context);
     RTCRayN* const rays = RTCRayHitN_RayN(arguments.rayhit, arguments.N);
@@ -31,7 +31,7 @@ void trace_cell(const GeometryData& data, const RTCOccludedFunctionNArguments& a
     });
 }
 
-// The most rays that Embree asks a callback for at once (rtcIntersect16).
+// The maximum number of rays per callback (rtcIntersect16).
 constexpr unsigned largest_packet = 16;
 
 template <class Arguments>

@@ -1,4 +1,4 @@
-// What may change of a geometry: its tree, which phases show, and where it is.
+// Changes to a geometry: its tree, its shown phases, and its motion.
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@ namespace phasetree::embree::api {
 
 namespace {
 
-// Embree builds no scene in which a geometry's time range has no part in the shutter: version 3.13 stops the program or
-// builds without end. A part that rounding may lose counts as none.
+// Whether a geometry's time range overlaps the shutter. If it does not, Embree cannot build the scene: version 3.13
+// ends the program or builds forever. An overlap that rounding may eliminate counts as none.
 bool meets_shutter(float start, float end) {
-    constexpr double least = 1e-6;  // of the range
+    constexpr double least = 1e-6;  // as a fraction of the range
     const double length = static_cast<double>(end) - static_cast<double>(start);
     return (1.0 - static_cast<double>(start)) / length > least && static_cast<double>(end) / length > least;
 }

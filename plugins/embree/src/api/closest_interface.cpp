@@ -1,4 +1,4 @@
-// The closest interface to a point: of one geometry, and for Embree's point queries of a whole scene.
+// Finds the closest interface to a point, for one geometry, and for Embree's point queries of a whole scene.
 
 #include "embree_core/closest.hpp"
 
@@ -30,7 +30,7 @@ PhasetreeClosest closest_in(const Object& object, const Placement& placement, co
     return result;
 }
 
-// The innermost instance's map of a point query, or the identity.
+// The map of a point query's innermost instance, or the identity.
 Placement instance_of(const RTCPointQueryContext& context) {
     if (context.instStackSize == 0) return {};
     const float* m = context.inst2world[context.instStackSize - 1];

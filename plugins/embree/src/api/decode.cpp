@@ -1,4 +1,4 @@
-// The meaning of a hit: where exactly the phases meet, and where that is in the tree.
+// Decodes a hit: where exactly the phases meet, and where that is in the tree.
 
 #include <algorithm>
 #include <cmath>
@@ -18,23 +18,23 @@ unsigned checked_phase(float coordinate, const char* name) {
     return static_cast<unsigned>(coordinate);
 }
 
-// A hit's ray in the tree's own space, up to the hit.
+// The ray of a hit in the tree's own space, up to the hit.
 struct HitRay {
     UnitRay ray;
     Placement placement;  // of the tree in geometry space, at the ray's time
-    float blur;           // by how much rounding can have moved the hit, in units of the length of the direction given
+    float blur;           // possible displacement of the hit by rounding, in units of the original direction's length
 };
 
-// A few roundings of a number, as a share of it.
+// A few rounding errors, relative to a number.
 constexpr float ulps = 4e-7f;
 
-// Throws ApiError where there is no hit, or no way.
+// Throws ApiError if there is no hit, or no way to transform its ray.
 HitRay ray_of_hit(const GeometryData& data, const RTCRayHit& rayhit, const float* object_to_world) {
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) throw not_now("the ray hit nothing");
     const bool is_instanced = rayhit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     if (is_instanced && !object_to_world)
         throw invalid("objectToWorld is NULL, but the hit is in the instance {}", rayhit.hit.instID[0]);
-    // From the world into the geometry's space, and from there into the object's.
+    // From the world to geometry space, and from there to object space.
     glm::vec3 origin{rayhit.ray.org_x, rayhit.ray.org_y, rayhit.ray.org_z};
     glm::vec3 direction{rayhit.ray.dir_x, rayhit.ray.dir_y, rayhit.ray.dir_z};
     const float blur = ulps * (glm::length(origin) / glm::length(direction) + rayhit.ray.tfar);
@@ -54,16 +54,17 @@ HitRay ray_of_hit(const GeometryData& data, const RTCRayHit& rayhit, const float
     return {*ray, placement, blur};
 }
 
-// The bracket again: what changes from one phase to the other within a few resolutions of t. The cell that the hit
-// names has found it and knows it still; if not, because the hit comes from elsewhere, all cells are asked.
+// Finds the bracket again: the change from one phase to the other within a few resolutions of t. The cell that the hit
+// names found it and can find it again. Otherwise the hit comes from elsewhere, and all cells are searched.
 std::optional<Crossing> bracket(const Object& object, unsigned cell, const UnitRay& ray, Phase from, Phase to) {
     const float resolution = object.cells().resolution();
     const float t = ray.far;
-    // Distances along the ray are known to some roundings of themselves.
+    // Distances along the ray are accurate to a few rounding errors.
     const float slack = 4 * resolution + ulps * t;
     const float start = std::max(t - slack, ray.near), end = t + 2 * slack;
     TraceCounters unused;
-    // The walk below multiplies distances by the direction's rounded length. So does this, to ask for the same span.
+    // The walk below multiplies distances by the direction's rounded length. Divide by the same length here, so that it
+    // searches the same span.
     const float length = glm::length(ray.direction);
     const auto own = object.cells().first_crossing(cell, TracedRay(ray.origin, ray.direction), start * length,
                                                    end * length, from, std::nullopt, unused);
@@ -77,8 +78,8 @@ std::optional<Crossing> bracket(const Object& object, unsigned cell, const UnitR
     return std::nullopt;
 }
 
-// Moves a bracket's far end on, by less than two resolutions, to where the phase is the same within `blur`: a ray that
-// is given to Embree again, and rounded on its way to us, then still starts in it.
+// Advances a bracket's far end, by less than two resolutions, to where the phase is constant within `blur`. A ray from
+// there, passed to Embree again and rounded on its way back, then still starts in that phase.
 void move_on(Crossing& c, const InterfaceCells& cells, unsigned cell, const glm::vec3& direction, float blur) {
     BatchOfFloats t;
     for (std::size_t i = 0; i < batch_size; ++i) t[i] = cells.resolution() * (2.f / batch_size) * static_cast<float>(i);

@@ -1,4 +1,4 @@
-// Edits of a scene's text in place, so that comments, layout and the lines that errors name stay the author's.
+// Edits a scene's text in place, keeping comments, layout and the line numbers in errors.
 
 #include <charconv>
 
@@ -8,7 +8,7 @@ namespace phasetree::embree::api {
 
 namespace {
 
-// A step of a pointer: "~1" is a slash and "~0" a tilde.
+// Decodes one step of a pointer: "~1" is a slash and "~0" a tilde.
 std::string unescaped(std::string_view pointer, std::string_view token) {
     std::string text;
     for (std::size_t i = 0; i < token.size(); ++i) {
@@ -53,7 +53,7 @@ Value value_at(const Document& document, std::string_view pointer) {
 
 }  // namespace
 
-// The text is sound JSON with comments.
+// The text must be valid JSON with comments.
 std::size_t end_of(const std::string& text, const Value& value) {
     std::size_t at = value.offset();
     if (!value.is_string() && !value.is_array() && !value.is_object()) return at + value.written().size();
@@ -81,7 +81,8 @@ std::size_t end_of(const std::string& text, const Value& value) {
 }
 
 std::string with_value(const Document& document, std::string_view pointer, std::string_view value) {
-    // By itself first: what is no JSON value could otherwise rearrange what is around it, as could a comment behind it.
+    // Parse the value separately first. An invalid value, or a comment after it, could otherwise change the meaning of
+    // the surrounding text.
     const Document own = Document::from_text(std::string(value), fmt::format("the value for {}", pointer));
     const std::size_t begin = own.root().offset(), end = end_of(own.text(), own.root());
     const Value old = value_at(document, pointer);

@@ -10,7 +10,7 @@
 
 namespace phasetree::embree::api {
 
-/// A call that failed, until it leaves the library as a number and a message.
+/// A failed call, until it leaves the library as an error code and a message.
 class ApiError : public std::runtime_error {
   public:
     ApiError(PhasetreeError code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -25,17 +25,17 @@ ApiError invalid(fmt::format_string<Args...> text, Args&&... args) {
     return {PHASETREE_ERROR_INVALID_ARGUMENT, fmt::format(text, std::forward<Args>(args)...)};
 }
 
-/// Throws unless a pointer that must be given is.
+/// Throws if a required pointer is NULL.
 inline void require(const void* pointer, const char* name) {
     if (!pointer) throw invalid("{} is NULL", name);
 }
-/// Throws unless the application was compiled for this library.
+/// Throws if the application was compiled for another version of the interface.
 void require_version(unsigned api_version);
 
-/// The exception in flight as a code, and its message kept for the thread.
+/// Returns the code of the current exception, and stores its message for the thread.
 PhasetreeError report_exception(const char* call) noexcept;
 
-/// Runs a call's body; no exception gets out.
+/// Runs a call's body. No exception escapes.
 template <class F>
 PhasetreeError guarded_call(const char* call, F&& body) noexcept {
     try {

@@ -1,4 +1,4 @@
-// A geometry's handle: made, counted, found, freed.
+// Geometry handles: creation, reference counting, lookup and release.
 
 #include "api/build.hpp"
 #include "api/tree_data.hpp"
@@ -17,7 +17,7 @@ ApiError no_geometry(PhasetreeGeometry handle) {
             handle ? "geometry is no geometry's handle, or that of one already released" : "geometry is NULL"};
 }
 
-// Makes a geometry's handle; object() gives the geometry its object.
+// Creates a geometry's handle; object() creates its object.
 template <class MakeObject>
 void make_geometry(RTCDevice device, const PhasetreeGeometryOptions& options, PhasetreeGeometry* geometry,
                    MakeObject&& object) {

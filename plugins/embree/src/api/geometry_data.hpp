@@ -9,12 +9,12 @@
 
 namespace phasetree::embree::api {
 
-/// Whether a set has every phase but perhaps the vacuum, which never counts as shown.
+/// Whether a set contains every phase. The vacuum, which never counts as shown, may be missing.
 inline bool shows_all(PhaseSet shown) {
     return (shown.bits | 1) == PHASETREE_ALL_PHASES;
 }
 
-/// What is behind a PhasetreeGeometry.
+/// The data behind a PhasetreeGeometry.
 struct GeometryData {
     GeometryData(RTCDevice device, unsigned flags);
     ~GeometryData();
@@ -31,14 +31,14 @@ struct GeometryData {
         std::int64_t integer = 0;
         void* pointer = nullptr;
     };
-    std::array<PhaseUserData, PHASETREE_MAX_PHASES> of_phase{};  ///< the application's
+    std::array<PhaseUserData, PHASETREE_MAX_PHASES> of_phase{};  ///< belongs to the application
     std::unique_ptr<const Object> object;
 
     bool has(PhasetreeGeometryFlags flag) const { return (flags & static_cast<unsigned>(flag)) != 0; }
     bool has_cell_primitives() const { return has(PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES); }
-    /// Gives the geometry an object, and the RTCGeometry its number of primitives.
+    /// Sets the geometry's object, and the RTCGeometry's number of primitives.
     void set_object(std::unique_ptr<const Object>);
-    /// Whether a crossing is to be reported. The vacuum never counts as shown.
+    /// Whether to report a crossing. The vacuum never counts as shown.
     bool shows(const Crossing& c) const {
         const PhaseSet materials{shown.bits & ~std::uint64_t{1}};
         return materials.contains(c.from) || materials.contains(c.to);
@@ -50,21 +50,21 @@ using GeometryTable = HandleTable<GeometryData, 0x5047>;
 inline GeometryData* find(PhasetreeGeometry handle) noexcept {
     return GeometryTable::instance().find(reinterpret_cast<std::uintptr_t>(handle));
 }
-/// What is not possible now, though it is at other times.
+/// An error for an operation that is not possible in the current state.
 inline ApiError not_now(const std::string& why) {
     return {PHASETREE_ERROR_INVALID_OPERATION, why};
 }
-/// Where the object is at a time. Throws ApiError if the motion has no inverse there.
+/// The placement of the object at a time. Throws ApiError if the motion is not invertible there.
 Placement placement_at(const GeometryData&, float time);
 
-/// Throws for a handle that is none.
+/// Throws if the handle is invalid.
 GeometryData& data_of(PhasetreeGeometry handle);
 
-/// Three floats of the application's.
+/// Writes three floats for the application.
 inline void write_point(float* out, const glm::vec3& v) {
     for (int i = 0; i < 3; ++i) out[i] = v[i];
 }
-/// Throws ApiError unless they are a point.
+/// Throws ApiError unless they are a valid point.
 inline glm::vec3 read_point(const float* p) {
     require(p, "point");
     for (int i = 0; i < 3; ++i)

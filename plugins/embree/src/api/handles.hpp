@@ -9,15 +9,15 @@
 
 namespace phasetree::embree::api {
 
-/// Reference-counted objects behind handles that are numbers in a pointer's clothes and never addresses: a table's
-/// place and how often that place was used before. So a handle that was freed, invented, or is another library's
-/// pointer is told from a live one without being followed, in a few loads and without a lock, as callbacks need it.
+/// Reference-counted objects behind handles, which are integers stored as pointers, never addresses: a table index and
+/// the number of times that it has been reused. Freed or invented handles, and pointers from other libraries, are thus
+/// recognised without being dereferenced. The check takes a few loads and no lock, so that callbacks can use it.
 ///
-///     bits 63 … 48   the kind's tag: no address of a user's process on any 64-bit machine
-///     bits 47 … 24   how many objects had this place before
-///     bits 23 … 0    the place
+///     bits 63 … 48   the kind's tag: not an address in user space on any 64-bit machine
+///     bits 47 … 24   the number of earlier objects at this index
+///     bits 23 … 0    the index
 ///
-/// The table is the one thing that the library keeps for a process: what "freed twice" means can be known nowhere else.
+/// The table is the library's only process-wide state; without it, freeing a handle twice could not be detected.
 template <class T, std::uint16_t tag>
 class HandleTable {
     static_assert(sizeof(void*) == 8, "handles need pointers of 64 bits");
@@ -26,7 +26,8 @@ class HandleTable {
   public:
     using Value = std::uint64_t;
 
-    /// Never destroyed: applications may release their last handles while the process ends. Until then it is reachable.
+    /// Never destroyed, because applications may release their last handles during process exit. Leak checkers see it
+    /// as reachable.
     static HandleTable& instance() {
         static HandleTable& table = *std::make_unique<HandleTable>().release();
         return table;
@@ -44,7 +45,7 @@ class HandleTable {
         return static_cast<Value>(tag) << 48 | generation << 24 | place;
     }
 
-    /// The object, or nothing if the handle is not of a live one.
+    /// The object, or NULL if the handle does not belong to a live object.
     T* find(Value handle) const noexcept {
         const Slot* slot = slot_of(handle);
         if (!slot) return nullptr;
@@ -74,7 +75,7 @@ class HandleTable {
         if (static_cast<std::uint32_t>(next) == 0) {
             const std::unique_ptr<T> object = std::move(slot->object);
             const std::lock_guard lock(mutex_);
-            // A place whose numbers are used up is never used again.
+            // An index whose generation numbers are used up is never used again.
             if (next != 0) free_.push_back(static_cast<std::uint32_t>(handle & places));
         }
         return true;

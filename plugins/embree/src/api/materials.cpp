@@ -1,4 +1,4 @@
-// Phases' materials, which the library hands on as they are written in the scene.
+// The phases' materials, which the library passes on as written in the scene.
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace phasetree::embree::api {
 
-// The text is sound JSON with comments, so a slash outside a string begins one.
+// The text must be valid JSON with comments, so a slash outside a string begins a comment.
 std::string json_of(const Document& document, const Value& value) {
     const std::string& text = document.text();
     const std::size_t end = end_of(text, value);

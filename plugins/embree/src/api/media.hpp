@@ -5,20 +5,20 @@
 
 namespace phasetree::embree::api {
 
-/// The extended context of a query, if the application says that it has one; else NULL.
+/// The extended context of a query, if the application declared that it has one; else NULL.
 inline const PhasetreeRayContext* extended(const GeometryData& data, const Context* context) {
     if (!data.has(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT)) return nullptr;
     const auto* extended = reinterpret_cast<const PhasetreeRayContext*>(context);
     return extended->apiVersion == PHASETREE_API_VERSION ? extended : nullptr;
 }
 
-/// The entry of the extended context for the ray of an id, or NULL.
+/// The entry of the extended context for the ray with this ID, or NULL.
 inline PhasetreeRay* extended_ray_of(const PhasetreeRayContext* context, unsigned id) {
     return context && id < context->rayCount ? context->rays + id : nullptr;
 }
 
-/// The phase that the application says a ray is in, of the object that a callback is asked for. The interface knows an
-/// instance by its innermost ID alone (PhasetreeMedium).
+/// The phase that the ray is in according to the application, of the object that a callback was called for. The
+/// interface identifies an instance by its innermost ID alone (PhasetreeMedium).
 inline std::optional<Phase> carried(const PhasetreeRay* ray, unsigned geometry, const Context& context) {
     if (!ray) return std::nullopt;
     unsigned level = 0;
@@ -37,7 +37,7 @@ inline std::optional<Phase> carried(const PhasetreeRay* ray, unsigned geometry, 
     return std::nullopt;
 }
 
-/// Tells the application of a crossing, where it is known in geometry space; `length` is that of the ray's direction.
+/// Writes a crossing for the application, where it is known in geometry space. `length` is that of the ray's direction.
 inline void write_crossing(PhasetreeHit& hit, const Crossing& crossing, unsigned cell, float length) {
     hit.phaseLeft = crossing.from.index;
     hit.phaseEntered = crossing.to.index;

@@ -1,4 +1,4 @@
-// The interfaces of a geometry as triangles.
+// Meshes the interfaces of a geometry.
 
 #include "phasetree/meshing/phase_mesh.hpp"
 
@@ -27,7 +27,7 @@ PhaseMesh made(const Object& object, const MeshOptions& options) {
     try {
         return mesh_of(object.cells().bounds(), line_tracer(object.scene()), options);
     } catch (const MeshingCancelled&) {
-        throw BuildCancelled();  // one error for all that is cancelled
+        throw BuildCancelled();  // all cancellations raise the same error
     } catch (const ModelError& e) {
         throw invalid("options->spacing: {}", e.what());
     }

@@ -10,8 +10,8 @@
 
 namespace phasetree::embree::api {
 
-/// One packet that has come to a geometry with one primitive, for intersection or occlusion: each ray is walked from
-/// crossing to crossing of the object's own scene until one is shown and no filter function rejects it.
+/// Traces one packet against a geometry with a single primitive, for intersection or occlusion. Each ray steps from
+/// crossing to crossing in the object's own scene, until a crossing is shown and no filter function rejects it.
 template <class Arguments>
 class Packet {
     static constexpr bool occlusion = std::is_same_v<Arguments, RTCOccludedFunctionNArguments>;
@@ -31,7 +31,8 @@ class Packet {
         }
     }
 
-    /// A ray for which there is no memory hits nothing: nobody can be told, and Embree lets no exception through.
+    /// A ray that runs out of memory hits nothing, because the error cannot be reported, and exceptions cannot pass
+    /// through Embree.
     void trace() {
         for (unsigned i = 0; i < n_; ++i) {
             if (arguments_->valid[i] != -1) continue;
@@ -65,7 +66,7 @@ class Packet {
         }
     }
 
-    /// A lane's ray in the object's own space.
+    /// A lane's ray in object space.
     std::optional<UnitRay> ray_within(unsigned i, const std::optional<Placement>& placement) const {
         auto ray = unit_ray(rays_, n_, i);
         if (ray && placement)
@@ -76,7 +77,7 @@ class Packet {
         return ray;
     }
 
-    /// Whether the crossing is accepted as the lane's hit, which is then written.
+    /// Offers a crossing as the lane's hit. If it is accepted, writes the hit and returns true.
     bool offer(unsigned i, const UnitRay& ray, const CellScene::Hit& found, const std::optional<Placement>& placement,
                bool filters, PhasetreeRay* extended_ray) {
         if (occlusion && !filters) {
@@ -90,7 +91,7 @@ class Packet {
         if (placement) normal = placement->normal(normal);
         RTCHitN* const candidate = reinterpret_cast<RTCHitN*>(candidates_.data());
         write_hit(candidate, n_, i, c, normal, found.cell, arguments_->geomID, *arguments_->context);
-        // Rounding shall not put a hit outside of the ray.
+        // Rounding must not put a hit outside the ray.
         far = std::clamp(c.t_in / ray.length, std::min(RTCRayN_tnear(rays_, n_, i), before), before);
         if (filters && !is_accepted(i, candidate)) {
             far = before;

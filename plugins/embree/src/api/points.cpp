@@ -1,4 +1,4 @@
-// Phases and distances at points. One point is asked as many are: eight are evaluated together.
+// Phases and distances at points. A single point is handled like many: eight are evaluated together.
 
 #include "api/points.hpp"
 
@@ -25,8 +25,8 @@ std::array<Phases<float>, batch_size> distances(const Evaluator& whole, const Ba
     return all;
 }
 
-// The radius of a ball in geometry space that has no interface, about a point of the tree's space where the sampled
-// distance to one is known.
+// The radius of a ball in geometry space that contains no interface. Its centre is a point of the tree's space with a
+// known sampled distance to an interface.
 float radius_without_interface(const GeometryData& data, const glm::vec3& p, float sampled,
                                const Placement& placement) {
     const InterfaceCells& cells = data.object->cells();
@@ -44,7 +44,7 @@ void write_phases(const GeometryData& data, const Points& points, unsigned* phas
     std::vector<BatchOfFloats> room;
     points.each_batch([&](std::size_t first, std::size_t count, const Batch& batch) {
         const auto point = [&](std::size_t i) { return glm::vec3(batch[0][i], batch[1][i], batch[2][i]); };
-        bool is_any_within = false;  // else all are in the vacuum, and nothing need be evaluated
+        bool is_any_within = false;  // otherwise all are in the vacuum, and nothing is evaluated
         for (std::size_t i = 0; i < count; ++i) is_any_within |= cells.bounds().contains(point(i));
         std::array<Phases<float>, batch_size> phi;
         if (is_any_within) phi = distances(cells.whole(), batch, room);
@@ -134,7 +134,7 @@ PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, const Phasetre
         require_stride(phase_stride, "phaseStride");
         if (all.size() == 0) return;
         require(out, "distances");
-        // One of them steps over all that the other reaches.
+        // One of the two strides must exceed the range of the other.
         const bool is_apart = phase_count == 1 || all.size() == 1 || point_stride / phase_count >= phase_stride ||
                               phase_stride / all.size() >= point_stride;
         if (!is_apart)

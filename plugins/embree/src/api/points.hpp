@@ -8,23 +8,23 @@
 
 namespace phasetree::embree::api {
 
-/// Throws ApiError unless it is a distance between floats, in bytes.
+/// Throws ApiError unless the stride, in bytes, is valid for floats.
 inline void require_stride(std::size_t stride, const char* name) {
     if (stride == 0 || stride % sizeof(float) != 0)
         throw invalid("{} is {}; it must be a multiple of {} bytes", name, stride, sizeof(float));
 }
 
-/// The float that is this many strides behind the first.
+/// The float i strides after the first.
 inline float at(const float* first, std::size_t stride, std::size_t i) {
     float value = 0;
     std::memcpy(&value, reinterpret_cast<const std::byte*>(first) + stride * i, sizeof value);
     return value;
 }
 
-/// The points of a call in the tree's own space: one, or many in whatever layout the application has them.
+/// The points of a call in the tree's own space: a single one, or many in any layout.
 class Points {
   public:
-    /// Throws ApiError if any is not what it must be, so that nothing is written then.
+    /// Throws ApiError if any parameter is invalid, before anything is written.
     Points(const GeometryData& data, const PhasetreePoints* points) : data_(data), p_(checked(points)) {
         const bool moves = !data.motion.none() && p_.time;
         if (!moves && p_.count > 0) still_ = placement_at(data, 0);
@@ -36,7 +36,7 @@ class Points {
             if (moves) (void)placement(i);
         }
     }
-    /// A single one, as the application gives it; its time may be any number where nothing moves.
+    /// A single point, as given by the application. Its time is ignored if nothing moves.
     Points(const GeometryData& data, const float* point, float time) : data_(data), still_(placement_at(data, time)) {
         read_point(point);
         phasetreeInitPoints(&p_);
@@ -51,7 +51,8 @@ class Points {
         return data_.motion.none() ? given(i) : placement(i).point_within(given(i));
     }
 
-    /// Calls f(index of the first point, how many, their coordinates): eight at a time, the last one repeated.
+    /// Calls f(index of the first point, number of points, their coordinates) with eight at a time; the last batch is
+    /// filled with copies of the last point.
     template <class F>
     void each_batch(F&& f) const {
         for (std::size_t first = 0; first < size(); first += batch_size) {

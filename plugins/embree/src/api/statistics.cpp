@@ -1,4 +1,4 @@
-// What was built of a geometry.
+// Statistics of a built geometry.
 
 #include "api/geometry_data.hpp"
 

@@ -8,25 +8,25 @@
 
 namespace phasetree::embree::api {
 
-/// What is behind a PhasetreeTree: the model, and the text that it was read from, for edits.
+/// The data behind a PhasetreeTree: the model, and the text that it was read from, for edits.
 struct TreeData {
     Document document;
     std::optional<PhasetreeFileReader> reader;
     SceneTree tree;
-    std::vector<std::optional<std::string>> materials;  ///< of each phase, as JSON
+    std::vector<std::optional<std::string>> materials;  ///< per phase, as JSON
 };
 
 using TreeTable = HandleTable<TreeData, 0x5054>;
 
-/// Throws for a handle that is none.
+/// Throws if the handle is invalid.
 const TreeData& data_of(PhasetreeTree handle);
 
-/// Where a value of a text ends.
+/// The position where a value ends in its text.
 std::size_t end_of(const std::string& text, const Value&);
-/// A value's text without comments.
+/// The text of a value without comments.
 std::string json_of(const Document&, const Value&);
 
-/// A scene's text with the value at a JSON Pointer (RFC 6901) replaced. Throws ApiError if there is no such value.
+/// The scene's text with the value at a JSON Pointer (RFC 6901) replaced. Throws ApiError if there is no such value.
 std::string with_value(const Document&, std::string_view pointer, std::string_view value);
 
 }  // namespace phasetree::embree::api

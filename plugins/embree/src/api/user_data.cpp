@@ -1,4 +1,4 @@
-// What the application keeps with a geometry, which the library never looks at.
+// The application's data attached to a geometry, which the library never uses.
 
 #include "api/geometry_data.hpp"
 

@@ -8,8 +8,8 @@
 namespace phasetree::embree {
 
 std::optional<Placement> Placement::of(const glm::dmat3& linear, const glm::dvec3& translation) {
-    // Orthogonal columns of the same lengths would have the determinant `volume`. A share of it below 1e-6 counts as
-    // none: the inverse would have too few digits.
+    // Orthogonal columns of the same lengths would have the determinant `volume`. A fraction below 1e-6 of it counts as
+    // zero, because the inverse would be too inaccurate.
     const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     const double determinant = glm::determinant(linear);
     if (!(std::abs(determinant) > 1e-6 * volume) || !std::isfinite(volume)) return std::nullopt;
@@ -45,7 +45,7 @@ Bounds Motion::image(const Bounds& box, unsigned step) const {
     const Step& s = steps_[std::min<std::size_t>(step, steps_.size() - 1)];
     const Bounds turned = image_of(box, glm::mat3(s.linear));
     const glm::vec3 shift(s.translation);
-    // The bounds are inflated by some roundings of the largest coordinate, so that they hold the rounded points.
+    // Enlarge the bounds by a few rounding errors of the largest coordinate, so that they contain the rounded points.
     const glm::vec3 farthest = glm::max(glm::abs(turned.low + shift), glm::abs(turned.high + shift));
     const float largest = std::max({farthest.x, farthest.y, farthest.z, glm::length(shift)});
     return Bounds{turned.low + shift, turned.high + shift}.inflated(2e-6f * largest);

@@ -9,14 +9,14 @@
 
 namespace phasetree::embree {
 
-/// Where an object is at one time: an affine map from its own space to the geometry's, and back.
+/// The placement of an object at one time: an affine map from object space to geometry space, and its inverse.
 struct Placement {
     glm::dmat3 linear{1}, inverse{1};
     glm::dvec3 translation{0};
 
-    /// Nothing if the map has no inverse.
+    /// nullopt if the map is not invertible.
     static std::optional<Placement> of(const glm::dmat3& linear, const glm::dvec3& translation);
-    /// From twelve floats, column by column.
+    /// From twelve floats in column-major order.
     static std::optional<Placement> of(const float* columns);
 
     glm::vec3 point(const glm::vec3& p) const { return glm::vec3(linear * glm::dvec3(p) + translation); }
@@ -25,7 +25,7 @@ struct Placement {
     glm::vec3 normal(const glm::vec3& n) const;
 };
 
-/// A placement for each of some time steps; between them the maps' entries are interpolated.
+/// One placement per time step; the maps' entries are interpolated in between.
 class Motion {
   public:
     Motion() = default;
@@ -35,13 +35,13 @@ class Motion {
     };
     Motion(std::vector<Step> steps, float start, float end) : steps_(std::move(steps)), start_(start), end_(end) {}
 
-    /// Whether there is no motion: the geometry's space is the object's own.
+    /// Whether there is no motion, so that geometry space is object space.
     bool none() const { return steps_.empty(); }
-    /// Nothing if the map at that time has no inverse. A time before the start or after the end counts as that one.
+    /// nullopt if the map at that time is not invertible. Times before the start or after the end are clamped.
     std::optional<Placement> at(float time) const;
     unsigned steps() const { return steps_.empty() ? 1 : static_cast<unsigned>(steps_.size()); }
-    /// The bounds of a box's image at a time step. Bounds interpolated linearly between two steps, as Embree does it,
-    /// hold the image in between, since each of its points moves linearly.
+    /// The bounds of a box's image at a time step. Linear interpolation of the bounds between two steps, as Embree does
+    /// it, contains the image in between, because each point of the image moves linearly.
     Bounds image(const Bounds& box, unsigned step) const;
 
   private:

@@ -7,10 +7,10 @@
 
 namespace phasetree::embree {
 
-/// An object as a geometry of the C99 interface has it: its cells, and a scene of them within. Any thread may ask.
+/// The object of a geometry in the C99 interface: its cells, and a scene that contains them. Thread-safe.
 class Object {
   public:
-    /// When the scene of the cells is built: at once, or when somebody asks for it.
+    /// When the scene of the cells is built: immediately, or on first use.
     enum class SceneWithin { at_once, when_asked };
 
     /// Throws EmbreeError.
@@ -18,7 +18,7 @@ class Object {
     ~Object();
 
     const InterfaceCells& cells() const { return *cells_; }
-    /// Throws EmbreeError if it is built now and cannot be.
+    /// Throws EmbreeError if the scene must be built and this fails.
     const CellScene& scene() const {
         const CellScene* scene = scene_.load(std::memory_order_acquire);
         return scene ? *scene : build();
@@ -27,7 +27,7 @@ class Object {
   private:
     const CellScene& build() const;
 
-    RTCDevice device_;  ///< the geometry's, which holds it
+    RTCDevice device_;  ///< the geometry's, which keeps it alive
     std::shared_ptr<const InterfaceCells> cells_;
     mutable std::mutex building_;
     mutable std::unique_ptr<const CellScene> owned_;

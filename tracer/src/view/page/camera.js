@@ -1,5 +1,5 @@
-// Turning, moving and zooming a camera, which is an object as a scene's file has it: the members of a thin lens, or
-// {"orthographic": {members}}. Every function returns another camera. z is up.
+// Rotates, moves and zooms a camera. A camera is an object as in a scene file: the members of a thin lens, or
+// {"orthographic": {members}}. Every function returns a new camera. z is up.
 
 const add = (a, b) => a.map((x, i) => x + b[i]);
 const sub = (a, b) => a.map((x, i) => x - b[i]);
@@ -16,7 +16,7 @@ export const membersOf = (camera) => camera.orthographic ?? camera;
 const withMembers = (camera, members) =>
   isOrthographic(camera) ? {orthographic: {...camera.orthographic, ...members}} : {...camera, ...members};
 
-// The directions to the right, up and forward in the picture.
+// The directions right, up and forward in the picture.
 function frame(members) {
   const forward = unit(sub(members.look_at, members.position));
   for (const up of [members.up ?? [0, 0, 1], [0, 1, 0], [1, 0, 0]]) {
@@ -26,14 +26,14 @@ function frame(members) {
   throw new Error("the camera has no direction");
 }
 
-// A vector turned around an axis of unit length (Rodrigues' formula).
+// Rotates a vector around an axis of unit length (Rodrigues' formula).
 function turnedAround(v, axis, angle) {
   const c = Math.cos(angle), s = Math.sin(angle);
   return add(add(times(v, c), times(cross(axis, v), s)), times(axis, dot(axis, v) * (1 - c)));
 }
 
-// Turns around a centre: by `right` around the vertical and by `up` around the picture's horizontal, in radians. The
-// camera never looks straight up or down, where left and right would change places.
+// Rotates around a centre: by `right` around the vertical and by `up` around the picture's horizontal, in radians. The
+// camera never looks straight up or down, where left and right would swap.
 export function turned(camera, centre, right, up) {
   const members = membersOf(camera);
   const vertical = unit(members.up ?? [0, 0, 1]);
@@ -46,13 +46,13 @@ export function turned(camera, centre, right, up) {
   return withMembers(camera, {position: around(members.position), look_at: around(members.look_at)});
 }
 
-// How high a picture is at a distance, in the scene's unit of length.
+// The height of the picture at a distance, in scene units.
 function heightAt(camera, distance) {
   const members = membersOf(camera);
   return isOrthographic(camera) ? members.height : 2 * distance * Math.tan((members.fov ?? 40) * Math.PI / 360);
 }
 
-// Moves by shares of the picture's height, so that what is at the distance of the centre follows the pointer.
+// Moves by fractions of the picture's height, so that points at the distance of the centre follow the pointer.
 export function moved(camera, centre, right, up) {
   const members = membersOf(camera);
   const axes = frame(members);
@@ -62,8 +62,8 @@ export function moved(camera, centre, right, up) {
   return withMembers(camera, {position: add(members.position, by), look_at: add(members.look_at, by)});
 }
 
-// How far a plane goes along its normal so that it follows the pointer, which moved by shares of the picture's height. One
-// that faces the camera goes by what the pointer moves up.
+// How far a plane must move along its normal to follow the pointer, which moved by fractions of the picture's height. A
+// plane that faces the camera moves by the pointer's upward motion.
 export function followed(camera, centre, normal, right, up) {
   const members = membersOf(camera);
   const axes = frame(members);
@@ -74,7 +74,7 @@ export function followed(camera, centre, normal, right, up) {
   return square < 0.05 ? up * height : height * dot(seen, [right, up]) / square;
 }
 
-// Goes nearer to the centre (factor below 1) or farther from it. A parallel view shows less or more instead.
+// Moves towards the centre (factor below 1) or away from it. For a parallel view, changes the visible size instead.
 export function zoomed(camera, centre, radius, factor) {
   const members = membersOf(camera);
   if (isOrthographic(camera)) return withMembers(camera, {height: members.height * factor});
@@ -82,7 +82,7 @@ export function zoomed(camera, centre, radius, factor) {
   const distance = Math.max(length(sub(centre, members.position)), 0.01 * radius);
   const by = times(forward, distance * (1 - factor));
   const position = add(members.position, by);
-  // The point that is examined stays before the camera, and what is in focus in focus.
+  // Keep the point being examined in front of the camera, and the focus where it is.
   const ahead = Math.max(dot(sub(members.look_at, position), forward), 0.01 * radius);
   const next = {position, look_at: add(position, times(forward, ahead))};
   if (members.focus_distance !== undefined)

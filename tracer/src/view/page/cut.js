@@ -1,5 +1,5 @@
-// A plane that cuts the object open: its direction by axis or as three numbers, its place by a slider, by dragging with
-// Ctrl on the picture, or by keys.
+// A plane that cuts the object open. Its direction is an axis or three numbers. Its position is set by a slider, by
+// Ctrl-dragging the picture, or by keys.
 
 const length = (v) => Math.hypot(...v);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -9,7 +9,7 @@ export class Cut {
   #changed;
   #place = {centre: [0, 0, 0], radius: 1};
 
-  // `elements` are the section's: direction, normal (three inputs), offset, said.
+  // `elements` are those of the section: direction, normal (three inputs), offset, said.
   constructor(elements, changed) {
     this.#elements = elements;
     this.#changed = changed;
@@ -39,7 +39,7 @@ export class Cut {
     if (this.isOn && !(length(normal) > 1e-6)) return;
     this.#changed({cut: this.isOn ? this.#plane(normal) : null});
   }
-  // The slider is in shares of the object's radius from its centre; the server's offset is from the scene's origin.
+  // The slider is in units of the object's radius from its centre; the server's offset is from the scene's origin.
   #plane(normal) {
     const unit = normal.map((x) => x / length(normal));
     return {normal: unit, offset: dot(unit, this.#place.centre) + Number(this.#elements.offset.value) * this.#place.radius};
@@ -50,7 +50,7 @@ export class Cut {
     this.#setNormal(direction.map((x) => Number((x / length(direction)).toPrecision(4))));
     this.#wish();
   }
-  // Moves the plane along its normal, in the scene's unit of length.
+  // Moves the plane along its normal, in scene units.
   move(by) {
     if (!this.isOn) return;
     const {offset} = this.#elements;

@@ -1,14 +1,14 @@
-// Mouse, touch and keys on the picture. `act` has turn(right, up) in radians, move(right, up) in shares of the
-// picture's height, zoom(factor), cut(right, up) likewise, stepCut(direction), ask(event), askMiddle() and reset(); and
-// for two fingers grab(), and pinch(factor, right, up) from where the camera was at the last grab.
+// Mouse, touch and keyboard input on the picture. `act` has turn(right, up) in radians; move(right, up) and cut(right,
+// up) in fractions of the picture's height; zoom(factor), stepCut(direction), ask(event), askMiddle() and reset(). For
+// two fingers it has grab(), and pinch(factor, right, up) relative to the camera at the last grab.
 
 const radiansAcross = Math.PI; // for a drag over the picture's height
-const step = Math.PI / 24;     // for a key
+const step = Math.PI / 24;     // per key press
 
 export function listen(canvas, act) {
-  const pointers = new Map(); // those that are down, and where each was last
-  let isClick = false;        // whether what is being done may still be a click: one pointer that has not moved
-  let grabbed = null;         // two fingers, as they were when the second came down
+  const pointers = new Map(); // pressed pointers and their last positions
+  let isClick = false;        // whether the gesture may still be a click: a single pointer that has not moved
+  let grabbed = null;         // the state when the second finger touched
 
   const twoFingers = () => {
     const [a, b] = [...pointers.values()];
@@ -35,7 +35,7 @@ export function listen(canvas, act) {
     if (!last) return;
     const height = canvas.getBoundingClientRect().height;
     const right = (event.clientX - last.clientX) / height, down = (event.clientY - last.clientY) / height;
-    // A hand that clicks trembles.
+    // Tolerate small movements during a click.
     if (isClick && Math.hypot(right, down) * height < 4) return;
     isClick = false;
     pointers.set(event.pointerId, event);

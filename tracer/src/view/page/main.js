@@ -1,4 +1,4 @@
-// The page: what the server shows goes to the elements, what is done with those goes to the server.
+// The page: shows the server's state in the elements, and sends the user's actions to the server.
 import {followed, membersOf, moved, turned, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
@@ -13,8 +13,8 @@ const element = (id) => document.getElementById(id);
 const canvas = element("picture"), exposure = element("exposure");
 
 let state = null, camera = null;
-let grabbed = null; // the camera when two fingers came down
-let refusal = ""; // what was wrong with the last thing that was tried here; the scene's own error is state.error
+let grabbed = null; // the camera when two fingers touched
+let refusal = ""; // the error of the last action on this page; the scene's own error is state.error
 const changes = new Changes(() => refuse(""), (error) => refuse(error.message));
 
 const phases = new PhaseList(element("phases"), (change) => changes.make(change));
@@ -55,7 +55,7 @@ function refuse(text) {
   showErrors();
 }
 
-// Does what may be refused; what was rejected before is over.
+// Performs an action that the server may reject, after clearing the last error.
 async function attempt(action) {
   try {
     await action();
@@ -70,7 +70,7 @@ function statusOf(state) {
   return `${state.doing}${seconds}`;
 }
 
-// The options are recreated only if there are others, so that an open list stays.
+// Recreate the options only if they differ, so that an open list stays open.
 function showLayers(state) {
   const select = element("layer");
   const known = [...select.options].slice(1).map((option) => option.value);
@@ -91,7 +91,7 @@ function told(next, pixels) {
   showErrors();
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
-  // What was changed here a moment ago is newer than what the server knows.
+  // Changes just made here are newer than the server's state.
   if (changes.arePending || state.version < changes.version) return;
   phases.show(state.phases);
   cut.show(state);
@@ -120,15 +120,14 @@ const askAt = (x, y) => attempt(async () => {
   showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
 });
 
-// By a link that is not in the page: what the server refuses is told here, where the browser would save its words or
-// say nothing.
+// Uses a link outside the page and shows errors here; the browser would save the error message, or show nothing.
 const save = (extension) => attempt(async () => {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(await askFile(`picture.${extension}`));
   const name = (state?.scene ?? "picture").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
   link.download = `${name}.${extension}`;
   link.click();
-  // The browser has begun to read it by then.
+  // By then the browser has begun to read it.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 });
 
@@ -136,7 +135,7 @@ const act = {
   turn: (right, up) => camera && look(turned(camera, state.centre, right, up)),
   move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
   zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
-  // Each finger tells of its way alone, so what both do is reckoned from the beginning and not added up.
+  // Each finger reports its motion separately, so the combined motion is computed from the start instead of summed up.
   grab: () => { grabbed = camera; },
   pinch: (factor, right, up) => grabbed && look(moved(zoomed(grabbed, state.centre, state.radius, factor), state.centre, right, up)),
   reset: () => changes.make({camera: null}),

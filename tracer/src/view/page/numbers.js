@@ -1,16 +1,16 @@
-// The numbers in the scene's file, as sliders. Few are shown at a time: those whose place in the file has the words that
-// are asked for, or those of one node.
+// The numbers in the scene file, as sliders. Only a few are shown at a time: those whose path in the file contains the
+// words of the filter, or those of one node.
 
 const mostRows = 12;
 
-// The names on the way to a number, without those that every tree repeats: "translate by 2".
+// The names on the path to a number, without those that occur in every tree: "translate by 2".
 function placeOf(pointer) {
   const names = pointer.slice(1).split("/").map((name) => name.replaceAll("~1", "/").replaceAll("~0", "~"));
   const telling = names.filter((name) => !["tree", "of"].includes(name));
   return telling.slice(-4).join(" ");
 }
 
-// A slider goes from nothing to twice what the file has.
+// A slider ranges from zero to twice the file's value.
 function rangeAround(value) {
   return value === 0 ? [-1, 1] : [Math.min(0, 2 * value), Math.max(0, 2 * value)];
 }
@@ -56,7 +56,8 @@ export class Numbers {
   #version = null;
   #node = null;
 
-  // `elements` are the section's: filter, rows, said. `changed` is told of all numbers that differ from the file's.
+  // `elements` are those of the section: filter, rows, said. `changed` receives all numbers that differ from the
+  // file's.
   constructor(elements, changed) {
     this.#elements = elements;
     this.#changed = changed;
@@ -65,7 +66,7 @@ export class Numbers {
       this.#make();
     });
   }
-  // Shows those of one node: of all whose pointers go on from the node's.
+  // Shows the numbers of one node: those whose pointers begin with the node's.
   showNode(name, pointer) {
     this.#node = {name, pointer};
     this.#elements.filter.value = "";
@@ -74,17 +75,17 @@ export class Numbers {
   reset() {
     this.#changed({numbers: {}});
   }
-  // Asks for the numbers if the file has been read since.
+  // Requests the numbers if the file has been read again.
   async show(state, ask) {
     this.#edits = state.numbers;
     if (state.numbers_version !== this.#version) {
       const version = state.numbers_version;
       this.#version = version;
       const told = await ask().catch((error) => {
-        if (this.#version === version) this.#version = null; // They are asked for again.
+        if (this.#version === version) this.#version = null; // request them again
         throw error;
       });
-      // The file has been read once more, and what was asked for since may have come already.
+      // The file has been read again, and a newer answer may already have arrived.
       if (this.#version !== version) return;
       this.#all = told.numbers;
       this.#hasMore = told.has_more;

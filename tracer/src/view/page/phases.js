@@ -1,10 +1,10 @@
-// The list of phases: a checkbox each, and what of its material can be changed. The elements are recreated only if the
-// phases or their materials' kinds change, so that the focus stays.
+// The list of phases: a checkbox for each, and the editable properties of its material. The elements are recreated only
+// if the phases or the kinds of their materials change, so that the focus is kept.
 import {hexOf} from "./colour.js";
 
 const usualIor = 1.5, usualRoughness = 0;
 
-// {name: look} of the phases that look otherwise than in the file.
+// {name: look} of the phases that differ from the file.
 function looksOf(phases) {
   const changed = phases.filter((phase) => Object.keys(phase.look).length > 0);
   return Object.fromEntries(changed.map((phase) => [phase.name, {...phase.look}]));
@@ -68,7 +68,7 @@ class Row {
     this.#phase = phase;
     this.box.checked = !phase.hidden;
     this.#inputs.clear.checked = phase.kind === "clear";
-    // What is clear by itself stays so.
+    // A phase that is clear in the file stays clear.
     this.#inputs.clear.disabled = phase.kind_in_file === "clear";
     for (const [member, value] of Object.entries(valuesOf)) {
       const input = this.#inputs[member];
@@ -111,7 +111,7 @@ export class PhaseList {
     this.#rows.forEach((row, i) => {
       row.element.querySelector("details").open = open.has(phases[i].name);
       this.#fieldset.append(row.element);
-      // A material of another kind has other sliders; who is at the keyboard is left at the phase.
+      // A material of another kind has other sliders, so move the keyboard focus to the phase.
       if (focused === phases[i].name) row.element.querySelector("details input").focus();
     });
     this.#rows.forEach((row, i) => row.show(phases[i]));

@@ -1,4 +1,4 @@
-// The picture on the canvas. A coarse one is drawn as large as the whole.
+// The picture on the canvas. Coarse pictures are scaled to the full size.
 
 const small = document.createElement("canvas");
 
@@ -26,7 +26,7 @@ export function draw(canvas, state, pixels) {
   context.drawImage(small, 0, 0, canvas.width, canvas.height);
 }
 
-// Where a pointer is, in pixels of the whole picture.
+// The pointer's position, in pixels of the whole picture.
 export function place(canvas, event) {
   const box = canvas.getBoundingClientRect();
   const within = (share, size) => Math.max(0, Math.min(size, share * size));

@@ -1,4 +1,4 @@
-// What is at a point: its phase, the distances there, and the crossings along the ray.
+// Shows what is at a point: its phase, the distances there, and the crossings along the ray.
 
 const number = (x) => (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e5 ? x.toFixed(4) : x.toPrecision(4));
 
@@ -24,7 +24,7 @@ function table(caption, heads, rows) {
   return made;
 }
 
-// The nodes that made the surface, each a button that shows its numbers. What the view itself put there is in no file.
+// The nodes that made the surface, as buttons that show their numbers. Nodes added by the view itself are in no file.
 function nodes(path, showNode) {
   const first = path.findIndex((node) => node.line > 0);
   const list = document.createElement("ol");

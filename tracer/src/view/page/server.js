@@ -1,8 +1,8 @@
-// What the server shows, and what is wished of it. Addresses are relative: the page's own has the token in it.
+// Communication with the server. Addresses are relative, because the page's own address contains the token.
 
 export const noAnswer = "The server does not answer: it may have ended.";
 
-// The server's answer; what it refuses is thrown in its own words.
+// The server's answer. Throws an error with the server's message if the request is rejected.
 async function answerTo(address, request) {
   let answer;
   try {
@@ -29,14 +29,14 @@ export const askFile = async (name) => (await answerTo(name)).blob();
 export const writeNumbers = () => post("write_numbers", {});
 export const writeCamera = () => post("write", {});
 
-// Sends changes one after the other. Those that come while one is on its way are joined, so that a fast mouse leaves no
-// queue behind. `done` is called after each that was taken, `failed(error)` after each that was not.
+// Sends changes one at a time. Changes made while one is being sent are merged, so that a fast mouse does not build up
+// a queue. Calls `done` after each accepted change and `failed(error)` after each rejected one.
 export class Changes {
   #waiting = null;
   #isSending = false;
   #done;
   #failed;
-  version = 0; // at which the last change counts
+  version = 0; // from which the last change is effective
 
   constructor(done, failed) {
     this.#done = done;
@@ -65,8 +65,8 @@ export class Changes {
 
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
-// Calls told(state, pixels) with every state that is shown, for ever; pixels are null while the picture stays the same.
-// Calls lost(error) while the server does not answer, or refuses.
+// Calls told(state, pixels) with every state shown, forever; pixels are null while the picture stays the same. Calls
+// lost(error) while the server does not answer or rejects requests.
 export async function follow(told, lost) {
   let version = 0, picture = 0;
   while (true) {
@@ -76,7 +76,7 @@ export async function follow(told, lost) {
       const end = bytes.indexOf(10);
       const state = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end)));
       const isNew = bytes.length > end + 1;
-      // Too many pages are open, and the server does not let this one wait.
+      // Too many pages are open, so the server did not let this one wait.
       if (state.version === version) await pause(500);
       version = state.version;
       if (state.picture) picture = state.picture.number;

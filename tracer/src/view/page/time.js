@@ -1,15 +1,15 @@
-// The time at which the scene is shown, for scenes with keys: a slider from the first key to the last, and a button that
-// plays. While it plays each time is asked for when the picture of the last one is there, so that slow scenes leave
-// times out and do not lag behind.
+// The time at which the scene is shown, for scenes with keys: a slider from the first key to the last, and a play
+// button. During playback, each time is requested when the picture of the previous one has arrived, so slow scenes skip
+// times instead of lagging behind.
 
 export class Time {
   #elements;
   #changed;
   #span = null;
-  #begun = null; // when it was at the slider's least time, in seconds of the clock, while it plays
-  #lastPicture = 0; // the number of the one that was there when a time was asked for last
+  #begun = null; // during playback, the clock time in seconds at which the slider was at its minimum
+  #lastPicture = 0; // number of the picture that was shown at the last request
 
-  // `elements` are the section's: section, slider, said, play.
+  // `elements` are those of the section: section, slider, said, play.
   constructor(elements, changed) {
     this.#elements = elements;
     this.#changed = changed;
