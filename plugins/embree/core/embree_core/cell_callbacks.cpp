@@ -11,13 +11,13 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// Records another ray in place. Most rays meet only a cell or two, so the cost of this matters.
+// Notes another ray, in its place: most rays meet a cell or two, so what this takes counts.
 void note_ray(Query& query, const RTCRay& ray) {
     static_assert(std::is_trivially_destructible_v<SeenRay>);
     std::construct_at(&query.seen, ray);
 }
 
-// The first crossing in the cell. Returns nullopt if out of memory, which is recorded in the query.
+// The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
 template <class Arguments>
 std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arguments, Query& query,
                                const RTCRay& ray) noexcept {
@@ -27,15 +27,15 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
         std::optional<Phase> carried = query.elsewhere;
         std::optional<LeavingHint> leaving_hint;
         const bool may_start_here = start.cell == arguments.primID && ray.tnear == 0;
-        // Usually a ray carries one phase for all objects and does not start in this cell. Then it does not matter
-        // which object the cell belongs to, and nothing is compared.
+        // Mostly a ray carries one phase for all objects and does not start in this cell: then it does not matter of
+        // which object the cell is, and nothing is compared.
         if (may_start_here || !query.carried.empty()) {
             const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
             carried = RayPhases::find(query.carried, query.elsewhere, object);
             if (may_start_here && start.object == object) {
-                // The gradient is that of the signed distance of `from`, which is negative in `from` and increases into
-                // the other phase. The hint is the derivative of the distance from the interface on the ray's side: in
-                // `from` that distance is minus the signed distance, so its derivative has the opposite sign.
+                // The gradient is that of the signed distance of `from`, which is negative in `from` and rises into the
+                // other phase. The hint is the rise of the distance from the interface on the side where the ray is: in
+                // `from` that is the negative of the signed distance, and its derivative has the other sign.
                 const float along = glm::dot(start.gradient, query.seen.traced.direction);
                 leaving_hint = LeavingHint{carried == start.from ? -along : along};
             }

@@ -15,7 +15,7 @@ RTCDevice without_error(RTCDevice device) {
     return device;
 }
 
-// Whether Embree accepts the ray; with asserts enabled, it ends the program otherwise.
+// What Embree takes for a ray: with asserts it ends the program otherwise.
 bool is_within_range(const UnitRay& ray) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(ray.origin[i]) < 1e18f)) return false;

@@ -1,6 +1,6 @@
-// Best-first branch and bound over boxes. s(p), the distance within which the label cannot change, excludes a box when
-// evaluated at its centre. A ray from the point towards the nearest remaining box finds an interface that is certified
-// on both sides, which bounds the distance from above.
+// Best-first branch and bound over boxes: s(p), the distance within which the label cannot change, excludes a box from
+// its centre; a ray from the point towards the nearest box that is left meets an interface that is certified on both
+// sides, and so bounds the distance from above.
 
 #include "embree_core/closest.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int most_batches = 1 << 14;  // of batch_size points each
 
-// Distances measured in the world.
+// Distances as the world measures them.
 class Metric {
   public:
     Metric(const glm::vec3& from, const glm::dmat3& to_world) : from_(from), map_(to_world) {
@@ -42,7 +42,7 @@ class Metric {
     }
 
     double distance(const glm::vec3& p) const { return glm::length(map_ * (glm::dvec3(p) - glm::dvec3(from_))); }
-    // A lower bound on the distance of the box's points.
+    // No point of the box is nearer.
     double below(const Bounds& box) const {
         if (is_similarity_) {
             const glm::vec3 nearest = glm::clamp(from_, box.low, box.high);
@@ -52,7 +52,7 @@ class Metric {
         return std::max(0.0, distance(box.centre()) - radius);
     }
     double stretch() const { return stretch_; }
-    // The radius of the largest ball in the world that is inside the image of a ball in object space.
+    // The radius in the world of a ball of the object's space, from within.
     double ball(double radius) const { return shrink_ * radius; }
 
   private:
@@ -65,10 +65,10 @@ class Metric {
 struct Candidate {
     double below;
     Bounds box;
-    bool operator<(const Candidate& other) const { return below > other.below; }  // nearest first in a priority queue
+    bool operator<(const Candidate& other) const { return below > other.below; }  // the nearest on top
 };
 
-// The octants of several boxes, as many as fit into a batch of points.
+// The eight parts of each of some boxes, as many as fit into a batch of points.
 struct Octants {
     std::array<Bounds, batch_size> part;
     std::size_t count = 0;
@@ -93,7 +93,7 @@ struct Octants {
 };
 static_assert(batch_size >= 8, "one box's parts must fit");
 
-// A single search: the closest interface found so far, and the boxes that may contain a closer one.
+// One search: the closest interface found so far, and the boxes that may have a closer one.
 class Search {
   public:
     Search(const CellScene& object, const glm::vec3& point, const glm::dmat3& to_world, float radius, float tolerance)
@@ -122,8 +122,8 @@ class Search {
     }
 
   private:
-    // The radius of a ball around a point that contains no relevant interface: the minimum distance to the boundary of
-    // a phase that is not opaque.
+    // The radius of a ball about a point in which no interface passes that counts: the least distance to the boundary
+    // of a phase that is not opaque.
     float clear_distance(const glm::vec3& p) {
         const Phases<float> phi = whole_.distances(p, workspace_);
         float distance = std::numeric_limits<float>::max();
@@ -131,8 +131,7 @@ class Search {
         return distance;
     }
 
-    // Traces a ray from the query's point to another point and `beyond` it, and keeps the first crossing if it is the
-    // closest so far.
+    // Keeps the first crossing on the way from the point to another, and so far beyond it, if it is the closest yet.
     void shoot(const glm::vec3& towards, float beyond) {
         const glm::dvec3 way = glm::dvec3(towards) - glm::dvec3(point_);
         const double length = glm::length(way);
@@ -149,8 +148,7 @@ class Search {
         best_.there = found->crossing.to;
     }
 
-    // The distances at the point give a lower bound on how far the next phase is, and their gradient gives its
-    // direction.
+    // The distances at the point say how far at least the next phase is, and their gradient in which direction.
     void guess_from_distances() {
         const Phases<float> phi = whole_.distances(point_, workspace_);
         int first = -1, second = -1;
@@ -168,14 +166,14 @@ class Search {
     }
 
     bool is_done() const {
-        // Remaining boxes that are not nearer are never divided.
+        // What is left, but not nearer, is never divided.
         if (left_.empty() || !(left_.top().below < nearest_)) return true;
         const double next = std::min(left_.top().below, nearest_undivided_);
         if (next >= nearest_) return true;
         return best_.found && (next >= nearest_ * (1 - tolerance_) || nearest_ - next <= near_enough_);
     }
 
-    // Divides the nearest boxes into octants, and keeps those that may contain a closer interface.
+    // Divides the nearest boxes into octants, and keeps those that may have a closer interface.
     void divide_nearest() {
         Octants octants;
         while (octants.has_room() && !left_.empty() && left_.top().below < nearest_) {
@@ -207,15 +205,15 @@ class Search {
     const glm::vec3 point_;
     const Metric metric_;
     const double tolerance_;
-    const float rounding_;      // rounding error of a distance, as estimated by the cells
-    const double near_enough_;  // in the world; difference of the bounds at which the search ends
+    const float rounding_;      // what rounding can make of a distance, as the cells reckon
+    const double near_enough_;  // in the world: bounds that differ by no more end the search
     const PhaseSet opaque_;
 
     Closest best_;
-    double nearest_;    // the distance of best_, or the search radius; like those below, in the world
-    double lower_ = 0;  // lower bound on all distances
+    double nearest_;    // the distance of best_, or the radius that is searched; in the world, as those below
+    double lower_ = 0;  // nothing is nearer
     std::priority_queue<Candidate> left_;
-    double nearest_undivided_ = 0;  // lower bound for the boxes that are too small to divide
+    double nearest_undivided_ = 0;  // a bound for the boxes that are too small to divide
 };
 
 }  // namespace

@@ -8,7 +8,7 @@ LineTracer line_tracer(const CellScene& scene) {
     return [&scene](const glm::vec3& origin, const glm::vec3& direction, float length,
                     std::vector<CrossingOnLine>& found) {
         const std::optional<UnitRay> ray = UnitRay::of(origin, direction, 0, length);
-        if (!ray) return;  // too far from the origin for floats, where nothing exists
+        if (!ray) return;  // it is too far from the origin for floats: there is nothing
         Walk walk(scene, *ray, vacuum);
         while (const auto hit = walk.next()) {
             const Crossing& c = hit->crossing;

@@ -10,7 +10,7 @@
 
 namespace phasetree::embree {
 
-/// A phase of one object that a ray is in and carries from hit to hit.
+/// The phase of one object that a ray is in and carries from hit to hit.
 struct CarriedPhase {
     ObjectInstance object;
     Phase phase;
