@@ -79,7 +79,7 @@ endif()
 # A byte of one file of each kind. A new kind of file belongs in one of these lists, and in the first one also in
 # lib/cmake/build_identity.cmake.
 set(compiled c h cpp hpp inl in cmake CMakeLists.txt css html js map ocio)
-set(not_compiled md svg jpg sh py)
+set(not_compiled md svg jpg json sh py)
 file(GLOB_RECURSE files RELATIVE "${copy}" "${copy}/lib/*" "${copy}/tracer/*" "${copy}/plugins/embree/*")
 set(tried "")
 foreach(file ${files})
