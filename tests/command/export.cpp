@@ -17,7 +17,10 @@ auto refused_by(const Shell& shell) {
         CAPTURE(o.err);
         CHECK(o.code == 2);
         CHECK(o.err.find(said) != std::string::npos);
-        CHECK(o.err.size() < 400);
+        // On a slow machine, progress precedes the message.
+        const std::string progress = "elapsed\n";
+        const std::size_t at = o.err.rfind(progress);
+        CHECK(o.err.size() - (at == std::string::npos ? 0 : at + progress.size()) < 400);
     };
 }
 
@@ -171,9 +174,11 @@ TEST_CASE("what was exported can stand beside another object, as a mesh of each 
         write_text(shell.directory / "with_mesh.json", with_mesh.text());
         const Outcome o = shell.run({"check", "with_mesh.json"});
         CHECK(o.code == 0);
-        // Of all formats .glb alone says that the glass is clear.
+        // Only .glb says that the glass is clear.
         CHECK(o.err == (format == "glb" ? "warning: a.glb: \"glass\" is clear, and is left out: meshes are opaque; "
                                           "model it as a clear phase in \"tree\"\n"
+                                          "warning: a.glb: uses extensions that are not read: KHR_materials_volume "
+                                          "(missing: absorption inside clear materials)\n"
                                         : ""));
     }
 }
@@ -202,14 +207,16 @@ TEST_CASE("what is exported depends on the object and its materials alone, and n
     const auto write = [&](const std::string& rest) {
         write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {
             "glass": {"clear": {"ior": 1.5, "absorption": [1, 2, 4]}},
-            "wood": {"diffuse": {"color": [0.8, 0.4, 0.1]}}, "bare": null},
+            "wood": {"diffuse": {"color": [0.8, 0.4, 0.1]}}},
             "tree": {"over": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}},
-                {"set": {"phase": "wood", "of": {"translate": {"by": [3, 0, 0], "of": {"box": {"size": [1, 1, 1]}}}}}},
-                {"set": {"phase": "bare", "of": {"translate": {"by": [6, 0, 0], "of": {"box": {"size": [1, 1, 1]}}}}}}]})" +
+                {"set": {"phase": "wood", "of": {"translate": {"by": [3, 0, 0],
+                    "of": {"box": {"size": [1, 1, 1]}}}}}}]})" +
                                                        rest + "}");
     };
     const auto exported = [&](const std::string& extension) {
-        const Outcome o = shell.run({"export", "scene.json", "-o", "a." + extension, "--spacing", "0.2"});
+        std::vector<std::string> words{"export", "scene.json", "-o", "a." + extension};
+        if (extension != "html") words.insert(words.end(), {"--spacing", "0.2"});
+        const Outcome o = shell.run(words);
         CAPTURE(extension);
         CHECK(o.err == "");
         CHECK(o.code == 0);
@@ -241,7 +248,11 @@ TEST_CASE("what is exported depends on the object and its materials alone, and n
         CHECK(o.code == 0);
         CHECK(bytes_of(shell.directory / "a.html").find("rgb(231,170,89)") != std::string::npos);
     }
-    // Without colours even the materials are not read.
+    // Without a camera, a phase need not have a material.
+    write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {"bare": null},
+        "tree": {"set": {"phase": "bare", "of": {"sphere": {"radius": 1}}}}})");
+    for (const char* const extension : {"3mf", "obj", "glb", "ply", "stl", "html"}) exported(extension);
+    // Without colours, the images of materials are not opened.
     write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {"wood": {"diffuse": {"color": {"image":
         {"file": "nowhere.png"}}}}}, "tree": {"set": {"phase": "wood", "of": {"sphere": {"radius": 1}}}}})");
     exported("stl");

@@ -62,8 +62,8 @@ endforeach()
 
 # A complete sample page.
 read_page(phasetreeSetGeometryShownPhases)
-expect("${page}" "phasetreeSetGeometryShownPhases \\- Changes the phases to show" "    PhasetreePhaseSet shownPhases)"
-    ".SH \"ERRORS\"\n.TP\n.B PHASETREE_ERROR_INVALID_ARGUMENT\nan opaque phase is not among them\n"
+expect("${page}" "phasetreeSetGeometryShownPhases \\- Sets the phases to show" "    PhasetreePhaseSet shownPhases)"
+    ".SH \"ERRORS\"\n.TP\n.B PHASETREE_ERROR_INVALID_ARGUMENT\nan opaque phase is missing from the set\n"
     ".BR PhasetreeGeometryOptions (3)")
 
 # groff must not report any warnings.

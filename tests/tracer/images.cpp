@@ -379,13 +379,15 @@ TEST_CASE("small files with huge windows are rejected by the limits of their use
     set_window("displayWindow", (1 << 29) - 1, (1 << 28) - 1);
     CHECK(said([&] { return load_environment_image(path); }) == "it is larger than 16384 × 8192");
     CHECK(said([&] { return load_texture_image(path); }) == "it is larger than 4096 × 4096");
-    // The same of the data window, which is in memory a few rows at a time.
-    for (const int tile : {0, 16}) {
-        write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2}, tile);
-        set_window("dataWindow", (1 << 26) - 1, 3);
-        CHECK(said([&] { return load_texture_image(path); }) ==
-              "its data window of 67108864 × 4 pixels is much larger than its display window of 4 × 2; crop it");
-    }
+    // The same for the data window, of which a few rows are in memory at a time.
+    write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2});
+    set_window("dataWindow", (1 << 23) - 1, 3);
+    CHECK(said([&] { return load_texture_image(path); }) ==
+          "its data window of 8388608 × 4 pixels is much larger than its display window of 4 × 2; crop it");
+    // OpenEXR itself rejects tiled files that are too short for their tables of tiles.
+    write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2}, 16);
+    set_window("dataWindow", (1 << 23) - 1, 3);
+    CHECK(said([&] { return load_texture_image(path); }) != "nothing");
 }
 
 TEST_CASE("numbers that are not finite are rejected: how many pixels have them, and where the first is") {

@@ -88,7 +88,7 @@ BallList read_ball_csv(const std::filesystem::path& path, std::string_view conte
     std::array<double, ball_columns.size()> values{};
     support::ReadingPlace place;
     for (std::size_t at = 0; at < content.size();) {
-        const std::size_t end = std::min(content.find_first_of("\r\n", at), content.size());
+        const std::size_t end = std::min(content.find('\n', at), content.size());
         table.read_line(content.substr(at, end - at), [&] {
             if (!builder) builder.emplace(table.has(radius), table.has(phase));
             for (std::size_t i = 0; i < values.size(); ++i)
@@ -96,7 +96,7 @@ BallList read_ball_csv(const std::filesystem::path& path, std::string_view conte
             if (const auto mistake = builder->add(values))
                 throw table.error(mistake->column, std::string(mistake->message));
         });
-        at = std::min(end + (content.substr(end).starts_with("\r\n") ? 2 : 1), content.size());
+        at = std::min(end + 1, content.size());
         place.reached(at);
     }
     place.finished(content.size());

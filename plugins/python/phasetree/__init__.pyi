@@ -314,7 +314,7 @@ class Field:
         volume: A field around it. Default: the box around it. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+        r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
@@ -631,7 +631,7 @@ tolerance: by which share the distance may be more than the least."""
         volume: A field around it. Default: the box around it. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+        r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
@@ -1000,6 +1000,7 @@ class Image:
 
 class Scene:
     r"""An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
+    A scene of meshes alone has neither object nor objects.
 
     object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
     a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
@@ -1017,7 +1018,7 @@ class Scene:
     def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
         r"""Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
 
-image: settings in place of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
+image: settings instead of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
 progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
 planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
 "regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
@@ -1548,7 +1549,7 @@ def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
     Section 7.5, 9.4 of the paper.
 
     file: The weights: JSON, {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]} with the frequencies multiplied in. (name of a file)
-    samples: 0: λ is the product of the layers' spectral norms, which is proven. More: λ is the steepest slope at so many points and a tenth, tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
+    samples: 0: λ is the product of the layers' spectral norms, which is proven. More: λ is the steepest slope at this many points, plus a tenth: tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
     """
 
 def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
@@ -1569,7 +1570,7 @@ def mesh(file: str | PathLike[str]) -> Field:
 
         ± min over the triangles of |p − nearest point|
 
-    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are not looked at. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are ignored. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
@@ -1829,7 +1830,7 @@ def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: f
 
     centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
     radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, in place of centres. (name of a file; default none)
+    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, instead of centres. (name of a file; default none)
     """
 
 @overload
@@ -1859,7 +1860,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | Expression | None
 
 @overload
 def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+    r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
@@ -1873,7 +1874,7 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
     """
 @overload
 def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""A field or an object, and a simpler field g near it, which stands in for it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+    r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
@@ -2211,7 +2212,7 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
     """
 
 def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | Expression | None = ...) -> Object:
-    r"""A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's centre is of the phase of its number, and interfaces between are smooth. Distances are told up to about two voxels, and do not grow beyond.
+    r"""A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's centre is of the phase of its number, and interfaces between are smooth. Distances are known up to about two voxels, and do not grow beyond.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the voxels
 
@@ -2232,7 +2233,7 @@ def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] 
     phases: With centres: one phase for all balls, or one for each. With a file: those that its column `phase` numbers from 0, or one for all. (list of phases)
     centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
     radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, in place of centres. (name of a file; default none)
+    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, instead of centres. (name of a file; default none)
     """
 
 @overload
@@ -2525,24 +2526,24 @@ class materials:
             exp(−(a + s) d)
 
         ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
-        glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+        glass: Instead of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
         abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
         absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
-        absorption_spectrum: In place of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
-        color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
+        absorption_spectrum: Instead of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
+        color: Instead of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which the colour is left. (number in m; positive; default 1)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
-        albedo: In place of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+        albedo: Instead of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
         mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
-        medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
+        medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
         scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
         anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
         emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
         emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
         density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
-        density_grid: In place of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+        density_grid: Instead of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
         temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
         emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
@@ -2556,26 +2557,26 @@ class materials:
         roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
         r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
-        eta: η for red, green and blue, in place of a measured metal. ([r, g, b]; positive; default none)
+        eta: η for red, green and blue, instead of a measured metal. ([r, g, b]; positive; default none)
         k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
-        reflectance: In place of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
+        reflectance: Instead of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
         roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
-        grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
+        grain_around: Instead of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
         grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
         film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2588,7 +2589,7 @@ class materials:
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
@@ -2615,24 +2616,24 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
         exp(−(a + s) d)
 
     ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
-    glass: In place of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+    glass: Instead of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
     abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
     absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
-    absorption_spectrum: In place of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
-    color: In place of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
+    absorption_spectrum: Instead of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
+    color: Instead of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which the colour is left. (number in m; positive; default 1)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
-    albedo: In place of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+    albedo: Instead of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
     mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
-    medium: In place of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
+    medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
     scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
     anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
     emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
     emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
     density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
-    density_grid: In place of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
+    density_grid: Instead of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
     temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
     emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
@@ -2646,26 +2647,26 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
     roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
     r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
-    eta: η for red, green and blue, in place of a measured metal. ([r, g, b]; positive; default none)
+    eta: η for red, green and blue, instead of a measured metal. ([r, g, b]; positive; default none)
     k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
-    reflectance: In place of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
+    reflectance: Instead of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
     roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
-    grain_around: In place of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
+    grain_around: Instead of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
     grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
     film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2678,7 +2679,7 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: In place of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
@@ -3063,10 +3064,10 @@ class cameras:
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
         blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
         focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-        focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
     def orthographic(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, height: float, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
@@ -3090,10 +3091,10 @@ class cameras:
         filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
         blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
         focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-        focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         shift: By which what is shown lies farther to the right and farther up, in heights of the image: with [0, 0.5] its lower edge is where its middle was. ([x, y]; at least -100 and at most 100; default [0, 0])
         tilt: By which the plane of focus leans away at its top, and turns away at its right. ([x, y] in degrees; more than -90 and less than 90; default [0, 0])
         """
@@ -3129,10 +3130,10 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
     filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
     fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
     lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-    blades: Corners of the lens's opening, 3 or more, as an iris of so many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+    blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
     blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
     focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-    focus_at: In place of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
 def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., spectral: bool | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
@@ -3146,7 +3147,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
     seed: Another whole number gives other noise. (whole number; zero or more; default 0)
     max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
-    spectral: Whether light has wavelengths in place of red, green and blue, three on each path. Metals, films on smooth surfaces, absorption and light then are what they are at each wavelength; colours are spectra that look like them. (true or false; default false)
+    spectral: Whether light has wavelengths instead of red, green and blue, three on each path. Metals, films on smooth surfaces, absorption and light then are what they are at each wavelength; colours are spectra that look like them. (true or false; default false)
     guiding: Whether paths learn where light comes from before the first sample, so that half of them go there from diffuse surfaces. It pays where most light has been scattered several times, as in a room that is lit through a door from the next one. (true or false; default false)
     caustics: Whether photons look for the light that lamps, surfaces that glow, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, and by metal onto other surfaces and into media that scatter. They blur it by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
