@@ -378,7 +378,7 @@ TEST_CASE("what is wrong with data of Draco is said") {
 
 #endif
 
-TEST_CASE("without its library a compressed file is refused by name") {
+TEST_CASE("without its library a compressed file is rejected by name") {
     const auto required = [](const std::string& name) {
         return said(Corner().file("\"extensionsRequired\": [\"" + name + "\"], " + one_node + meshes(all_attributes)));
     };

@@ -51,7 +51,7 @@ TEST_CASE("morphed vertices are those of a mesh that was moved by hand") {
     check_same(part_by(scale + R"(, "weights": [0.5, 0.25])", R"(, "weights": [1, 1])"), expected);
 }
 
-TEST_CASE("targets without weights move nothing, and are not looked at") {
+TEST_CASE("targets without weights move nothing, and are ignored") {
     const gltf::Part still = read(Corner().file(one_node + meshes(all_attributes))).parts.at(0);
     check_same(part_by("", ""), still);
     check_same(part_by(R"(, "weights": [0, 0])", R"(, "weights": [1, 1])"), still);

@@ -162,7 +162,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command
         .add_option("--checkpoint", o.checkpoint,
                     "File that keeps what is done, from which --resume goes on: written every few minutes, when "
-                    "SIGUSR1 arrives, and at the end, however that comes")
+                    "SIGUSR1 arrives, and on exit, whatever the cause")
         ->option_text("FILE");
     add_duration(command, "--checkpoint-interval", o.checkpoint_seconds,
                  "Time from one checkpoint to the next, such as 90s, 5m or 1h (default: 5m)");

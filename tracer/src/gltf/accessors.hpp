@@ -27,7 +27,7 @@ class Accessors {
     Accessor read(std::size_t index, const Item& from) { return Accessor(*this, index, from); }
     /// All bytes of an element of "bufferViews", decoded if they are compressed.
     std::string_view bytes_of_view(std::size_t index, const Item& from);
-    /// Whether the indices of that sparse accessor, with so many of them, still have to be checked; false the next
+    /// Whether the indices of that sparse accessor, with this many of them, still have to be checked; false the next
     /// time.
     bool must_check(std::size_t accessor, std::size_t count);
     /// What KHR_draco_mesh_compression holds of a primitive: an accessor for each attribute that is read, and one

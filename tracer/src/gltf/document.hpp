@@ -51,7 +51,7 @@ class Item {
     float number(std::string_view key, float otherwise) const;
     /// The extension of that name; nothing if there is none.
     std::optional<Item> extension(std::string_view name) const;
-    /// So many finite numbers; nothing if there is no such list.
+    /// This many finite numbers; nothing if there is no such list.
     std::optional<std::vector<float>> numbers(std::string_view key, std::size_t count) const;
     glm::vec3 vec3(std::string_view key, const glm::vec3& otherwise) const;
     /// A text; empty if there is none.
@@ -78,7 +78,7 @@ class Item {
 class Document {
   public:
     /// `content` is all of the file, which must outlive the document. Files that it names are asked for by `read_file`:
-    /// those of buffers at once, those of images by image(). Without it a file that names others is refused.
+    /// those of buffers at once, those of images by image(). Without it a file that names others is rejected.
     explicit Document(std::string_view content, ReadFile read_file = {});
 
     Item root() const { return {json_, ""}; }

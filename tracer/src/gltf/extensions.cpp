@@ -18,7 +18,7 @@ enum class Use {
     read,      // or nearly: what is lost is said where it is met
     harmless,  // nothing of the picture depends on it
     accepted,  // something of the picture is missing, but a file that requires it is read
-    refused    // something is missing, and a file that requires it is refused
+    refused    // something is missing, and a file that requires it is rejected
 };
 
 struct Extension {

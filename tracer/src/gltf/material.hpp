@@ -45,7 +45,7 @@ class Materials {
     Materials(const Document& document, std::size_t most_pixels)
         : document_(document), images_(document, most_pixels) {}
 
-    /// The material of that number, or glTF's own if there is none. `by_vertices` tells whether the mesh has colours of
+    /// The material of that number, or glTF's own if there is none. `by_vertices` says whether the mesh has colours of
     /// vertices; then there is an opacity wherever alpha counts, even if it is 1 but for the vertices' alpha. Throws
     /// GltfError.
     NamedMaterial make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from);

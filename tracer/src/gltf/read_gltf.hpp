@@ -38,7 +38,7 @@ struct Limits {
     std::size_t moves = 200'000'000;     ///< of vertices by morph targets
 };
 
-/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are looked at. If only
+/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are examined. If only
 /// some triangles of the part have colours of vertices, the others are white.
 enum class ReadMaterials { all, none };
 

@@ -131,7 +131,7 @@ struct GltfParameters {
         using P = GltfParameters;
         v(&P::material,
           Parameter{"material", "",
-                    "What all of it is made of, clear parts and holes too, in place of the file's materials.",
+                    "What all of it is made of, clear parts and holes too, instead of the file's materials.",
                     limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);

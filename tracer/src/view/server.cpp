@@ -236,7 +236,7 @@ void serve(Session& session, const ServeOptions& options) {
         port = server.bind_to_any_port("127.0.0.1");
     else if (!server.bind_to_port("127.0.0.1", port))
         port = -1;
-    if (port < 0) throw std::runtime_error(fmt::format("port {} of 127.0.0.1 cannot be had", options.port));
+    if (port < 0) throw std::runtime_error(fmt::format("port {} of 127.0.0.1 is not available", options.port));
 
     const Access access(port, random_token());
     const Answers answers(session, access, options.may_be_framed);

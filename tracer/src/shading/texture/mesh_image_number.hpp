@@ -49,7 +49,7 @@ struct MeshImageNumber {
         of_image = image->range(channel);
     }
 
-    // A mesh without coordinates is refused where the scene is read.
+    // A mesh without coordinates is rejected where the scene is read.
     float at(const TexturePoint& p) const { return number_of(image->at(coordinates.at(p) * repeat)[channel]); }
     // Of an image that is not read yet it is taken that it has both black and white.
     float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
