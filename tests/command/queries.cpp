@@ -213,7 +213,8 @@ TEST_CASE("eval: phases and distances, in full precision") {
 TEST_CASE("eval leaves phases that are nowhere empty") {
     const Shell shell;
     SceneText scene;
-    scene.phases = R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {}}, "wood": {"diffuse": {}}})";
+    scene.phases =
+        R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {}}, "wood": {"diffuse": {"color": [1, 1, 1]}}})";
     write_text(shell.directory / "scene.json", scene.text());
     const Outcome o = shell.run({"eval", "scene.json"}, "0 0 0.5\n");
     CHECK(o.code == 0);

@@ -115,7 +115,7 @@ TEST_CASE("what holds linear light, or no light at all, is written whatever $OCI
     };
     check_done({"render", "scene.json", "-o", "a.exr", "-o", "a.part", "--quiet"});
     check_done(
-        {"render", "scene.json", "-o", "b.{plane}.exr", "--planes", "albedo", "--spp", "4", "--denoise", "--quiet"});
+        {"render", "scene.json", "-o", "b.{plane}.exr", "--planes", "albedo", "--spp", "8", "--denoise", "--quiet"});
     check_done({"merge", "a.part", "-o", "c.exr", "--quiet"});
     CHECK(bytes_of(shell.directory / "c.exr") == bytes_of(shell.directory / "a.exr"));
     check_done({"export", "scene.json", "-o", "a.3mf", "--spacing", "0.2"});

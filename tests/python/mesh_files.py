@@ -188,7 +188,7 @@ class Files(unittest.TestCase):
             colors = np.unique(faces["color"][inside], axis=0)
             self.assertEqual(len(colors), 1)
             if name == "w<a>x":
-                self.assertEqual(colors[0].tolist(), [0xE6, 0xA8, 0x59])
+                self.assertEqual(colors[0].tolist(), [0xE7, 0xAA, 0x59])
         shared = (faces["behind"] == 2) & (faces["front"] == 1)
         self.assertTrue(shared.any())
         # One phase alone: its own triangles, and in its colour even where another is behind.
