@@ -214,7 +214,7 @@ TEST_CASE("eval leaves phases that are nowhere empty") {
     const Shell shell;
     SceneText scene;
     scene.phases =
-        R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {}}, "wood": {"diffuse": {"color": [1, 1, 1]}}})";
+        R"({"glass": {"clear": {"ior": 1.5}}, "water": {"clear": {"ior": 1.33}}, "wood": {"diffuse": {"color": [1, 1, 1]}}})";
     write_text(shell.directory / "scene.json", scene.text());
     const Outcome o = shell.run({"eval", "scene.json"}, "0 0 0.5\n");
     CHECK(o.code == 0);

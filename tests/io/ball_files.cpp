@@ -43,7 +43,8 @@ TEST_CASE("balls are read from CSV, with columns in any order and others among t
     check_two(files.read("mac.csv", "# grains\rx,y,z,radius,phase\r1,2,3,0.25,0\r\r-4,0.5,0,1,3\r"));
     check_two(files.read("mark.csv", "\xef\xbb\xbf# grains\nx,y,z,radius,phase\n1,2,3,0.25,0\n-4,0.5,0,1,3\n"));
     for (const std::string end : {"\n", "\r", "\r\n"})
-        CHECK(files.said("wrong.csv", "x,y,z" + end + end + "1,2,a" + end) == "wrong.csv:3:5: its z is not a number");
+        CHECK(files.said("wrong.csv", "x,y,z" + end + end + "1,2,a" + end) ==
+              "wrong.csv:3:5: z must be a finite number, but is \"a\"");
     const BallList bare = files.read("bare.csv", "x,y,z\n1,2,3\n");
     CHECK(bare.centres.size() == 1);
     CHECK(bare.radii.empty());
