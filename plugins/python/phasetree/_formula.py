@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numbers
 
+from phasetree import _registry
 from phasetree._errors import Error
 from phasetree._values import Value
 
@@ -86,16 +87,12 @@ class Expression(Value):
     def field(self):
         """The field: Error if the slope has no bound, with the place in the formula."""
         if self._field is None:
-            from phasetree import _trees
-
-            self._field = _trees.functions["formula"](self.text, self._bounds)
+            self._field = _registry.functions["formula"](self.text, self._bounds)
         return self._field
 
     def _with(self, sign, other, swapped=False):
-        from phasetree import _trees
-
-        if isinstance(other, (_trees.Field, _trees.Object)):
-            if sign != "-" or isinstance(other, _trees.Object):
+        if isinstance(other, tuple(_registry.classes.values())):
+            if sign != "-" or isinstance(other, _registry.classes["Object"]):
                 return NotImplemented
             raise TypeError(
                 "a formula less a field may mean a number or a difference of solids: "
@@ -168,9 +165,7 @@ class Expression(Value):
         # What can be done with a field can be done with what stands for one.
         if name.startswith("_"):
             raise AttributeError(name)
-        from phasetree import _trees
-
-        if not hasattr(_trees.Field, name):
+        if not hasattr(_registry.classes["Field"], name):
             raise AttributeError(f"a formula has no {name!r}")
         return getattr(self.field(), name)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from phasetree._errors import Error
+from phasetree._parts import Part
+from phasetree._registry import functions
 from phasetree._values import Value
 
 
@@ -20,8 +22,6 @@ class Phase(Value):
             raise Error(f"a phase needs a name, but this is {name!r}")
         if name == "vacuum" and material is not None:
             raise Error('"vacuum" is always there and cannot be a phase of one\'s own')
-        from phasetree._parts import Part
-
         if material is not None and not (isinstance(material, Part) and material.chapter == "Materials"):
             raise Error(f'the material of "{name}" must be one, such as pt.clear(ior=1.5), but is {material!r}')
         object.__setattr__(self, "name", name)
@@ -35,11 +35,9 @@ class Phase(Value):
 
     def __call__(self, *fields):
         """The object of this phase that is where the field is negative; of several fields, their union."""
-        from phasetree import _trees
-
         if len(fields) == 1 and not isinstance(fields[0], (list, tuple)):
-            return _trees.functions["set"](fields[0], self)
-        return _trees.functions["set"](_trees.functions["union"](*fields), self)
+            return functions["set"](fields[0], self)
+        return functions["set"](functions["union"](*fields), self)
 
     def __eq__(self, other):
         return isinstance(other, Phase) and self.name == other.name and self.material == other.material

@@ -11,6 +11,7 @@ from phasetree import _phasetree, _reference
 from phasetree._errors import Error
 from phasetree._formula import Expression
 from phasetree._phases import Phase, merged, vacuum
+from phasetree._registry import classes, functions
 from phasetree._values import Value
 
 
@@ -557,5 +558,6 @@ def _add_methods():
             setattr(taker, name, function)
 
 
-functions = _all_functions()
+functions.update(_all_functions())
+classes.update(Field=Field, Object=Object)
 _add_methods()
