@@ -1,6 +1,6 @@
 # Opens an EXR file with planes in Blender's compositor (3.4 was tried), and writes what its nodes make of it as PNG
 # files: every pass, and for each Cryptomatte layer the matte of each name. This shows that another program reads the
-# names of channels, the attributes and the numbers as they are meant; the test tests/tracer/planes.cpp reads them, too.
+# names of channels, the attributes and the numbers as they are meant; the test tests/tracer/film/planes.cpp reads them, too.
 # A file of one plane, a.depth.exr, shows the pass of that plane; one without a Cryptomatte says that there is "no layer".
 #
 #   phasetree render scenes/hourglass.json --planes all -o planes.exr -o 'a.{plane}.exr'

@@ -9,7 +9,7 @@
 // which is where bright paths were missed (Kirk & Arvo, Unbiased Sampling Techniques for Image Synthesis, SIGGRAPH
 // 1991). Blocks are therefore tested only after 32, 48, 64, 96, 128, 192, … samples per pixel: at the first test, a
 // block has 2,048. A bright path raises the mean of its pixel as well as the error, so that pixel has an error of about
-// 1, however bright the path is (tests/tracer/noise_limit.cpp measures the remaining bias).
+// 1, however bright the path is (tests/tracer/render/noise_limit.cpp measures the remaining bias).
 //
 // Whether a block continues depends only on its own samples and their number, not on other blocks, threads, or
 // interruptions of a render.

@@ -1,0 +1,372 @@
+// What a scene file can say is said once, in lists of parameters: the committed reference page and schema are what the
+// program prints, and what they promise is what the readers do.
+//     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
+
+#include "scene/reference.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "phasetree/io/suggest.hpp"
+#include "scene/image_parameters.hpp"
+#include "scene/read_parts.hpp"
+#include "source_directory.hpp"
+#include "support/json_schema.hpp"
+#include "tracer/scene/scene_cases.hpp"
+
+namespace test_scene_reference {
+
+using namespace phasetree;
+using namespace phasetree::tests;
+using support::bytes_of;
+
+namespace {
+
+std::string committed(const std::string& file) {
+    return bytes_of(source_directory() + "/scenes/" + file);
+}
+
+const JsonSchema& schema() {
+    static const JsonSchema read(tracer::scene_json_schema());
+    return read;
+}
+
+/// Without "[]", "$ref" and "allOf", what limits a number of this property's values; nothing for what has no numbers.
+std::optional<Value> numbers_of(Value property) {
+    if (const auto either = property.find("anyOf")) {
+        for (const Value one : *either)
+            if (const auto found = numbers_of(one)) return found;
+        return std::nullopt;
+    }
+    if (const auto items = property.find("items")) return numbers_of(*items);
+    const auto type = property.find("type");
+    if (type && (type->string() == "number" || type->string() == "integer")) return property;
+    return std::nullopt;
+}
+
+bool is_vector(Value property) {
+    if (const auto either = property.find("anyOf")) return is_vector((*either)[either->size() - 1]);
+    return property.find("items").has_value();
+}
+
+/// A vector as long as the property is, which begins with this; or a list of one such vector.
+std::string vector_of(Value property, const std::string& first, const std::string& rest = "0.75") {
+    if (const auto either = property.find("anyOf")) return vector_of((*either)[either->size() - 1], first, rest);
+    const auto items = property.find("items");
+    if (items && is_vector(*items)) return "[" + vector_of(*items, first, rest) + "]";
+    const auto length = property.find("minItems");
+    std::string text = "[" + first;
+    for (int i = 1; i < (length ? static_cast<int>(length->number()) : 3); ++i) text += ", " + rest;
+    return text + "]";
+}
+
+Value properties_of(const Case& c) {
+    const std::map<std::string, std::string> definitions{
+        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"}, {"Lights", "light"},
+        {"Meshes", "mesh"},        {"Cameras", "camera"},   {"Transforms", "transform"}};
+    for (const char* const with_one_kind : {"Image", "Maps of normals", "Voxels"})
+        if (c.chapter == with_one_kind) return *schema().definition(c.name).find("properties");
+    Value kinds = schema().definition(definitions.at(c.chapter));
+    if (c.chapter == "Transforms") kinds = (*kinds.find("anyOf"))[0];
+    if (c.chapter == "Textures" || c.chapter == "Cameras") kinds = (*kinds.find("anyOf"))[1];
+    return *kinds.find("properties")->find(c.name)->find("properties");
+}
+
+std::optional<SceneError> error_of(const Case& c, const Document& document) {
+    try {
+        (void)c.told(document);
+    } catch (const SceneError& e) {
+        return e;
+    }
+    return std::nullopt;
+}
+
+/// Where the last occurrence of this begins, from 1.
+std::size_t column_of(const Document& document, const std::string& part) {
+    const std::size_t found = document.text().rfind(part);
+    REQUIRE(found != std::string::npos);
+    return found + 1;
+}
+
+}  // namespace
+
+TEST_CASE("the committed reference page and schema are what the program prints") {
+    // The texts are long, so they are not printed.
+    const bool is_page_current = committed("nodes.md") == tracer::scene_reference_markdown();
+    CHECK_MESSAGE(is_page_current, "to be rewritten: phasetree nodes --markdown > scenes/nodes.md");
+    const bool is_schema_current = committed("scene.schema.json") == tracer::scene_json_schema();
+    CHECK_MESSAGE(is_schema_current, "to be rewritten: phasetree nodes --json-schema > scenes/scene.schema.json");
+}
+
+TEST_CASE("every kind is in the page, in the schema and in these tests, with the same keys") {
+    std::map<std::string, std::set<std::string>> tested;
+    for (const Case& c : cases()) tested[c.chapter].insert(c.name);
+    for (const Chapter& chapter : tracer::scene_chapters()) {
+        if (chapter.title == "Scene file" || chapter.title == "Fields" || chapter.title == "Objects" ||
+            chapter.title == "Warps" || chapter.title == "Objects and instances")
+            continue;
+        CAPTURE(chapter.title);
+        CHECK(!chapter.text.empty());
+        for (const KindPage& page : chapter.pages) {
+            CAPTURE(page.name);
+            CHECK(!page.summary.empty());
+            CHECK(tested[chapter.title].erase(page.name) == 1);
+            const auto all = cases();
+            const auto one = std::ranges::find_if(
+                all, [&](const Case& c) { return c.chapter == chapter.title && c.name == page.name; });
+            REQUIRE(one != all.end());
+            const Value properties = properties_of(*one);
+            if (page.name != "sphere") CHECK(properties.size() == page.parameters.size());
+            for (const ParameterPage& p : page.parameters) {
+                CAPTURE(p.name);
+                CHECK(p.description.ends_with('.'));
+                CHECK(properties.find(p.name));
+            }
+        }
+        CHECK(tested[chapter.title].empty());
+    }
+}
+
+TEST_CASE("what is needed at least is enough, and each of it is needed") {
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        const Document document = c.document(c.needed);
+        const auto error = error_of(c, document);
+        CHECK(!error);
+        // A conductor needs two numbers where it names no metal; it is the metal that may be left out.
+        const Document needed = Document::from_text("{" + c.needed_with(c.name == "conductor" ? "k" : "") + "}");
+        for (const Value left_out : needed.root()) {
+            std::string members;
+            for (const Value member : needed.root()) {
+                if (member.key() == left_out.key()) continue;
+                members += (members.empty() ? "" : ", ") + ("\"" + std::string(member.key()) + "\": ") +
+                           Case::text_of(needed, member);
+            }
+            const auto missing = error_of(c, c.document(members));
+            REQUIRE(missing);
+            CHECK(missing->message().find(fmt::format("needs \"{}\"", left_out.key())) != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("a default is what is read when the key is left out") {
+    int count = 0;
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        for (const Value property : properties_of(c)) {
+            const auto fallback = property.find("default");
+            if (!fallback) continue;
+            const std::string key(property.key());
+            CAPTURE(key);
+            const std::vector<float> without = c.told(c.document(c.needed_with(key)));
+            const std::vector<float> with = c.told(c.with(key, Case::text_of(c.document(""), *fallback)));
+            CHECK(with == without);
+            ++count;
+        }
+    }
+    CHECK(count > 50);
+}
+
+TEST_CASE("every key changes what is read") {
+    // Another value than the default, or than what is needed, for each.
+    const std::map<std::string, std::string> others{
+        {"metal", "\"iron\""},
+        {"filter", "\"box\""},
+        {"view", "\"Raw\""},
+        {"sun", "false"},
+        {"y_up", "true"},
+        {"smooth", "false"},
+        {"visible_to_camera", "false"},
+        {"group", "\"key\""},
+        {"medium", "\"ketchup\""},
+        {"bump", R"({"checker": {"size": 0.25}})"},
+        {"glass", "\"sf11\""},
+        {"abbe_number", "40"},
+        {"density", R"({"sphere": {"radius": 0.5}})"},
+        {"spectral", "true"},
+        {"spectrum", R"({"blackbody": 3000})"},
+        {"emission_spectrum", R"({"blackbody": 3000})"},
+        {"absorption_spectrum", "[[450, 0], [650, 3]]"},
+        {"reflectance", "[[500, 0.25]]"},
+        {"caustics", "true"},
+        {"guiding", "true"},
+        {"green_down", "true"},
+        {"channel", "\"green\""},
+        {"normal_map", R"({"file": "sky.hdr"})"},
+        {"density_grid", R"({"file": "layer.pgm", "spacing": [1, 1, 1]})"},
+        {"temperature_grid", R"({"file": "layer.pgm", "spacing": [1, 1, 1], "factor": 2000})"}};
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        for (const Value property : properties_of(c)) {
+            const std::string key(property.key());
+            CAPTURE(key);
+            // How fast the frames of a film follow each other the command alone asks (command/frames).
+            if (key == "file" || key == "frames_per_second") continue;
+            if (key == "grid") continue;  // which images have not: volume/openvdb
+            std::string value = vector_of(property, "0.25");
+            if (key == "of") value = R"({"sphere": {"radius": 1.5}})";
+            if (key == "ramp") value = c.chapter == "Textures" ? "[[0, [1, 0, 1]]]" : "[[0, 0.75]]";
+            const bool is_mixed = c.name == "mix" && (key == "first" || key == "second");
+            if (key == "material" || is_mixed) value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
+            if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
+                value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
+            if (key == "turbidity") value = "5";
+            if (key == "emission_temperature") value = "3000";
+            // Not where the lamp itself is, and seen from it.
+            if (key == "centre") value = "[0.25, 0.5, 5]";
+            const bool is_of_metal = c.name == "conductor" && key == "reflectance";
+            if (others.contains(key) && !is_of_metal) value = others.at(key);
+            CHECK(c.told(c.with(key, value)) != c.told(c.document(c.needed_with(key))));
+        }
+    }
+}
+
+TEST_CASE("limits: refused outside, at the number's place, and accepted at the limit if it belongs to them") {
+    int count = 0;
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        for (const Value property : properties_of(c)) {
+            const auto numbers = numbers_of(property);
+            if (!numbers) continue;
+            const std::string key(property.key());
+            CAPTURE(key);
+            if (key == "shutter") continue;  // It closes after it opens, so its limits are not those of each number.
+            const bool is_integer = numbers->find("type")->string() == "integer";
+            const std::string inside = c.name == "render" || key == "ior" || key == "turbidity" ? "2" : "0.5";
+            const auto text_with = [&](double number) {
+                const std::string text = fmt::format("{}", number);
+                return is_vector(property) ? vector_of(property, text, inside) : text;
+            };
+            const auto check = [&](double number, bool is_allowed) {
+                CAPTURE(number);
+                const Document document = c.with(key, text_with(number));
+                const auto error = error_of(c, document);
+                CHECK(error.has_value() == !is_allowed);
+                if (error) {
+                    CAPTURE(error->what());
+                    CHECK(error->message().find(fmt::format("\"{}\"", key)) != std::string::npos);
+                    const std::string found = fmt::format("\"{}\": {}", key, text_with(number));
+                    const std::size_t value =
+                        column_of(document, found) + key.size() + 4 + text_with(number).find_first_not_of('[');
+                    CHECK(error->column() == value);
+                }
+                ++count;
+            };
+            // As near as a float tells the two apart.
+            const auto beyond = [&](double limit, double sign) {
+                return is_integer ? limit + sign : limit + sign * std::max(std::abs(limit) * 1e-6, 1e-6);
+            };
+            if (const auto l = numbers->find("minimum")) {
+                check(l->number(), true);
+                check(beyond(l->number(), -1), false);
+            }
+            if (const auto l = numbers->find("maximum")) {
+                check(l->number(), true);
+                check(beyond(l->number(), 1), false);
+            }
+            if (const auto l = numbers->find("exclusiveMinimum")) {
+                check(l->number(), false);
+                check(beyond(l->number(), 1), true);
+            }
+            if (const auto l = numbers->find("exclusiveMaximum")) {
+                check(l->number(), false);
+                check(beyond(l->number(), -10), true);
+            }
+        }
+    }
+    CHECK(count > 100);
+}
+
+TEST_CASE("a value of the wrong type, a misspelt key, a key twice: each has its place") {
+    for (const Case& c : cases()) {
+        CAPTURE(c.name);
+        for (const Value property : properties_of(c)) {
+            const std::string key(property.key());
+            CAPTURE(key);
+            for (const char* const wrong : {"null", "{\"a\": 1, \"b\": 2}", "[[1]]"}) {
+                const Document document = c.with(key, wrong);
+                const auto error = error_of(c, document);
+                REQUIRE(error);
+                const std::size_t at = column_of(document, fmt::format("\"{}\": ", key)) + key.size() + 4;
+                // A list that is right but for what is in it is wrong there.
+                CHECK(error->column() >= at);
+                CHECK(error->column() <= at + 1);
+            }
+            const std::string misspelt = key.substr(0, 1) + key;
+            const Document document = c.with(misspelt, "1");
+            const auto error = error_of(c, document);
+            REQUIRE(error);
+            CHECK(error->column() == column_of(document, fmt::format("\"{}\"", misspelt)));
+            CHECK(error->suggestion() == key);
+            CHECK_THROWS_AS((void)c.document(fmt::format("\"{0}\": 1, \"{0}\": 1", key)), SceneError);
+        }
+    }
+}
+
+TEST_CASE("every scene of the gallery is as the schema says") {
+    int count = 0;
+    for (const char* const where : {"/scenes", "/scenes/benchmark", "/scenes/objects"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(source_directory() + where)) {
+            if (entry.path().extension() != ".json" || entry.path().filename() == "scene.schema.json") continue;
+            CAPTURE(entry.path());
+            const Document document = Document::from_file(entry.path());
+            const std::string mistake = schema().mistake(document.root());
+            CHECK(mistake == "");
+            ++count;
+        }
+    }
+    CHECK(count >= 30);
+}
+
+TEST_CASE("the schema refuses what the reader refuses") {
+    const std::string begin = R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}},
+        "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})";
+    const std::string camera = R"("camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]})";
+    const auto mistake = [](const std::string& text) {
+        const Document document = Document::from_text(text);
+        return schema().mistake(document.root());
+    };
+    CHECK(mistake(begin + ", " + camera + "}") == "");
+    CHECK(mistake(begin + "}") != "");
+    for (const char* const wrong :
+         {R"("lights": {})", R"("lights": [{"sun": {}}])", R"("lights": [{"sun": {"direction": [0, 1]}}])",
+          R"("lights": [{"shpere": {"centre": [0, 0, 3], "radius": 1}}])",
+          R"("lights": [{"sphere": {"centre": [0, 0, 3], "radius": 0}}])", R"("lights": [{"constant": {}, "sky": {}}])",
+          R"("lights": [{"constant": {"radiance": "white"}}])",
+          R"("meshes": [{"floor": {"material": {"clear": {"ior": 1.5}}}}])", R"("meshes": [{"floor": {}}])",
+          R"("meshes": [{"floor": {"material": {"diffuse": {"color": {"wood": {"axes": 1}}}}}}])",
+          R"("render": {"samples": 1.5})", R"("render": {"spp": 1})", R"("background": [0, 0])", R"("lamps": [])"}) {
+        CAPTURE(wrong);
+        CHECK(mistake(begin + ", " + camera + ", " + wrong + "}") != "");
+        CHECK_THROWS_AS((void)tracer::read_scene(Document::from_text(begin + ", " + camera + ", " + wrong + "}")),
+                        SceneError);
+    }
+}
+
+TEST_CASE("an image has the size and the settings that the page promises, with or without \"render\"") {
+    const std::string scene = R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}},
+        "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}},
+        "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]})";
+    const Value promised = *schema().definition("render").find("properties");
+    const auto number = [&](const char* key) { return promised.find(key)->find("default")->number(); };
+    for (const char* const end : {"}", R"(, "render": {}})"}) {
+        const tracer::Scene read = tracer::read_scene(Document::from_text(scene + end));
+        CHECK(read.film.width == number("width"));
+        CHECK(read.film.height == number("height"));
+        CHECK(read.settings.samples == number("samples"));
+        CHECK(read.settings.seed == number("seed"));
+        CHECK(read.settings.max_depth == number("max_depth"));
+        CHECK(static_cast<double>(read.settings.exposure_ev) == number("exposure"));
+        CHECK(!read.settings.caustics);
+        CHECK(static_cast<double>(read.settings.photons) == number("photons"));
+        CHECK(static_cast<double>(read.settings.photon_radius) == number("photon_radius"));
+        CHECK(!read.settings.view);
+    }
+}
+
+}  // namespace test_scene_reference

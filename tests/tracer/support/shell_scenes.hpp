@@ -1,0 +1,44 @@
+// A floor below something of glass, around what shines: scenes in which photons are held against paths alone.
+#pragma once
+
+#include <string>
+
+#include "tracer/caustics/photons.hpp"
+
+namespace phasetree::tracer::tests {
+
+// A shell of glass around the middle, and what is in it; all phases of the tree but the glass are in `inside`.
+inline std::string shell_around(const std::string& inside) {
+    const std::string shell =
+        R"({"set": {"phase": "glass", "of": {"difference": {"from": {"sphere": {"radius": 1}}, "subtract": [{"sphere": {"radius": 0.9}}]}}}})";
+    return inside.empty() ? shell : R"({"over": [)" + inside + ", " + shell + "]}";
+}
+inline constexpr const char* glass = R"("glass": {"clear": {"ior": 1.5}})";
+// Photons are gathered within 0.5 and less.
+inline const std::string floor_and =
+    R"("meshes": [{"floor": {"height": -2.5, "material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
+    "render": {"width": 64, "height": 64, "photons": 12, "photon_radius": 9}, "lights": )";
+
+// That a place of the floor is as bright with photons as by paths alone.
+inline void check_floor(const std::string& phases, const std::string& tree, const std::string& lights,
+                        int passes_of_photons, double significance = 1e-4) {
+    check_against_paths(scene_of(phases, tree, floor_and + lights), {2.4f, 0, -1}, {-1.2f, 0.1f, -1.5f},
+                        passes_of_photons, significance);
+}
+
+// That a picture of the floor is. The long form finds an error of a quarter of the planted one.
+inline void check_picture_of_floor(const std::string& phases, const std::string& tree, const std::string& lights,
+                                   double planted_factor) {
+    const auto made = [&](bool caustics) {
+        return scene_of(
+            phases, tree,
+            R"("meshes": [{"floor": {"height": -2.5, "material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
+                "camera": {"position": [2.4, 0, -1], "look_at": [1.2, 0.1, -2.5], "fov": 60},
+                "render": {"width": 40, "height": 30, "samples": )" +
+                std::string(long_form ? "2048" : "128") + R"(, "caustics": )" +
+                std::string(caustics ? "true" : "false") + R"(}, "lights": )" + lights);
+    };
+    check_pictures(made, long_form ? 1 + (planted_factor - 1) / 4 : planted_factor, 1e-4);
+}
+
+}  // namespace phasetree::tracer::tests
