@@ -54,7 +54,7 @@ done
 
 # fuzz_one TARGET LONGEST SEEDS: runs one fuzzer for $minutes. Its corpus grows from run to run; a finding ends it.
 fuzz_one() {
-    local target=$1 longest=$2 folders=("$root/tests/fuzz/corpus/$1")
+    local target=$1 longest=$2 folders=("$root/build/fuzz/tests/fuzz/corpus/$1")
     [ -z "$3" ] || folders+=("$root/$3")
     local grown="$root/build/fuzz/corpus/$target" found="$root/build/fuzz/found/$target"
     mkdir -p "$grown" "$found"

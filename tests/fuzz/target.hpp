@@ -1,7 +1,7 @@
 // The ways into the program from outside, each with what it does with an input.
 //
 // A new one is a file of targets/, whose name is the target's, and a line in list.cpp. Its inputs are found by
-// libFuzzer (tests/run.sh --fuzz); the smallest set of them that covers the same code lies in corpus/NAME and is
+// libFuzzer (tests/run.sh --fuzz); the smallest set of them that covers the same code lies in corpus/NAME.tar.gz and is
 // replayed, with mutations, by the ordinary tests.
 #pragma once
 
