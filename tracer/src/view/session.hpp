@@ -90,6 +90,7 @@ class Session {
     // The latest wishes. Each number increases with every wish of its kind.
     struct Wishes {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
+        // These count: readings of the files, and changes of the text, of the object and of the view.
         Edits edits;
         Reading read_as;
         std::optional<AnyCameraParameters> camera;
