@@ -33,7 +33,7 @@ struct AffinePoint {
         };
         return {{coordinate(0), coordinate(1), coordinate(2)}, centre, 1, half};
     }
-    /// Nothing if the point is not affine.
+    /// Returns nullopt if the point is not affine.
     static std::optional<AffinePoint> of(const Vec3<Enclosure>& q, const Enclosure::Vector& half) {
         const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
         if (!enclosure::detail::are_affine(x)) return std::nullopt;

@@ -41,7 +41,8 @@ class Encloser {
     Encloser(const ProgramContext&, const Bounds& box, std::span<const Specialisation> around,
              std::span<const RequiredOfLocal> required, Arena& scratch);
 
-    /// The ranges of a program's values. Nothing if the program is too long or folds space.
+    /// The ranges of a program's values. Returns nullopt if the program is too long or folds
+    /// space.
     std::optional<ValueRanges> value_ranges(const WorkingProgram&);
     /// The bounds of the interfaces of the program last passed to value_ranges().
     InterfaceBounds interface_bounds() const;

@@ -8,8 +8,8 @@ namespace phasetree::bounding {
 
 using enclosure::FieldInBox;
 
-/// Bounds the distance to a mesh in a box, given the pieces that can be nearest in it (Mesh::Specialised). Nothing if
-/// their normals are not within 60° of a common axis.
+/// Bounds the distance to a mesh in a box, given the pieces that can be nearest in it (Mesh::Specialised). Returns
+/// nullopt if their normals are not within 60° of a common axis.
 ///
 /// The gradient at a point is the normal of its nearest face, or the unit vector between the point and its nearest
 /// point on an edge or at a vertex. Suppose that all faces at that edge or vertex have normals within an angle θ < 90°

@@ -42,7 +42,7 @@ class CandidateSearch {
           region_(node.box.inflated(context.reach)),
           encloser_(context.program, region_, node.specialisations, node.required, worker.scratch) {}
 
-    // The candidate for what is left of a program; nothing if no ray can meet an interface in the box.
+    // The candidate for what is left of a program; nullopt if no ray can meet an interface in the box.
     //
     // Enclosing and pruning alternate as long as pruning deletes something, because the enclosures of what is left are
     // tighter. Then the box is cut to the interfaces. If that shrinks it considerably, everything is repeated in the

@@ -56,7 +56,7 @@ struct Readings {
     std::vector<char> escapes;  ///< for each leaf, whether it is read outside the iteration that computes it
 };
 
-/// Nothing if the nest's loops cannot be written.
+/// Returns nullopt if the nest's loops cannot be written.
 std::optional<Readings> readings_of(const Nest&);
 
 /// Whether a loop among items that are not in loops can be written, as far as this is known before the preceding steps

@@ -61,7 +61,7 @@ class ParameterBytes {
 };
 
 /// What a node that takes a file is made from: its parameters, which must have been read, and the files that the file's
-/// name matches, which need not have been. Nothing if one of them has no state.
+/// name matches, which need not have been. Returns nullopt if one of them has no state.
 template <MadeFromFile N>
 std::optional<KeptNodes::Source> source_of(N& node, const std::filesystem::path& file,
                                            std::span<const std::filesystem::path> files) {

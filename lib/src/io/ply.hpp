@@ -27,7 +27,7 @@ class Ply {
         std::uint64_t rows = 0;
         std::vector<Property> properties;
 
-        /// The index of a property; nothing if there is none with that name.
+        /// The index of a property; nullopt if there is none with that name.
         std::optional<std::size_t> find(std::string_view property) const;
     };
     /// The values of each property in a row: one number, or those of a list. Anything in the file that is not a number

@@ -89,7 +89,7 @@ class Words {
     bool goes_on_ = false;
 };
 
-/// A whole word as a number; nothing unless it is a finite number.
+/// A whole word as a number; nullopt unless it is a finite number.
 template <class Number>
 std::optional<Number> number_of(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);

@@ -15,9 +15,11 @@ class JoinedSides {
     /// Keeps references to the grid and the lines.
     JoinedSides(const Grid& grid, const LineTracer& lines) : grid_(grid), lines_(lines) {}
 
-    /// Examines the middles of all such sides. `cancelled` is called periodically, and may throw.
+    /// Examines the middles of all sides around which phases alternate. `cancelled` is called periodically, and may
+    /// throw.
     void find_all(const Labels&, const std::function<void()>& cancelled);
-    /// Examines the middles of such sides of a cube that changes of labels have created.
+    /// Call this after labels have changed: examines the middles of those sides of a cube around which phases now
+    /// alternate.
     void find(const Labels&, const glm::ivec3& cube);
     /// The labels of a cube whose sides have been examined. Thread-safe.
     CubeLabels labels_of(const Labels&, const glm::ivec3& cube) const;

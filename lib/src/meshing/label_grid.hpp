@@ -7,7 +7,7 @@
 #include "meshing/cube_patches.hpp"
 #include "phasetree/meshing/phase_mesh.hpp"
 
-/// This room makes triangles of an object's interfaces, in these steps:
+/// The headers of this folder turn an object's interfaces into triangles, in these steps:
 ///  * label_grid.hpp: the crossings along the lines of a grid, and the labels at its points;
 ///  * joined_sides.hpp: which phases are joined across sides of cubes;
 ///  * well_composed.hpp: changes to labels so that surfaces are manifolds;

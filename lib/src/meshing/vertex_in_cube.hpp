@@ -24,13 +24,13 @@ struct PlaneInCube {
 ///
 /// mean      m: the mean of the positions where the phase changes along the cube's edges. Where labels were changed
 ///           (well_composed.hpp) there is no plane, but the middle of the edge still counts as a position.
-/// apart     the share of the way from the mean by which the vertex stays behind if it is outside the cube or is not
-///           alone. Otherwise, all cubes around a corner of the object may have that corner as their vertex, and
-///           triangles between coincident vertices would have no area.
+/// apart     if the vertex is outside the cube, or the cube has other vertices, the vertex is moved back towards the
+///           mean by this fraction of its distance from it. Otherwise, all cubes around a corner of the object may have
+///           that corner as their vertex, and triangles between coincident vertices would have no area.
 /// is_alone  whether the cube has no other vertex.
 ///
-/// The vertex may be up to half a cube outside. Where an edge of the object just fails to reach into the cube, both of
-/// its faces may, and the vertex belongs on the edge.
+/// The vertex may be up to half a cube outside. The two faces that meet at an edge of the object may reach into the
+/// cube although the edge itself just misses it. The vertex then belongs on the edge.
 glm::dvec3 vertex_in_cube(std::span<const PlaneInCube>, const glm::dvec3& mean, double apart, bool is_alone);
 
 }  // namespace phasetree::meshing

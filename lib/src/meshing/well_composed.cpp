@@ -19,8 +19,9 @@ struct Change {
     explicit operator bool() const { return corner >= 0; }
 };
 
-// A side with a wall across it has two opposite corners with a phase that neither of the others has. If one of the
-// other corners has a lower label, it takes that phase; otherwise, one of the two takes the lower label of the others.
+// A side with a wall across it has two opposite corners of a phase that neither of the other two corners has. If one of
+// those other two has a lower label, the lower of them takes the wall's phase. Otherwise, one of the wall's corners
+// takes the lower of the other two labels.
 Change change_of_side(const CubeLabels& c, int side) {
     const auto& corners = sides_of_cube[side];
     for (int turn = 0; turn < 2; ++turn) {
@@ -66,8 +67,8 @@ Change change_of_lowest(const CubeLabels& c) {
 
 // Finds the change that a cube needs, if any. The outermost points are all vacuum, and stay so. In a cube with four of
 // them, any side that contains some of them contains two neighbouring ones, so no phase is only at opposite corners.
-// The vacuum and everything else have one ring each in a patch, because each patch there surrounds corners of the inner
-// side.
+// In such a cube, each patch surrounds corners of the inner side. So in a patch, the vacuum has one ring, and so have
+// all other phases taken together.
 Change change_of(const CubeLabels& c) {
     if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);

@@ -2,8 +2,9 @@
 //
 // The surface is a manifold if the points of each phase are well-composed (Latecki, "3D Well-Composed Pictures", 1997):
 // their voxels nowhere touch only along an edge or only at a corner. We require less, because a cube may have several
-// vertices (cube_patches.hpp). In each cube, consider the edges that lead out of a phase. They form rings from side to
-// side of the cube, because each is linked to one other on both of its sides. Triangles around an edge of the grid have
+// vertices (cube_patches.hpp). In each cube, consider the cube's edges that have exactly one end in a given phase. Each
+// such edge lies on two sides of the cube, and on each of them it is linked to one other such edge. So they form closed
+// rings. Triangles around an edge of the grid have
 // vertices in four cubes. So every edge of a triangle leads across one side of a cube, or is the diagonal between two
 // cubes that share one edge. Only two problems can then remain:
 //   - a patch has two rings of a phase, which touch at its vertex;
@@ -18,9 +19,9 @@
 namespace phasetree::meshing {
 
 /// Changes labels until neither problem occurs. Labels only increase, and only take values adjacent to them, so this
-/// terminates. As a result, a phase of a higher index fills gaps narrower than the grid. All sides around which phases
-/// alternate must have been examined, and are so afterwards. The outermost points must be vacuum, and stay so.
-/// `cancelled` is called periodically, and may throw.
+/// terminates. As a result, a phase of a higher index fills gaps narrower than the grid. Before the call, all sides
+/// around which phases alternate must have been examined (JoinedSides); the same holds afterwards. The outermost points
+/// must be vacuum, and stay so. `cancelled` is called periodically, and may throw.
 void make_well_composed(const Grid&, Labels&, JoinedSides&, const std::function<void()>& cancelled);
 
 }  // namespace phasetree::meshing

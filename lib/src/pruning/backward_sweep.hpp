@@ -71,7 +71,7 @@ class BackwardSweep {
     }
 
   private:
-    /// The outputs whose component may be negative somewhere; nothing if one is negative everywhere.
+    /// The outputs whose component may be negative somewhere; nullopt if one is negative everywhere.
     std::optional<std::span<const ProgramOutput>> possible_outputs() const {
         const std::span<ProgramOutput> possible = arenas_.scratch.allocate<ProgramOutput>(program_.outputs.size());
         std::size_t count = 0;

@@ -213,8 +213,8 @@ void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
     }
     // Where b is positive or above a, the sign is that of a.
     if (low(in.b) > 0 || is_above(in.b, in.a)) return replace(i, in.a);
-    // Both matter only where they are negative, and not below the smallest value of the other. An operand below that is
-    // smaller than every possible value of the other, and so is the smaller of the two.
+    // Only the sign of max((a − b)/2, a) matters, so only negative values do. An operand below every possible value of
+    // the other is certainly the smaller of the two, and how far below does not change the sign.
     require(in.a, {std::min(low(in.b), 0.f), 0});
     require(in.b, {std::min(low(in.a), 0.f), 0});
 }

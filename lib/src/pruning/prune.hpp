@@ -10,15 +10,17 @@
 /// Pruning deletes from a program what cannot matter in a region of space. It is a single backward sweep over the
 /// instructions (backward_sweep.hpp) with rules for each operation (operation_rules.hpp). It prunes in two ways.
 ///
-/// *By value* (Barbier et al. 2025): only a is left of min(a, b) if a < b is proven for the whole region. The same
-/// holds for maxima, and for smooth minima if a is below b by their radius. In a ball, the proof follows from b − a at
-/// the centre and the Lipschitz bounds of both; in a box, where gradients are known, from the enclosure of b − a.
+/// *By value* (Barbier et al., *Lipschitz Pruning: Hierarchical Simplification of Primitive-Based SDFs*, Eurographics
+/// 2025): only a is left of min(a, b) if a < b is proven for the whole region. The same holds for maxima, and for
+/// smooth minima if a is below b by their radius. In a ball, the proof follows from b − a at the centre and the
+/// Lipschitz bounds of both; in a box, where gradients are known, from the enclosure of b − a.
 ///
 /// *By the required interval*: only the sign of an output matters, and the sign of max(a, b) − τ is that of b − τ if a
 /// stays below τ. Negations, offsets and scalings only move the threshold τ. In min(a, b), values of a above the
 /// largest value of b do not matter, because the minimum is b there. So each value is required only in an interval;
-/// outside of it, only the side matters (required_interval.hpp). This prunes links far down a long chain of minima that
-/// are far from the region, even if each link is too close to the next to be pruned by value.
+/// outside of it, only the side matters (required_interval.hpp). In a long chain of minima,
+/// this prunes the links that are far from the region, wherever they are in the chain, even if each link is too close
+/// to the next to be pruned by value.
 ///
 /// A replacement equals the value within its required interval, and outside lies on the same side of it. Both operands
 /// of min(a, b) may be replaced at once, a by a′ and b by b′, which also equal them at the interval's ends. Let the
@@ -65,22 +67,22 @@ struct RangesInBall {
     float slack(std::uint32_t i) const { return slope[i] * radius + value_error; }
 };
 
-/// The program that is left in a region where the values of a program have these ranges. Nothing if no ray can meet an
-/// interface there: that takes two phases, at least one of which is not opaque. The result is allocated in `results`,
+/// Prunes a program for a region, given the ranges of its values there. Returns nullopt if no ray can meet an interface
+/// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`,
 /// unless it is the program itself because that was pruned before and nothing is deleted.
 ///
 /// In the region, the result gives the same labels, and the absolute values of its components are still lower bounds of
 /// the distance to where the label changes.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
-/// Does the same, and also returns the upper limits up to which the values of local primitives are required. A
-/// primitive whose constants are used by several instructions is left out, because smaller boxes cannot find its
-/// specialisation again.
+/// Does the same, and also returns the upper limits up to which the values of local primitives (LocalPrimitive in
+/// model/concepts.hpp) are required. A primitive whose constants are used by several instructions is left out, because
+/// smaller boxes cannot find its specialisation again.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&,
                                     std::span<const RequiredOfLocal>& required);
 
-/// The program without the operations that enlarge distances far from the surface (Op::far_bound), which change no
-/// sign. Nothing if it has none, or if no interface is left.
+/// Removes the operations that enlarge distances far from the surface (Op::far_bound), which change no sign. Returns
+/// nullopt if the program has none, or if no interface is left.
 std::optional<WorkingProgram> without_far_bounds(const WorkingProgram&, const ProgramContext&, const Arenas&);
 
 }  // namespace phasetree::pruning

@@ -30,9 +30,10 @@ class RequiredInterval {
     RequiredInterval hull(const RequiredInterval& other) const {
         return unchecked(std::min(low_, other.low_), std::max(high_, other.high_));
     }
-    /// The part below a number, but at least the lower bound. NaN leaves the interval unchanged.
+    /// The interval without what is above `bound`. Its lower end is always kept, so it is never empty. NaN leaves the
+    /// interval unchanged.
     RequiredInterval below(float bound) const { return unchecked(low_, std::max(low_, bound < high_ ? bound : high_)); }
-    /// The part above a number, but at least the upper bound. NaN leaves the interval unchanged.
+    /// The interval without what is below `bound`. Its upper end is always kept. NaN leaves the interval unchanged.
     RequiredInterval above(float bound) const { return unchecked(std::min(high_, bound > low_ ? bound : low_), high_); }
     RequiredInterval negated() const { return unchecked(-high_, -low_); }
 

@@ -15,7 +15,8 @@ using program::affine_map, program::first_map, program::first_placed, program::g
 
 namespace {
 
-// The affine map given by the constants of a map of the type with this index in the list. Nothing if it is not affine.
+// The affine map given by the constants of a map of the type with this index in the list. Returns nullopt if it is not
+// affine.
 template <class... Ms>
 std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
     std::optional<AffineMap> found;

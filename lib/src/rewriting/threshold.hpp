@@ -13,7 +13,7 @@ struct Threshold {
     double tau;
     bool is_reversed = false;
 
-    /// The comparison of the operand; nothing if the instruction is not monotone in a single operand.
+    /// The comparison of the operand; nullopt if the instruction is not monotone in a single operand.
     static std::optional<Threshold> of_operand(const Instruction& in, std::span<const float> constants, double tau) {
         const auto c = [&] { return static_cast<double>(constants[in.data]); };
         switch (in.op) {

@@ -11,7 +11,8 @@
 
 namespace phasetree::tracer {
 
-/// Thrown for bytes that are not a valid film. The message completes a sentence about them.
+/// Thrown for bytes that are not a valid film. The message is a clause about the file, such as "it
+/// ends too early".
 class BytesError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -13,7 +13,7 @@
 
 namespace phasetree::tracer {
 
-/// `What` provides the names, and the name of a surface in a scene with this many phases.
+/// `What` provides names(subjects), and shown(surface, number of phases): the index of the surface's name among them.
 template <class What>
 class CryptomattePlane {
   public:

@@ -64,8 +64,9 @@ class FilmTile {
     void write_into(Image& image, const PixelRange& area) const;
 
     /// Writes a row of the area as bytes, or reads one into a tile that has no samples in that row. Both return the
-    /// number of samples in the row. Reading throws BytesError. For any input, the memory of a tile is at most some
-    /// thirty times the bytes of its rows, because pixels without samples take bytes, too.
+    /// number of samples in the row. Reading throws BytesError. Whatever is read, a tile takes at most about thirty
+    /// times as much memory as the bytes of its rows, because even a pixel without samples takes some bytes in the
+    /// file.
     std::uint64_t write_row(int y, ByteWriter& out) const;
     std::uint64_t read_row(int y, ByteReader& in);
 

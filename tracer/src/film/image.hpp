@@ -30,7 +30,7 @@ struct Image {
     int height = 0;
     std::vector<glm::vec3> pixels;  ///< linear Rec.709 radiance, row by row, the top row first
     std::optional<Crop> crop = std::nullopt;
-    std::vector<Channel> further{};  ///< stored only in EXR files
+    std::vector<Channel> further{};  ///< stored only in EXR files, except for "A" (output/encode.hpp)
     /// Additional attributes of an EXR header: names and texts.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };

@@ -26,7 +26,8 @@ struct TextNumbers {
 
     std::vector<NumberInText> numbers;  ///< in the order of the text, at most `most`, without the file's version
     bool has_more = false;              ///< whether there are more
-    /// The pointer of each member of an object that contains any of these numbers, by the offset of its key.
+    /// For each member of a JSON object whose value contains any of these numbers: its pointer, by the offset of its
+    /// key in the text.
     std::unordered_map<std::size_t, std::string> members;
 };
 

@@ -41,12 +41,12 @@ struct SessionOptions {
 
 /// A change requested by the page. Members without a value change nothing.
 struct Change {
-    bool has_camera = false;                    ///< Whether to change the camera: to this one,
-    std::optional<AnyCameraParameters> camera;  ///< or, without a value, back to the scene's.
+    bool has_camera = false;                    ///< whether to change the camera
+    std::optional<AnyCameraParameters> camera;  ///< the new camera; without a value, the scene's own
     std::optional<std::vector<std::string>> hidden;
     std::optional<std::map<std::string, Look>> looks;  ///< replaces all of them
-    bool has_cut = false;                              ///< Whether to change the cut: to this one,
-    std::optional<CutPlane> cut;                       ///< or, without a value, to none.
+    bool has_cut = false;                              ///< whether to change the cut
+    std::optional<CutPlane> cut;                       ///< the new cut; without a value, none
     std::optional<NumberEdits> numbers;                ///< replaces all of them
     std::optional<double> seconds;                     ///< the time at which the scene is read
     std::optional<std::string> layer;                  ///< the layer to show; empty for the picture itself
@@ -90,6 +90,7 @@ class Session {
     // The latest wishes. Each number increases with every wish of its kind.
     struct Wishes {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
+        // These count: readings of the files, and changes of the text, of the object and of the view.
         Edits edits;
         Reading read_as;
         std::optional<AnyCameraParameters> camera;
@@ -101,7 +102,7 @@ class Session {
         std::uint64_t number_of_object() const { return reading + text + object; }
     };
 
-    // Identifies a text of the file.
+    // Identifies a version of the scene's text: which reading of the file, with which replaced numbers.
     struct TextNumber {
         std::uint64_t reading = 0, text = 0;
         bool operator==(const TextNumber&) const = default;

@@ -27,10 +27,10 @@ struct Picture {
     int samples = 0;                   ///< per pixel
     AnyCameraParameters camera;
     std::string layer;                          ///< the layer shown; empty for the picture itself
-    glm::vec3 centre{0.0f};                     ///< of the object, for showing the layer,
-    float radius = 1;                           ///< and the radius of a ball around it
-    std::shared_ptr<const ViewedScene> viewed;  ///< the scene that was rendered …
-    std::shared_ptr<const Prepared> prepared;   ///< … prepared for rays
+    glm::vec3 centre{0.0f};                     ///< of the object, for showing the layer
+    float radius = 1;                           ///< of a ball around the object
+    std::shared_ptr<const ViewedScene> viewed;  ///< the scene that was rendered
+    std::shared_ptr<const Prepared> prepared;   ///< the same scene, prepared for rays
     float exposure_ev = 0;                      ///< of the display transform
 };
 
@@ -44,7 +44,7 @@ struct ShownPhase {
 struct Shown {
     std::uint64_t version = 0;  ///< increases whenever anything here changes
     std::shared_ptr<const Picture> picture;
-    std::string doing;         ///< the current work, as a sentence for people
+    std::string doing;         ///< the current work, as a message for the user
     std::string error;         ///< as shown on a terminal; empty if there is none
     std::string warning;       ///< likewise
     std::string scene;         ///< name of the scene
@@ -58,8 +58,8 @@ struct Shown {
     /// The numbers in the file, and how often the file had been read when they were found.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;
-    double seconds = 0;            ///< as requested: the time that is shown,
-    std::optional<TimeSpan> keys;  ///< and the range from the scene's first key to its last
+    double seconds = 0;            ///< as requested: the time that is shown
+    std::optional<TimeSpan> keys;  ///< the range from the scene's first key to its last
     std::string camera_text;       ///< as requested, as text for a scene file; empty until there is an object
     glm::vec3 centre{0.0f};        ///< of the object
     float radius = 1;              ///< of a ball around it

@@ -28,13 +28,13 @@ struct ViewedScene {
     Scene scene;
     /// How the scene is displayed, except for the exposure.
     std::function<DisplayTransform(float exposure_ev)> display;
-    std::optional<Document> file{};  ///< of the scene, without these edits:
-    NumberEdits edits{};
+    std::optional<Document> file{};  ///< the scene's file, without the edits
+    NumberEdits edits{};             ///< the numbers replaced when the scene was read
     TextNumbers numbers{};           ///< of the file
     NodePlaces places{};             ///< of the object's nodes, with the overridden numbers
     std::string warnings{};          ///< from the reader, each with a newline at the end
-    double seconds = 0;              ///< the time at which it was read,
-    std::optional<TimeSpan> keys{};  ///< and the range of the keys; empty if nothing changes with time
+    double seconds = 0;              ///< the time of the animation at which it was read
+    std::optional<TimeSpan> keys{};  ///< the range of its keys; empty if nothing changes with time
 
     /// The position of a node in the unmodified file; nullopt for a node that is not in a file.
     std::optional<NodePlace> place_of(const void* node) const;

@@ -31,7 +31,7 @@ struct MeshPlace {
     /// Rays that leave from there are not shadowed by the surrounding triangles, whose edges would be visible at
     /// grazing light. Reference: Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021, chapter 4.
     glm::vec3 point_of_smooth_surface(bool is_behind) const;
-    /// Texture coordinates, colours and their alpha, without tangents. Nothing if the mesh has none of them.
+    /// Texture coordinates, colours and their alpha, without tangents. Returns nullopt if the mesh has none of them.
     std::optional<MeshCoordinates> coordinates() const;
     /// Adds the tangents of a mesh that has some. `normal` is the shading normal on the side from which the mesh is
     /// seen. From behind, tangent and bitangent are reversed, like the normal.

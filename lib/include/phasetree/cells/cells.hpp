@@ -33,8 +33,8 @@ class InterfaceCells {
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;
 
-    /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). The hint
-    /// must come from this cell.
+    /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). For a ray
+    /// that starts at a crossing of this cell, the hint usually spares the search. It must come from this cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
                                            std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;
@@ -58,7 +58,7 @@ class InterfaceCells {
     const Evaluator& whole() const;
     /// The resolution in use, in the scene's unit of length.
     float resolution() const;
-    /// A sentence for people, usually empty; see TraceableObject.
+    /// A message for the user, usually empty; see TraceableObject.
     const std::string& warning() const;
     /// How far a cell's box extends beyond its share of space, in the scene's unit of length: a few resolutions.
     float reach() const;

@@ -49,7 +49,8 @@ class Evaluator {
     Phase label(const glm::vec3& p, Workspace&) const;
 
     /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. Its
-    /// length may be less than 1, because a warp divides by λ.
+    /// length may be less than 1, because a warp divides distances by λ, a bound of the norm of the Jacobian of its
+    /// map.
     glm::vec3 gradient(const glm::vec3& p, Phase) const;
 
     const Program& program() const { return program_; }

@@ -20,13 +20,13 @@ class Phased;
 /// *By boxes:* each node makes its box from those of its children, along its own axes. This is fast, but each rotation
 /// puts a box around a rotated box.
 ///
-/// *By directions:* six directions, the outward normals of the sides of the root's box, are passed down the tree, where
-/// the root is the node asked first. Each node returns its support along them, the maximum of d·p. A map of space
+/// *By directions:* the outward normals of the six sides of the box of the node that is asked first (the root, below)
+/// are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
 /// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
-/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. Behind a
-/// map that folds space, two opposite sides may be asked for along the same direction, so a low side may exceed the
-/// high one. Only Bounds{} means that there is nothing.
+/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. A map
+/// that folds space may send two opposite directions to the same one, so that a low side exceeds the high one. Such a
+/// box is not empty: only Bounds{} is.
 class BoundsQuery {
   public:
     /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node
@@ -49,9 +49,9 @@ class BoundsQuery {
     Bounds own_box(const Field&, float level);
     Bounds own_box(const Phased&, float level);
 
-    /// The answer of a node that knows a box in its own space.
+    /// Returns the answer of a node that knows a box in its own space, by whichever method is in use.
     Bounds placed(const Bounds& box) const;
-    /// The answer of a node that also knows its support(d) along any direction d.
+    /// The same for a node that also knows its support(d) along any direction d, which may be tighter.
     template <class Support>
     Bounds placed(const Bounds& box, const Support& support) const {
         if (is_by_boxes() || box.empty()) return placed(box);
@@ -59,8 +59,8 @@ class BoundsQuery {
         for (std::size_t i = 0; i < supports.size(); ++i) supports[i] = support(directions_[i]);
         return intersect(placed(box), gathered(supports));
     }
-    /// The answer of a node that maps space. Its support along d is that of its child along towards(d), plus beyond(d);
-    /// ask() asks the child.
+    /// Returns the answer of a node that maps space. Its support along d is that of its child along towards(d), plus
+    /// beyond(d); ask() asks the child.
     template <class Towards, class Beyond, class Ask>
     Bounds through(const Towards& towards, const Beyond& beyond, const Ask& ask) {
         const Directions outer = directions_;
@@ -73,14 +73,14 @@ class BoundsQuery {
         directions_ = outer;
         return moved(inner, more);
     }
-    /// The answer of a node that maps its child by p ↦ M p + v.
+    /// Returns the answer of a node that maps its child by p ↦ M p + v.
     template <class Ask>
     Bounds through(const glm::dmat3& m, const glm::dvec3& v, const Ask& ask) {
         return through([&](const glm::dvec3& d) { return d * m; }, [&](const glm::dvec3& d) { return glm::dot(d, v); },
                        ask);
     }
-    /// The answer of an intersection. It is also evaluated along the node's own axes, because along other directions
-    /// each child alone may be large or unbounded although their intersection is small.
+    /// Returns the answer of an intersection. It is also evaluated along the node's own axes, because along other
+    /// directions each child alone may be large or unbounded although their intersection is small.
     template <class Ask>
     Bounds cut(const Ask& ask) {
         const Bounds here = ask();
@@ -102,7 +102,9 @@ class BoundsQuery {
     /// used in many places needs different directions in each, which would be slow.
     static constexpr std::size_t most_asked = 20'000;
 
+    /// A box from six supports, as described above.
     static Bounds gathered(const Supports&);
+    /// The box with `more` added to its six supports.
     static Bounds moved(const Bounds&, const Supports& more);
     template <class Handle>
     Bounds answer(const Handle&, float level);

@@ -32,7 +32,7 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
 };
 
 /// A primitive with a long equation. It counts as many instructions. In boxes where its Lipschitz bound suffices to
-/// bound its values, its equation is not evaluated as an Enclosure.
+/// bound its values, its equation is not evaluated with interval arithmetic (Enclosure, in the library's sources).
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
@@ -81,7 +81,8 @@ concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm:
     { n.rolling_radius(p, reach) } -> std::same_as<double>;
 };
 
-/// A map of space: a plain struct of floats, p ↦ ω⁻¹(p). It is one instruction.
+/// A map of space: a plain struct of floats that returns ω⁻¹(p) for a warp ω, the point at which the child is
+/// evaluated. It is one instruction.
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {
     { m(p) } -> std::same_as<Vec3<float>>;

@@ -53,7 +53,8 @@ class Field {
     std::shared_ptr<const FieldNode> node_;
 };
 
-/// A multiphase object Φ = (φ₀ … φₙ), of which at most one component is negative at any point. A handle like Field.
+/// A multiphase object: a tree of distances Φ = (φ₀ … φₙ), of which at most one is negative at any point. A handle like
+/// Field. (Phases<float> holds the values of Φ at a point; a PhaseSet is a set of indices of phases.)
 class Phased {
   public:
     Phased() = default;

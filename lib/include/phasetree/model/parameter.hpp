@@ -40,7 +40,8 @@ std::string describe(const Limits&);
 ///     }
 struct Parameter {
     std::string_view name;
-    std::string_view unit;  ///< "m", "degrees", "1/m"; empty for a count, a ratio or a child
+    /// "m" for the scene's unit of length, "degrees", "1/m"; empty for a count, a ratio or a child.
+    std::string_view unit;
     std::string_view description;
     Limits limits = limits::any;
     bool optional = false;  ///< if it is missing, the member keeps its default

@@ -16,8 +16,8 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
-    far_bound,          ///< max(a, b), where a alone determines the sign (math/number.hpp)
-    far_bound_inside,   ///< min(a, b), where a alone determines the sign (math/number.hpp)
+    far_bound,          ///< max(a, b): b matters only far from the surface; a alone determines the sign
+    far_bound_inside,   ///< min(a, b): b matters only far inside; a alone determines the sign
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a

@@ -14,7 +14,7 @@ namespace phasetree {
 struct TraceableObject {
     Bounds bounds;         ///< of the object, with a margin of vacuum of a few resolutions
     float resolution = 0;  ///< in the scene's unit of length
-    /// A sentence for people, usually empty: coordinates leave few digits, or the resolution is not the one requested.
+    /// A message for the user, usually empty: coordinates leave few digits, or the resolution is not the one requested.
     std::string warning{};
 };
 /// Find the bounds of an object and the resolution with which it is traced. See InterfaceTracer for the parameter
@@ -28,9 +28,10 @@ class InterfaceTracer {
     /// Prepare an object for tracing.
     ///
     /// `resolution`, in the scene's unit of length, is the thickness of a phase along a ray that is guaranteed to be
-    /// found. Thinner phases may be missed. Two kinds of thicker phases may be missed as well: one up to 2.75
-    /// resolutions thick that is deeper than a sixteenth of a resolution for at most one of them, and one in which a
-    /// ray along its surface is nowhere deeper than that.
+    /// found. Thinner phases may be missed. A thicker phase may be missed in two cases:
+    ///   - it is at most 2.75 resolutions thick along the ray, and the ray is deeper in it than a sixteenth of a
+    ///     resolution for at most one resolution of its length;
+    ///   - the ray runs along the surface of the phase and is nowhere deeper in it than that.
     ///
     /// 0 selects 2·10⁻⁶ of the object's diagonal, or the precision of float coordinates far from the origin. Other
     /// values are clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, at most a hundredth of the
@@ -64,7 +65,7 @@ class InterfaceTracer {
     /// A box around the object, with a margin of vacuum of a few resolutions.
     const Bounds& bounds() const { return bounds_; }
     float resolution() const { return resolution_; }
-    /// A sentence for people, usually empty; see TraceableObject.
+    /// A message for the user, usually empty; see TraceableObject.
     const std::string& warning() const { return warning_; }
 
   private:

@@ -11,13 +11,14 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// Notes another ray, in its place: most rays meet a cell or two, so what this takes counts.
+// Prepares another ray, in the memory of the last one. Most rays meet only one or two cells, so the time that this
+// takes matters.
 void note_ray(Query& query, const RTCRay& ray) {
     static_assert(std::is_trivially_destructible_v<SeenRay>);
     std::construct_at(&query.seen, ray);
 }
 
-// The first crossing in the cell; nothing where there is no memory for it, which the query then knows.
+// Returns the first crossing in the cell. If memory runs out, returns nullopt and sets Query::is_out_of_memory.
 template <class Arguments>
 std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arguments, Query& query,
                                const RTCRay& ray) noexcept {
@@ -27,8 +28,8 @@ std::optional<Crossing> search(const InterfaceCells& cells, const Arguments& arg
         std::optional<Phase> carried = query.elsewhere;
         std::optional<LeavingHint> leaving_hint;
         const bool may_start_here = start.cell == arguments.primID && ray.tnear == 0;
-        // Mostly a ray carries one phase for all objects and does not start in this cell: then it does not matter of
-        // which object the cell is, and nothing is compared.
+        // Most rays carry one phase for all objects and do not start in this cell. Then it does not matter which object
+        // the cell belongs to, and nothing needs to be compared.
         if (may_start_here || !query.carried.empty()) {
             const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
             carried = RayPhases::find(query.carried, query.elsewhere, object);

@@ -15,7 +15,7 @@ RTCDevice without_error(RTCDevice device) {
     return device;
 }
 
-// What Embree takes for a ray: with asserts it ends the program otherwise.
+// Whether Embree accepts the ray. For any other ray, an Embree with assertions ends the program.
 bool is_within_range(const UnitRay& ray) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(ray.origin[i]) < 1e18f)) return false;

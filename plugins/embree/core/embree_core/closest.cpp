@@ -1,6 +1,6 @@
-// Best-first branch and bound over boxes: s(p), the distance within which the label cannot change, excludes a box from
-// its centre; a ray from the point towards the nearest box that is left meets an interface that is certified on both
-// sides, and so bounds the distance from above.
+// Best-first branch and bound over boxes. A box is excluded if s at its centre, the distance within which the label
+// cannot change, exceeds half the box's diagonal. Rays from the query point towards the nearest remaining box find
+// interfaces that are certified on both sides, which bound the distance from above.
 
 #include "embree_core/closest.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int most_batches = 1 << 14;  // of batch_size points each
 
-// Distances as the world measures them.
+// Distances in world space.
 class Metric {
   public:
     Metric(const glm::vec3& from, const glm::dmat3& to_world) : from_(from), map_(to_world) {
@@ -52,7 +52,7 @@ class Metric {
         return std::max(0.0, distance(box.centre()) - radius);
     }
     double stretch() const { return stretch_; }
-    // The radius in the world of a ball of the object's space, from within.
+    // The radius of the largest world-space ball within the image of a ball of the object's space.
     double ball(double radius) const { return shrink_ * radius; }
 
   private:
@@ -68,7 +68,7 @@ struct Candidate {
     bool operator<(const Candidate& other) const { return below > other.below; }  // the nearest on top
 };
 
-// The eight parts of each of some boxes, as many as fit into a batch of points.
+// The octants of one or more boxes, as many as fit into a batch of points.
 struct Octants {
     std::array<Bounds, batch_size> part;
     std::size_t count = 0;
@@ -122,7 +122,7 @@ class Search {
     }
 
   private:
-    // The radius of a ball about a point in which no interface passes that counts: the least distance to the boundary
+    // The radius around a point within which there is no interface of interest: the smallest distance to the boundary
     // of a phase that is not opaque.
     float clear_distance(const glm::vec3& p) {
         const Phases<float> phi = whole_.distances(p, workspace_);
@@ -131,7 +131,8 @@ class Search {
         return distance;
     }
 
-    // Keeps the first crossing on the way from the point to another, and so far beyond it, if it is the closest yet.
+    // Traces from the query point to `towards` and on, for the length `beyond`. Keeps the first crossing if it is the
+    // closest so far.
     void shoot(const glm::vec3& towards, float beyond) {
         const glm::dvec3 way = glm::dvec3(towards) - glm::dvec3(point_);
         const double length = glm::length(way);
@@ -148,7 +149,8 @@ class Search {
         best_.there = found->crossing.to;
     }
 
-    // The distances at the point say how far at least the next phase is, and their gradient in which direction.
+    // The distances at the point give a lower bound of how far away the next phase is, and their gradient its
+    // direction.
     void guess_from_distances() {
         const Phases<float> phi = whole_.distances(point_, workspace_);
         int first = -1, second = -1;
@@ -166,7 +168,7 @@ class Search {
     }
 
     bool is_done() const {
-        // What is left, but not nearer, is never divided.
+        // Boxes that are left but are not nearer than what was found are never divided.
         if (left_.empty() || !(left_.top().below < nearest_)) return true;
         const double next = std::min(left_.top().below, nearest_undivided_);
         if (next >= nearest_) return true;
@@ -205,12 +207,12 @@ class Search {
     const glm::vec3 point_;
     const Metric metric_;
     const double tolerance_;
-    const float rounding_;      // what rounding can make of a distance, as the cells reckon
-    const double near_enough_;  // in the world: bounds that differ by no more end the search
+    const float rounding_;      // the rounding error of a distance that the search allows for
+    const double near_enough_;  // in world space: the search ends once the bounds differ by at most this
     const PhaseSet opaque_;
 
     Closest best_;
-    double nearest_;    // the distance of best_, or the radius that is searched; in the world, as those below
+    double nearest_;    // the distance of best_, or the radius that is searched; in world space, like the members below
     double lower_ = 0;  // nothing is nearer
     std::priority_queue<Candidate> left_;
     double nearest_undivided_ = 0;  // a bound for the boxes that are too small to divide

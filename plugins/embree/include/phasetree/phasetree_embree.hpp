@@ -1,5 +1,5 @@
 /// C++17 wrapper of phasetree_embree.h: handles are reference-counted objects, and errors are exceptions. Each member
-/// function calls the C function of the same name, whose documentation describes units, thread safety and lifetimes.
+/// function calls the corresponding C function, whose documentation describes units, thread safety and lifetimes.
 /// Failed calls throw Error.
 #pragma once
 

@@ -95,9 +95,9 @@ class FixedSum {
     bool operator==(const FixedSum&) const = default;
 
     /// Most sums have few significant bytes between the sign bytes above and the zero bytes below, and only those are
-    /// written. They follow a byte with the number of bytes written plus (bytes + 1) times the number of zero bytes
-    /// below. A byte above is omitted if the one below it implies the same sign. A negative number always keeps one
-    /// byte, because no bytes mean 0. So equal sums have equal bytes.
+    /// written. The first byte written is (bytes + 1) · z + n, where z is the number of zero bytes below that are
+    /// omitted, and n the number of bytes that follow. A byte above is omitted if the one below it implies the same
+    /// sign. A negative number always keeps one byte, because no bytes mean 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;

@@ -38,7 +38,8 @@ class WeightsById {
     static WeightsById read(ByteReader& in) {
         WeightsById weights;
         const auto count = in.number<std::uint32_t>();
-        // Nothing is reserved: a wrong count ends with the bytes, and takes no more memory than they do.
+        // No memory is reserved for `count` entries. If the count is wrong, reading fails at the end of the bytes, and
+        // until then memory grows only in proportion to them.
         for (std::uint32_t i = 0; i < count; ++i) {
             Entry entry{in.number<std::uint32_t>(), WeightSum::read(in)};
             if (i > 0 && entry.id <= weights.entries_.back().id) throw BytesError("its numbers are in no order");

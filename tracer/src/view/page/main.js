@@ -120,7 +120,8 @@ const askAt = (x, y) => attempt(async () => {
   showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
 });
 
-// Uses a link outside the page and shows errors here; the browser would save the error message, or show nothing.
+// Downloads the file by script and shows errors here. With an ordinary link, the browser would save the error message
+// as the file, or show nothing.
 const save = (extension) => attempt(async () => {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(await askFile(`picture.${extension}`));

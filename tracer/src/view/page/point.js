@@ -24,14 +24,14 @@ function table(caption, heads, rows) {
   return made;
 }
 
-// The nodes that made the surface, as buttons that show their numbers. Nodes added by the view itself are in no file.
+// The nodes that produced the surface, as buttons that show their numbers. Nodes added by the view itself are in no file.
 function nodes(path, showNode) {
   const first = path.findIndex((node) => node.line > 0);
   const list = document.createElement("ol");
   list.setAttribute("aria-label", "Nodes that made it, from the tree's root");
   for (const node of first < 0 ? path.slice(-1) : path.slice(first)) {
     const item = document.createElement("li"), button = document.createElement("button");
-    const place = node.line > 0 ? ` ${node.file.replace(/^.*\//, "")}:${node.line}:${node.column}` : " of the view";
+    const place = node.line > 0 ? ` ${node.file.replace(/^.*\//, "")}:${node.line}:${node.column}` : " added by the viewer";
     Object.assign(button, {type: "button", textContent: node.name, disabled: node.pointer === ""});
     button.addEventListener("click", () => showNode(`${node.name},${place}`, node.pointer));
     item.append(button, place);

@@ -36,7 +36,7 @@ export class Changes {
   #isSending = false;
   #done;
   #failed;
-  version = 0; // from which the last change is effective
+  version = 0; // states from this version on include the last change
 
   constructor(done, failed) {
     this.#done = done;

@@ -21,8 +21,8 @@ typedef struct PhasetreePlane {
 typedef struct PhasetreeCarveOptions {
     unsigned int mostPlanes; /* 6 … PHASETREE_MAX_PLANES; includes the six sides of the box */
     float tolerance;         /* target distance between planes and object, as a fraction of the object's diagonal */
-    size_t
-        mostEvaluations; /* budget, in evaluations of eight points; if it runs out, the volume is looser, but valid */
+    /* Budget, in evaluations of eight points; if it runs out, the volume is looser, but valid. */
+    size_t mostEvaluations;
     /* Polled by the calling thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;

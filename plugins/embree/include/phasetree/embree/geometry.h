@@ -18,35 +18,37 @@ typedef enum PhasetreeGeometryFlags {
     /* Every ray query that can reach the geometry uses a PhasetreeRayContext as its context. Without this flag, the
      * geometry reads nothing but Embree's own members of a context. */
     PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT = 1 << 0,
-    /* Promises that neither the geometry nor any query has a filter function. None is called, and occlusion rays may
-     * stop at any crossing instead of the first one along the ray. */
+    /* Promises that neither the geometry nor any query has a filter function. Filter functions are then not called, and
+     * occlusion rays may stop at any crossing instead of the first one along the ray. */
     PHASETREE_GEOMETRY_FLAG_NO_FILTERS = 1 << 1,
     /* Registers phasetreePointQueryFunction with the geometry. Every rtcPointQuery that can reach the geometry must
      * then have a PhasetreePointQuery as its user pointer. */
     PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2,
     /* The RTCGeometry has one primitive per cell, in the BVH of the application's scene, instead of a single primitive
-     * with a scene of its own. Rays return the same hits up to a third faster, in packets or alone, with or without
-     * carried phases. The restrictions are:
+     * with a scene of its own. Rays return the same hits up to a third faster, in packets or alone, whether or not
+     * they carry phases (PhasetreeRay.media). The restrictions are:
      *   - NO_FILTERS is required, because a filter function would see some crossings twice; POINT_QUERY is not allowed;
      *   - all phases must be shown;
      *   - the object can only be moved by instances.
      * The number of primitives in the application's scene grows by the number of cells, and changes with
      * phasetreeSetGeometryTree. A scene of the geometry's own is still built on the first call of
-     * phasetreeFindClosestInterface, or of phasetreeDecodeHit for a hit with a wrong cell. */
+     * phasetreeFindClosestInterface, or of phasetreeDecodeHit for a hit whose primID does not name the cell in which it
+     * lies. */
     PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 
 /* Options of phasetreeNewGeometry and phasetreeSetGeometryTree. Initialise them with phasetreeInitGeometryOptions. */
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
-    /* A distance: the maximum length of a bracket. Anything thinner along a ray may be missed. 0 selects 2·10⁻⁶ of the
+    /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
+     * ray may be missed. 0 selects 2·10⁻⁶ of the
      * diagonal of the tree's bounds, or the precision of 32-bit coordinates if the tree is far from the origin. Other
      * values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, at most a hundredth of the
      * diagonal. phasetreeGetGeometryStatistics returns the value in use, phasetreeGetGeometryWarning the reason. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. LOW
-     * takes a quarter to two thirds of the build time and makes rays slower; use it for objects under edit. MEDIUM and
-     * HIGH are equal. Hits do not depend on the quality. */
+     * takes a quarter to three quarters of the build time and usually makes rays slower; use it for objects under edit.
+     * MEDIUM and HIGH are equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* maximum depth of division, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
@@ -97,9 +99,9 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * geometry  receives the new handle.
  *
  * Builds cells, and a BVH over them in Embree. This is the expensive part; committing the RTCGeometry is cheap.
- * Embree's memory monitor sees the memory of the BVH. Cells are built with as many threads as Embree's device may use:
- * both draw them from TBB, whose number is limited for the whole process by the first device's configuration
- * ("threads=") or by a tbb::global_control of the application.
+ * Embree's memory monitor sees the memory of the BVH. Cells are built with as many threads as Embree's device may use,
+ * because both draw their threads from TBB. The first device's configuration ("threads=") or a tbb::global_control of
+ * the application limits their number for the whole process.
  *
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or empty: nothing is left of it, or all of it is vacuum. The
  *                               message says which. Call phasetreeGetTreeBounds to find out beforehand.
@@ -116,13 +118,14 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
  * the ray, once each and in order along the ray, until one is accepted. Each call starts in the phase in which the
- * previous one ended. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. Embree 4 hides a filter function
- * in the arguments of a query from user geometries; pass it as PhasetreeRayContext.filter instead.
+ * previous one ended. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries
+ * cannot see a filter function that is passed in the arguments of a query; pass it as PhasetreeRayContext.filter
+ * instead.
  *
  * OWNERSHIP. Embree does not notify anyone when it destroys a geometry. Therefore *the handle must live as long as any
  * scene that contains the RTCGeometry is committed or traced*; release it after the scene. If it is freed earlier, the
- * RTCGeometry becomes empty: nothing is hit, and nothing crashes unless a ray is inside it at that moment. The handle
- * holds one reference to the RTCGeometry; Embree's scenes hold their own. */
+ * RTCGeometry becomes empty: nothing is hit, and nothing crashes unless one of its callbacks is running at that moment.
+ * The handle holds one reference to the RTCGeometry; Embree's scenes hold their own. */
 PHASETREE_API PhasetreeError phasetreeNewGeometry(unsigned int apiVersion, RTCDevice device, PhasetreeTree tree,
                                                   const PhasetreeGeometryOptions* options, PhasetreeGeometry* geometry);
 
@@ -184,8 +187,8 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  *                the tree's own space.
  * startTime, endTime   the times of the first and last step, in the unit of the rays' time, in which the shutter is
  *                open from 0 to 1. endTime must be greater than startTime, and at least a millionth of the interval
- *                must be in the shutter. At other times the object stays at its first or last position, as far as
- *                Embree lets rays see it there (rtcSetGeometryTimeRange).
+ *                must be in the shutter. At other times the object keeps its first or last transform, but Embree may
+ *                hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and endTime.
  *
  * Exclusive. Nothing is rebuilt; commit the RTCGeometry and the scene.
  *

@@ -40,11 +40,11 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
  * pointIn and pointOut are in geometry space; apply objectToWorld to get world coordinates.
  *
  * The bracket is recomputed from a few samples along the ray around tfar, using the short program of the hit's cell.
- * This takes no longer than tracing the ray. If primID is wrong, the whole object is evaluated, which can take many
- * times as long. tOut and pointOut are moved forward, by less than two resolutions, to where the phase is certain
- * despite the rounding of a new ray: the same ray with tnear = tOut starts in phaseEntered. So an application that does
- * not carry phases neither hits this crossing again nor skips the next one, if phases are thicker along the ray than
- * about five resolutions. */
+ * This takes no longer than tracing the ray. If primID does not name that cell, the whole object is evaluated, which
+ * can take many times as long. tOut and pointOut are moved forward, by less than two resolutions, to where the phase is
+ * certain despite the rounding of a new ray: the same ray with tnear = tOut starts in phaseEntered. So an application
+ * that does not carry phases neither hits this crossing again nor skips the next one, if phases are thicker along the
+ * ray than about five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
 

@@ -62,13 +62,14 @@ static inline void phasetreeInitPoints(PhasetreePoints* points) {
 PHASETREE_API PhasetreeError phasetreeGetPhaseN(PhasetreeGeometry geometry, const PhasetreePoints* points,
                                                 unsigned int* phases, float* emptyRadii);
 
-/* Returns Φ at many points; the batched form of phasetreeGetDistances, in the way of phasetreeGetPhaseN.
+/* Returns Φ at many points: the batched form of phasetreeGetDistances. Threads and points are as for
+ * phasetreeGetPhaseN.
  *
  * phaseCount   evaluates the phases 0 … phaseCount − 1; 1 … PHASETREE_MAX_PHASES.
  * distances    the distance of phase k at point i is written pointStride·i + phaseStride·k bytes after this address.
- *              Both strides are multiples of 4. For phases within points: pointStride = 4·phaseCount, phaseStride = 4.
- *              For points within phases: pointStride = 4, phaseStride = 4·count. Elements must not overlap: one stride
- *              must be at least the other one times its count.
+ *              Both strides are multiples of 4. If the distances of one point are adjacent: pointStride = 4·phaseCount,
+ *              phaseStride = 4. If the distances of one phase are adjacent: pointStride = 4, phaseStride = 4·count.
+ *              Elements must not overlap: one stride must be at least the other one times its count.
  *
  * Errors are those of phasetreeGetPhaseN, and PHASETREE_ERROR_INVALID_ARGUMENT for strides that overlap. */
 PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, const PhasetreePoints* points,
@@ -80,8 +81,8 @@ typedef struct PhasetreeClosest {
     bool found;
     /* No interface is closer than emptyRadius, guaranteed. If `found`, there is an interface at `point`, at `distance`,
      * between points of the phases `here` and `there` that are at most one resolution apart. Otherwise emptyRadius is
-     * the radius searched: the requested one or more, or less if the evaluations ran out; distance equals it, and the
-     * other members are not set. */
+     * the radius searched: at least the one requested, or less if the evaluations ran out. `distance` is then the
+     * radius requested, and the other members are not set. */
     float emptyRadius;
     float distance;
     float point[3];
