@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1024));
     app.add_option("--size", size, "Of the images of one ray per pixel, WIDTHxHEIGHT");
     app.add_option("--seed", settings.seed, "Of the random rays");
-    app.add_option("--scenes", settings.scenes, "Of light: pictures of the gallery, separated by commas")
+    app.add_option("--scenes", settings.scenes, "Of light and fingerprint: scenes of the gallery, separated by commas")
         ->delimiter(',');
     app.add_option("--samples", settings.samples, "Of light: samples a pixel")->check(CLI::Range(1, 65536));
     app.add_option("--against", settings.against, "Of light: the command phasetree of another build")

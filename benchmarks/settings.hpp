@@ -15,9 +15,9 @@ struct Settings {
     int threads = 1;                // that trace; building is measured on one
     int width = 512, height = 512;  // of an image of one ray per pixel
     std::uint32_t seed = 1;
-    // Of `light` alone: pictures of the gallery instead of the usual few, samples a pixel, and another build's command
-    // `phasetree` to compare with.
+    // For `light` and `fingerprint`: scenes of the gallery instead of the usual few, or of all.
     std::vector<std::string> scenes{};
+    // For `light`: samples per pixel, and another build's command `phasetree` to compare with.
     int samples = 16;
     std::optional<std::string> against{};
 

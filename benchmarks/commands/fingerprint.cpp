@@ -151,7 +151,7 @@ Report fingerprint(const Settings& settings) {
                  {"whole", "whole", ""},
                  {"image", "image", ""}});
     const FlushSubnormals flush;
-    for (const std::string& name : all_scenes()) {
+    for (const std::string& name : settings.scenes.empty() ? all_scenes() : settings.scenes) {
         const tracer::Scene scene = scene_file(name);
         const FieldScene field(scene.object, tracer::opaque_phases(scene.materials));
         const auto side = static_cast<int>(std::sqrt(static_cast<double>(count) / 2));

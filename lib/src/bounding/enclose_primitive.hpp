@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 #include "bounding/balls_in_box.hpp"
@@ -10,6 +9,7 @@
 #include "bounding/voxels_in_box.hpp"
 #include "enclosure/enclosure.hpp"
 #include "evaluation/interpret.hpp"
+#include "phasetree/math/portable.hpp"
 #include "rewriting/specialise.hpp"
 
 namespace phasetree::bounding {
@@ -85,7 +85,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     }
     const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
         return within(
-            std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
+            portable::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
     });
     return Enclosure(value, values, slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }

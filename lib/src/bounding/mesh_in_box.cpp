@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/dual.hpp"
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/fields/mesh.hpp"
 
 namespace phasetree::bounding {
@@ -48,7 +49,7 @@ std::optional<FieldInBox> mesh_in_box(const float* pieces, const PointRange& at)
     axis /= length;
     double angle = 0;
     for_each_normal(pieces, [&](const glm::dvec3& n, double largest_angle) {
-        angle = std::max(angle, std::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)) + largest_angle);
+        angle = std::max(angle, portable::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)) + largest_angle);
     });
     if (!(angle < widest)) return std::nullopt;
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "evaluation/target.hpp"
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
 
 namespace phasetree::bounding {
@@ -52,7 +53,7 @@ Range eigenvalues(const double* h) {
     const double p = std::sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
     if (!(p > 0)) return {mean, mean};
     const double determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-    const double angle = std::acos(std::clamp(determinant / (2 * p * p * p), -1.0, 1.0)) / 3;
+    const double angle = portable::acos(std::clamp(determinant / (2 * p * p * p), -1.0, 1.0)) / 3;
     const double rounding_error = 1e-7 * (p + std::abs(mean));  // near ±1, acos has half of the digits
     return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3) - rounding_error,
             mean + 2 * p * std::cos(angle) + rounding_error};

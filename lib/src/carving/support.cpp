@@ -16,6 +16,8 @@
 #include <limits>
 #include <queue>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::carving {
 
 namespace {
@@ -38,7 +40,7 @@ struct Beam {
     double u, v, half_u, half_v;
     double top;
 
-    double half_diagonal() const { return std::hypot(half_u, half_v); }
+    double half_diagonal() const { return portable::hypot(half_u, half_v); }
     bool operator<(const Beam& o) const { return top < o.top; }
 };
 
@@ -59,7 +61,7 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
             // Rounding to floats moves the centre slightly off the axis.
             const glm::dvec3 at = frame.local(ball.centre);
             const double corner =
-                std::hypot(beam.half_u + std::abs(at.x - beam.u), beam.half_v + std::abs(at.y - beam.v));
+                portable::hypot(beam.half_u + std::abs(at.x - beam.u), beam.half_v + std::abs(at.y - beam.v));
             if (!(ball.radius > corner)) continue;
             const double half = std::sqrt((ball.radius - corner) * (ball.radius + corner));
             if (at.z + half >= beam.top && at.z - half < beam.top) {

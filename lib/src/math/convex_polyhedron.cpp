@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree {
 
 namespace {
@@ -24,7 +26,7 @@ std::vector<glm::dvec3> in_order(std::vector<glm::dvec3> points, const glm::dvec
     for (const glm::dvec3& p : points) middle += p / static_cast<double>(points.size());
     const glm::dvec3 u = across(normal), v = glm::cross(normal, u);
     const auto angle = [&](const glm::dvec3& p) {
-        return std::atan2(glm::dot(p - middle, v), glm::dot(p - middle, u));
+        return portable::atan2(glm::dot(p - middle, v), glm::dot(p - middle, u));
     };
     std::sort(points.begin(), points.end(),
               [&](const glm::dvec3& a, const glm::dvec3& b) { return angle(a) < angle(b); });

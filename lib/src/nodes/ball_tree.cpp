@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::balls {
 
 namespace {
@@ -297,7 +299,7 @@ float Tree::spacing(const float* data) {
     for (std::size_t i = 0; i < 3; ++i)
         volume *= static_cast<double>(root[high + i]) - static_cast<double>(root[low + i]) +
                   2 * static_cast<double>(root[radius]);
-    return static_cast<float>(std::cbrt(volume / static_cast<double>(ShortList::count(data))));
+    return static_cast<float>(portable::cbrt(volume / static_cast<double>(ShortList::count(data))));
 }
 
 double Tree::support(const float* data, const glm::dvec3& d, float more) {

@@ -7,15 +7,22 @@
 
 namespace phasetree {
 
-/// Φ⁻¹, the inverse of the normal distribution, for u from 0.001 to 0.999. Newton's method is applied to the
-/// complementary error function. Starting from 0, no step overshoots the root, because Φ is concave on one side of 0
-/// and convex on the other. Within this range, 11 steps reach the rounding errors of doubles.
+/// Φ⁻¹, the inverse of the normal distribution, for u from 0.001 to 0.999, by Newton's method. Starting from 0, no step
+/// overshoots the root, because Φ is concave on one side of 0 and convex on the other. Within this range, 11 steps
+/// reach the rounding errors of doubles. Φ is summed by Marsaglia's series, because the library's error functions
+/// differ between processors (phasetree/math/portable.hpp).
+///
+/// Reference: Marsaglia, Evaluating the Normal Distribution, Journal of Statistical Software 11(4), 2004.
 inline double inverse_normal(double u) {
     double x = 0;
     for (int i = 0; i < 12; ++i) {
-        const double value = 0.5 * std::erfc(-x / std::numbers::sqrt2);
         const double slope = std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
-        x -= (value - u) / slope;
+        double series = 0;
+        for (double term = x, divisor = 3; series + term != series; divisor += 2) {
+            series += term;
+            term *= x * x / divisor;
+        }
+        x -= (0.5 + slope * series - u) / slope;
     }
     return x;
 }

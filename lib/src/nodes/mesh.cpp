@@ -10,6 +10,7 @@
 
 #include "nodes/box_tree.hpp"
 #include "nodes/mesh_surface.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree {
 
@@ -30,7 +31,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0 ? v / length : v;
 }
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    return portable::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 // Builds the table of a mesh from its surface.

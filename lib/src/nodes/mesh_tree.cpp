@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::mesh {
 
 namespace {
@@ -134,7 +136,7 @@ struct BoxOfPoints {
                 beside = std::max(beside, -within);
             }
             const double lower = std::max(std::abs(height) - half_width_along(piece + Face::normal), 0.0);
-            return {std::max(lower, std::hypot(height, beside) - radius), beside > 0 ? never : std::abs(height)};
+            return {std::max(lower, portable::hypot(height, beside) - radius), beside > 0 ? never : std::abs(height)};
         } else if constexpr (std::is_same_v<Kind, Edge>) {
             const float *end = piece + Edge::end, *vector = piece + Edge::vector;
             const auto inverse = static_cast<double>(piece[Edge::inverse]);
@@ -180,7 +182,7 @@ FoundPiece PieceTree::nearest(const float* data, const Vec3<float>& point) {
 bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<const float> around, std::size_t most,
                           std::vector<float>& floats) {
     BoxOfPoints box{range.centre, range.half_extents,
-                    std::hypot(range.half_extents[0], range.half_extents[1], range.half_extents[2]), 0};
+                    portable::hypot(range.half_extents[0], range.half_extents[1], range.half_extents[2]), 0};
     box.margin = margin(tree + piece_kinds, box.centre.data()) + 2e-6 * box.radius;
     if (!(box.margin < 1e12)) return false;
 

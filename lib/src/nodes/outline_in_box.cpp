@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree {
 
 namespace {
@@ -65,7 +67,7 @@ bool OutlineInBox::specialise(const float* data, const PointRange& range, std::s
         const std::span<const float> p = piece(i);
         const glm::dvec2 s(p[0], p[1]), middle = s + glm::dvec2(p[3], p[4]) + 0.25 * glm::dvec2(p[5], p[6]);
         nearest = std::min({nearest, distance_to_farthest(box, s), distance_to_farthest(box, middle)});
-        size = std::max(size, glm::length(s) + 2 * std::hypot(p[3], p[4]) + std::hypot(p[5], p[6]));
+        size = std::max(size, glm::length(s) + 2 * portable::hypot(p[3], p[4]) + portable::hypot(p[5], p[6]));
     }
     const double rounding = 4e-6 * size;
 
@@ -115,8 +117,8 @@ float OutlineInBox::spacing(const float* data) {
     double length = 0;
     for (std::size_t i = 0; i < outline.pieces.size(); i += piece_floats) {
         const float* const p = &outline.pieces[i];
-        length += std::hypot(2.0 * static_cast<double>(p[3]) + static_cast<double>(p[5]),
-                             2.0 * static_cast<double>(p[4]) + static_cast<double>(p[6]));
+        length += portable::hypot(2.0 * static_cast<double>(p[3]) + static_cast<double>(p[5]),
+                                  2.0 * static_cast<double>(p[4]) + static_cast<double>(p[6]));
     }
     return static_cast<float>(length * piece_floats / static_cast<double>(outline.pieces.size()));
 }

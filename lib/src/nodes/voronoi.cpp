@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/fields/voronoi_cells.hpp"
 
 namespace phasetree {
@@ -26,7 +27,7 @@ PointRange in_cubes(PointRange r, float size) {
     return r;
 }
 double radius(const PointRange& r) {
-    return std::hypot(r.half_extents[0], r.half_extents[1], r.half_extents[2]);
+    return portable::hypot(r.half_extents[0], r.half_extents[1], r.half_extents[2]);
 }
 bool is_small(const PointRange& r) {
     return radius(r) < largest_radius &&
@@ -124,7 +125,7 @@ bool VoronoiCells::specialise(const PointRange& range, std::span<const float> of
         std::erase_if(found, [&](const VoronoiSites::Site& t) {
             std::array<double, 3> between;
             for (std::size_t i = 0; i < 3; ++i) between[i] = t.position[i] - s.position[i];
-            const double apart = std::hypot(between[0], between[1], between[2]);
+            const double apart = portable::hypot(between[0], between[1], between[2]);
             if (apart == 0) return false;
             double bisector = 0.5 * (t.distance - s.distance) * (t.distance + s.distance) / apart;
             for (std::size_t i = 0; i < 3; ++i) bisector -= std::abs(between[i]) / apart * box.half_extents[i];

@@ -4,12 +4,15 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 float lens_radius_from_f_number(float f_number, float vertical_fov_degrees, float sensor_height) {
     if (!(f_number > 0.0f)) throw std::invalid_argument("the camera's f-number must be positive");
     if (!(sensor_height > 0.0f)) throw std::invalid_argument("the camera's sensor height must be positive");
-    const double focal_length = 0.5 * static_cast<double>(sensor_height) / std::tan(half_fov(vertical_fov_degrees));
+    const double focal_length =
+        0.5 * static_cast<double>(sensor_height) / portable::tan(half_fov(vertical_fov_degrees));
     return static_cast<float>(focal_length / (2.0 * static_cast<double>(f_number)));
 }
 
@@ -21,7 +24,7 @@ ThinLens::ThinLens(const ThinLensParameters& p, const glm::ivec2& resolution)
     }
     half_width_ = 0.5 * resolution.x;
     half_height_ = 0.5 * resolution.y;
-    pixel_size_ = std::tan(half_fov(p.vertical_fov_degrees)) / half_height_;
+    pixel_size_ = portable::tan(half_fov(p.vertical_fov_degrees)) / half_height_;
     focus_distance_ = p.focus_distance ? static_cast<double>(*p.focus_distance) : frame_.distance;
 }
 

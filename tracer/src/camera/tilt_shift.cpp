@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 TiltShift::TiltShift(const TiltShiftParameters& p, const glm::ivec2& resolution)
@@ -17,11 +19,11 @@ TiltShift::TiltShift(const TiltShiftParameters& p, const glm::ivec2& resolution)
     const auto leans = [](float degrees) { return std::abs(degrees) < 90.0f; };
     if (!leans(p.tilt.x) || !leans(p.tilt.y))
         throw std::invalid_argument("the camera's tilt must be between -90 and 90 degrees");
-    pixel_size_ = std::tan(half_fov(p.vertical_fov_degrees)) / (0.5 * resolution.y);
+    pixel_size_ = portable::tan(half_fov(p.vertical_fov_degrees)) / (0.5 * resolution.y);
     middle_ = 0.5 * glm::dvec2(resolution) +
               glm::dvec2(-static_cast<double>(p.shift.x), static_cast<double>(p.shift.y)) * double(resolution.y);
-    const glm::dvec2 slope(std::tan(static_cast<double>(p.tilt.x) * std::numbers::pi / 180.0),
-                           std::tan(static_cast<double>(p.tilt.y) * std::numbers::pi / 180.0));
+    const glm::dvec2 slope(portable::tan(static_cast<double>(p.tilt.x) * std::numbers::pi / 180.0),
+                           portable::tan(static_cast<double>(p.tilt.y) * std::numbers::pi / 180.0));
     focus_normal_ = glm::normalize(frame_.forward - slope.x * frame_.up - slope.y * frame_.right);
     const double distance = p.focus_distance ? static_cast<double>(*p.focus_distance) : frame_.distance;
     focus_reach_ = distance * glm::dot(frame_.forward, focus_normal_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasetree/math/portable.hpp"
 #include "sampling/warps.hpp"
 
 namespace phasetree::tracer {
@@ -20,7 +21,7 @@ PhotonDirections::Chosen PhotonDirections::sample(float u_cell, const glm::vec2&
 
 float PhotonDirections::density(const glm::vec3& direction) const {
     const auto side = static_cast<float>(cells_a_side_);
-    float turns = std::atan2(direction.y, direction.x) / (2.0f * pi);
+    float turns = portable::atan2(direction.y, direction.x) / (2.0f * pi);
     if (turns < 0.0f) turns += 1.0f;
     const auto cell_of = [&](float share) { return std::clamp(static_cast<int>(share * side), 0, cells_a_side_ - 1); };
     const int row = cell_of(0.5f * (1.0f - direction.z)), column = cell_of(turns);

@@ -33,6 +33,7 @@
 #include <variant>
 
 #include "media/medium.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -56,14 +57,14 @@ class PhotonPlacement {
         const std::size_t channel = std::min(static_cast<std::size_t>(at), channels_ - 1);
         // Less than 1 even after rounding, so that the flight ends.
         const float rest = std::min(at - static_cast<float>(channel), 0x1.fffffep-1f);
-        return -std::log1p(-rest) / extinction_[channel] - half_length_;
+        return -portable::log1p(-rest) / extinction_[channel] - half_length_;
     }
     /// F(depth). It is 0 where it underflows a float.
     float coverage(float depth) const {
         const float from = std::max(depth, 0.0f), to = std::max(depth + 2.0f * half_length_, 0.0f);
         float sum = 0.0f;
         for (std::size_t c = 0; c < channels_; ++c)
-            sum += std::exp(-extinction_[c] * from) * -std::expm1(-extinction_[c] * (to - from));
+            sum += std::exp(-extinction_[c] * from) * -portable::expm1(-extinction_[c] * (to - from));
         return sum / static_cast<float>(channels_);
     }
 

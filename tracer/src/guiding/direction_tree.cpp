@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "phasetree/math/portable.hpp"
 #include "sampling/warps.hpp"
 
 namespace phasetree::tracer {
@@ -24,7 +25,7 @@ constexpr float least_share = 1e-6f;
 }  // namespace
 
 glm::vec2 sphere_to_square(const glm::vec3& direction) {
-    const float turn = std::atan2(direction.y, direction.x) / (2.0f * pi);
+    const float turn = portable::atan2(direction.y, direction.x) / (2.0f * pi);
     return {std::clamp(turn < 0.0f ? turn + 1.0f : turn, 0.0f, below_one),
             std::clamp(0.5f * (1.0f + direction.z), 0.0f, below_one)};
 }

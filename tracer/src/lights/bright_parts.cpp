@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lights/lat_long.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -46,7 +47,8 @@ struct Cells {
     // From the centre of a cell to slightly beyond its corners. Interpolation spreads light into the neighbouring
     // cells; if that is much, they belong to a part themselves.
     double reach() const {
-        return 0.75 * std::numbers::pi * std::hypot(1 / static_cast<double>(height), 2 / static_cast<double>(width));
+        return 0.75 * std::numbers::pi *
+               portable::hypot(1 / static_cast<double>(height), 2 / static_cast<double>(width));
     }
 };
 
@@ -78,7 +80,7 @@ Cap cap_around(const Cells& cells, const std::vector<std::size_t>& part) {
     const glm::dvec3 axis = length > 0 ? sum / length : cells.middle(part.front());
     double half_chord = 0;
     for (const std::size_t cell : part) half_chord = std::max(half_chord, 0.5 * glm::length(cells.middle(cell) - axis));
-    const double angle = std::min(2 * std::asin(std::min(half_chord, 1.0)) + cells.reach(), widest);
+    const double angle = std::min(2 * portable::asin(std::min(half_chord, 1.0)) + cells.reach(), widest);
     return {glm::normalize(glm::vec3(axis)), angle};
 }
 

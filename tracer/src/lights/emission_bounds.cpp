@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -34,7 +36,7 @@ double sine_of(double cosine) {
 }
 
 double angle_of(double cosine) {
-    return std::acos(std::clamp(cosine, -1.0, 1.0));
+    return portable::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "parameters/named_file.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -35,8 +36,8 @@ IesLight::IesLight(const glm::vec3& position, const glm::vec3& target, float tur
 glm::vec3 IesLight::intensity(const glm::vec3& away) const {
     const glm::dvec3 w(away);
     const double along = glm::dot(w, down_), x = glm::dot(w, first_), y = glm::dot(w, second_);
-    const double vertical = std::atan2(std::hypot(x, y), along) / degree;
-    const double horizontal = std::atan2(y, x) / degree;
+    const double vertical = portable::atan2(portable::hypot(x, y), along) / degree;
+    const double horizontal = portable::atan2(y, x) / degree;
     return intensity_ * profile_->relative_intensity(vertical, horizontal);
 }
 

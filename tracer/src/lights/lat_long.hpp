@@ -11,13 +11,15 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 /// (u, v) in [0, 1]² of a direction of any length.
 inline glm::vec2 lat_long_of(const glm::vec3& direction) {
     constexpr float half_turn = std::numbers::pi_v<float>;
-    const float azimuth = std::atan2(direction.x, direction.y);
-    const float theta = std::atan2(std::hypot(direction.x, direction.y), direction.z);
+    const float azimuth = portable::atan2(direction.x, direction.y);
+    const float theta = portable::atan2(portable::hypot(direction.x, direction.y), direction.z);
     return {0.5f + azimuth / (2.0f * half_turn), theta / half_turn};
 }
 

@@ -7,6 +7,7 @@
 
 #include "image/luminance.hpp"
 #include "lights/check.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -45,7 +46,7 @@ Turn corner(const EdgeNormal& a, const EdgeNormal& b) {
 // right.
 double excess(const Turn& a, const Turn& b) {
     const Turn sum = a * b;
-    return std::atan2(-sum.sine, -sum.cosine);
+    return portable::atan2(-sum.sine, -sum.cosine);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "lights/point_light.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -47,7 +48,7 @@ class SpotLight {
     EmissionBounds emission_bounds() const {
         return {{position_, 0.0f},
                 static_cast<double>(luminance(intensity_)),
-                EmissionCone::of_point(axis_, std::acos(std::clamp(outer_, -1.0, 1.0)))};
+                EmissionCone::of_point(axis_, portable::acos(std::clamp(outer_, -1.0, 1.0)))};
     }
 
   private:

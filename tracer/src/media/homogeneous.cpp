@@ -4,6 +4,7 @@
 
 #include "media/absorbing.hpp"
 #include "media/channel_choice.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -17,7 +18,7 @@ glm::vec3 emitted_along(const ScatteringCoefficients::ForLight& coefficients, fl
     if (coefficients.emission == glm::vec3(0.0f)) return emitted;
     for (int c = 0; c < 3; ++c)
         if (extinction[c] > 0.0f)
-            emitted[c] = coefficients.emission[c] * -std::expm1(-extinction[c] * length) / extinction[c];
+            emitted[c] = coefficients.emission[c] * -portable::expm1(-extinction[c] * length) / extinction[c];
         else if (std::isfinite(length))
             emitted[c] = coefficients.emission[c] * length;
     return emitted;
@@ -48,7 +49,7 @@ Flight HomogeneousMedium::fly(const Way& way, const glm::vec3& throughput, Sampl
     const glm::vec2 u = sampler.next2();
     const float chosen = extinction[channel_at(choice, u.x)];
     // A distance of 0 would make the next ray start where this one did. u.y is in [0, 1), so 1 − u.y is never 0.
-    const float distance = chosen > 0.0f ? -std::log1p(-u.y) / chosen : way.length;
+    const float distance = chosen > 0.0f ? -portable::log1p(-u.y) / chosen : way.length;
     if (distance < way.length) {
         const glm::vec3 left = beer_lambert(extinction, distance);
         flight.scattered_at = distance;

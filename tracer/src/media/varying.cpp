@@ -1,11 +1,11 @@
 #include "media/varying.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "image/luminance.hpp"
 #include "media/channel_choice.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -44,7 +44,7 @@ class Places {
     std::optional<Place> next(Sampler& sampler) {
         if (!stretch_) return std::nullopt;
         // The integral of the rate up to the next point. Each stretch consumes its part.
-        float thickness = -std::log1p(-sampler.next());
+        float thickness = -portable::log1p(-sampler.next());
         for (; stretch_; begin_next_stretch()) {
             // The stretch has reached its limit. The remaining thickness is right for the next stretch, too, because an
             // exponential distribution has no memory.

@@ -1,8 +1,9 @@
 #include "mesh_file/corner_normals.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
+
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -11,7 +12,7 @@ namespace {
 constexpr double smooth_cosine = 0.8660254037844387;  // cos 30°
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    return portable::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 // A triangle at a vertex: its normal, zero if it has none, the triangle's index, and the corner at the vertex.

@@ -11,6 +11,7 @@
 
 #include "mesh_file/bytes_as_text.hpp"
 #include "mesh_file/corner_normals.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -65,7 +66,7 @@ class GltfDocument {
                              {"indices", add_numbers(corners.numbers)},
                              {"material", json_["materials"].size()}};
         json_["meshes"].push_back({{"name", look.name}, {"primitives", Json::array({primitive})}});
-        add_material(look, std::cbrt(std::abs(mesh.volume())), scale);
+        add_material(look, portable::cbrt(std::abs(mesh.volume())), scale);
     }
 
     std::string bytes() {

@@ -17,6 +17,7 @@
 
 #include "output/default_config.hpp"
 #include "output/error.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace ocio = OCIO_NAMESPACE;
 
@@ -211,7 +212,7 @@ void DisplayTransform::apply(std::span<glm::vec3> pixels) const {
     // The largest half-precision number, far beyond any display. Lookup tables for half-precision input end there, and
     // values that overflow inside a transform come out black or as NaN.
     constexpr float largest = 65504.0f;
-    const float gain = std::exp2(exposure_ev_);
+    const float gain = portable::exp2(exposure_ev_);
     for (glm::vec3& pixel : pixels) {
         const bool finite = std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
         for (int c = 0; c < 3; ++c) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 std::vector<PixelRange> blocks_of(const PixelRange& area) {
@@ -23,7 +25,7 @@ PixelRange whole_blocks(const PixelRange& area, const FilmSettings& film) {
 std::optional<NoiseLimit> NoiseLimit::of(const RenderSettings& settings) {
     if (!(settings.noise > 0)) return std::nullopt;
     return NoiseLimit(static_cast<double>(settings.noise),
-                      0.01 * std::exp2(-static_cast<double>(settings.exposure_ev)));
+                      0.01 * portable::exp2(-static_cast<double>(settings.exposure_ev)));
 }
 
 int NoiseLimit::next_look(int done) {

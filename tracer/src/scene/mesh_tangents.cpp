@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
+
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -54,7 +55,7 @@ std::array<Corner, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
         const glm::dvec3 n = corner.normal == glm::vec3(0) ? flat : glm::dvec3(corner.normal);
         const glm::dvec3 next = unit(without_normal_part(p[(i + 1) % 3] - p[i], n)),
                          previous = unit(without_normal_part(p[(i + 2) % 3] - p[i], n));
-        const double angle = std::acos(std::clamp(glm::dot(next, previous), -1.0, 1.0));
+        const double angle = portable::acos(std::clamp(glm::dot(next, previous), -1.0, 1.0));
         corner.tangent = glm::vec3(angle * unit(without_normal_part(direction, n)));
     }
     return corners;

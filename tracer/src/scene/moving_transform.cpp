@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -54,7 +56,7 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const double cosine = std::min(std::abs(glm::dot(a, b)), 1.0);
     // The cosine of a small angle is imprecise; the distance between the quaternions is not.
     const double distance = std::min(glm::length(a - b), glm::length(a + b));
-    return cosine > 0.9 ? 4 * std::asin(std::min(distance / 2, 1.0)) : 2 * std::acos(cosine);
+    return cosine > 0.9 ? 4 * portable::asin(std::min(distance / 2, 1.0)) : 2 * portable::acos(cosine);
 }
 
 }  // namespace

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "shading/complex.hpp"
 #include "spectrum/colour_matching.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
-
-using Complex = std::complex<double>;
 
 // The part of the film's optics that depends only on the angle: r₁₂, r₂₃ of both polarisations, and q₂.
 struct Faces {
@@ -20,9 +18,9 @@ struct Faces {
 
     Faces(double outside, double film, const Complex& behind, double cos_theta) {
         const double sine2 = outside * outside * (1.0 - cos_theta * cos_theta);
-        const Complex n[3] = {outside, film, behind};
+        const Complex n[3] = {{outside}, {film}, behind};
         Complex q[3];
-        for (int i = 0; i < 3; ++i) q[i] = std::sqrt(n[i] * n[i] - sine2);
+        for (int i = 0; i < 3; ++i) q[i] = sqrt(n[i] * n[i] - Complex{sine2});
         const auto s = [&](int j, int k) { return (q[j] - q[k]) / (q[j] + q[k]); };
         const auto p = [&](int j, int k) {
             const Complex a = n[k] * n[k] * q[j], b = n[j] * n[j] * q[k];
@@ -38,26 +36,26 @@ struct Faces {
     // Whether there is neither absorption nor total reflection. Then the faces' coefficients have no phase, and Airy's
     // sum is real, with |e^{iδ}| = 1:  |a + b e^{iδ}|² = a² + b² + 2ab cos δ.
     bool is_real() const {
-        const auto imaginary = [](const Complex& z) { return z.imag() != 0.0; };
-        return !imaginary(inside) && !imaginary(outer[0]) && !imaginary(outer[1]) && !imaginary(inner[0]) &&
-               !imaginary(inner[1]);
+        for (const Complex& z : {inside, outer[0], outer[1], inner[0], inner[1]})
+            if (z.imaginary != 0.0) return false;
+        return true;
     }
     double real_reflectance(double thickness, double wavelength) const {
-        const double cosine = std::cos(4.0 * std::numbers::pi * thickness / wavelength * inside.real());
+        const double cosine = std::cos(4.0 * std::numbers::pi * thickness / wavelength * inside.real);
         double sum = 0.0;
         for (int i = 0; i < 2; ++i) {
-            const double a = outer[i].real(), b = inner[i].real(), mixed = 2.0 * a * b * cosine;
+            const double a = outer[i].real, b = inner[i].real, mixed = 2.0 * a * b * cosine;
             sum += 0.5 * (a * a + b * b + mixed) / (1.0 + a * a * b * b + mixed);
         }
         return std::min(sum, 1.0);
     }
 
     double reflectance(double thickness, double wavelength) const {
-        const Complex phase = std::exp(Complex(0.0, 4.0 * std::numbers::pi * thickness / wavelength) * inside);
+        const Complex phase = exp(Complex{0.0, 4.0 * std::numbers::pi * thickness / wavelength} * inside);
         double sum = 0.0;
         for (int i = 0; i < 2; ++i) {
             const Complex again = inner[i] * phase;
-            sum += 0.5 * std::norm((outer[i] + again) / (1.0 + outer[i] * again));
+            sum += 0.5 * squared_magnitude((outer[i] + again) / (Complex{1.0} + outer[i] * again));
         }
         return std::min(sum, 1.0);
     }
@@ -71,7 +69,7 @@ glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeigh
     glm::dvec3 sum(0.0);
     for (int c = 0; c < (grey ? 1 : 3); ++c) {
         const Faces faces(static_cast<double>(layers.outside), static_cast<double>(layers.film),
-                          Complex(static_cast<double>(layers.eta[c]), static_cast<double>(layers.k[c])), cos_theta);
+                          {static_cast<double>(layers.eta[c]), static_cast<double>(layers.k[c])}, cos_theta);
         const bool is_real = faces.is_real();
         for (const SpectralWeight& w : weights) {
             const double reflectance =
@@ -89,7 +87,7 @@ glm::vec3 colour(const ThinFilm::Layers& layers, const std::vector<SpectralWeigh
 
 double thin_film_reflectance(double outside, double film, double behind_eta, double behind_k, double cos_theta,
                              double thickness, double wavelength) {
-    return Faces(outside, film, Complex(behind_eta, behind_k), cos_theta).reflectance(thickness, wavelength);
+    return Faces(outside, film, {behind_eta, behind_k}, cos_theta).reflectance(thickness, wavelength);
 }
 
 ThinFilm::ThinFilm(const Layers& layers, float least_thickness, float greatest_thickness)
@@ -128,7 +126,7 @@ glm::vec3 ThinFilm::reflectance_at(const glm::vec3& nanometres, const glm::vec3&
     if (!(cos_theta > 0.0f)) return glm::vec3(1.0f);
     const auto faces_before = [&](int i) {
         return Faces(static_cast<double>(layers_.outside), static_cast<double>(layers_.film),
-                     Complex(static_cast<double>(eta[i]), static_cast<double>(k[i])),
+                     {static_cast<double>(eta[i]), static_cast<double>(k[i])},
                      static_cast<double>(std::min(cos_theta, 1.0f)));
     };
     const bool is_alike = eta == glm::vec3(eta.x) && k == glm::vec3(k.x);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "image/luminance.hpp"
+#include "phasetree/math/portable.hpp"
 #include "spectrum/daylight.hpp"
 #include "spectrum/planck.hpp"
 
@@ -49,8 +50,8 @@ LightSpectrum LightSpectrum::of_temperature(float kelvin) {
     // files.
     const double reference = exponent(last_nanometre);
     for (int nm = first_nanometre; nm <= last_nanometre; ++nm) {
-        const double ratio =
-            std::pow(last_nanometre / static_cast<double>(nm), 5) * std::expm1(reference) / std::expm1(exponent(nm));
+        const double ratio = std::pow(last_nanometre / static_cast<double>(nm), 5) * portable::expm1(reference) /
+                             portable::expm1(exponent(nm));
         points.push_back({static_cast<float>(nm), static_cast<float>(ratio)});
     }
     return LightSpectrum(Spectrum(std::move(points)));

@@ -3,7 +3,7 @@
 // at the temperature T in kelvin. Reference: CODATA 2018 (c₂).
 #pragma once
 
-#include <cmath>
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::tracer {
 
@@ -16,7 +16,8 @@ inline double planck_exponent(double nanometres, double kelvin) {
 /// B(λ, T) over B(λ, reference), with temperatures in kelvin; 0 for 0 K.
 inline double planck_ratio(double nanometres, double kelvin, double reference) {
     if (!(kelvin > 0)) return 0;
-    return std::expm1(planck_exponent(nanometres, reference)) / std::expm1(planck_exponent(nanometres, kelvin));
+    return portable::expm1(planck_exponent(nanometres, reference)) /
+           portable::expm1(planck_exponent(nanometres, kelvin));
 }
 
 }  // namespace phasetree::tracer

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer {
 
 namespace {
@@ -53,7 +55,7 @@ void Pen::cubic_to(const glm::vec2& control1, const glm::vec2& control2, const g
     // Replacing each of n equal parts of a cubic by a quadratic curve causes an error of at most √3/36 |p₃ − 3p₂ + 3p₁
     // − p₀| / n³.
     const double off = std::sqrt(3.0) / 36 * glm::length(p3 - 3.0 * p2 + 3.0 * p1 - p0);
-    const int parts = static_cast<int>(std::clamp(std::ceil(std::cbrt(off / tolerance)), 1.0, 32.0));
+    const int parts = static_cast<int>(std::clamp(std::ceil(portable::cbrt(off / tolerance)), 1.0, 32.0));
     const auto point = [&](double t) {
         const double s = 1 - t;
         return s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;

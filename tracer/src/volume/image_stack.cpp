@@ -126,7 +126,7 @@ LabelGrid labels_of_images(const fs::path& path) {
             throw std::runtime_error(fmt::format("{}, but it has {} of {} bits", must_be,
                                                  header.is_floating_point ? "floating-point numbers" : "values",
                                                  header.bits));
-        greatest = std::exp2(header.is_signed ? header.bits - 1 : header.bits) - 1;
+        greatest = std::ldexp(1.0, header.is_signed ? header.bits - 1 : header.bits) - 1;
     };
     // Up to this limit, floats can represent 32-bit integers distinctly.
     constexpr double most = 1 << 20;

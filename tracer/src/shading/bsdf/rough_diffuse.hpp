@@ -24,6 +24,7 @@
 #include <numbers>
 #include <optional>
 
+#include "phasetree/math/portable.hpp"
 #include "sampling/warps.hpp"
 #include "shading/bsdf/sample.hpp"
 
@@ -64,7 +65,7 @@ class RoughDiffuseBsdf {
     /// Returns E for the cosine c. tan θ (1 − sin³θ) is written such that it is precise at grazing angles.
     float white_albedo_once(float c) const {
         const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
-        const float g = sine * (std::acos(cosine) - sine * cosine) +
+        const float g = sine * (portable::acos(cosine) - sine * cosine) +
                         2.0f / 3.0f * (sine * cosine * (1.0f + sine + sine * sine) / (1.0f + sine) - sine);
         return a_ * (1.0f + roughness_ * g / pi);
     }

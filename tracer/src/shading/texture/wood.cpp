@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/math/unit_vector.hpp"
 #include "sampling/hash.hpp"
 #include "shading/frame.hpp"
@@ -20,7 +21,7 @@ glm::vec3 WoodTexture::at(const glm::vec3& position) const {
     // Radius in rings, with the trunk's slow wandering, its dents, and the small unevenness of each ring.
     const float wander_x = 1.2f * gradient_noise({0.03f * p.z, 0.5f, 0.5f}, hash(seed, 1u));
     const float wander_y = 1.2f * gradient_noise({0.03f * p.z, 0.5f, 0.5f}, hash(seed, 2u));
-    const float radius = std::hypot(p.x + wander_x, p.y + wander_y);
+    const float radius = portable::hypot(p.x + wander_x, p.y + wander_y);
     const float dents = 0.9f * fractal_noise({0.17f * p.x, 0.17f * p.y, 0.03f * p.z}, 2, hash(seed, 3u));
     const float unevenness = 0.05f * gradient_noise({1.3f * p.x, 1.3f * p.y, 0.1f * p.z}, hash(seed, 4u));
     const float width = 1.1f * gradient_noise({0.31f * radius, 0.5f, 0.5f}, hash(seed, 5u));

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
 namespace phasetree {
@@ -122,7 +123,9 @@ struct Blob {
     }
 
     /// The distance at which falloff(·, R) falls below the level.
-    static float radius_at(float radius, float level) { return radius * std::sqrt(1 - std::cbrt(level)) * (1 + 1e-6f); }
+    static float radius_at(float radius, float level) {
+        return radius * std::sqrt(1 - portable::cbrt(level)) * (1 + 1e-6f);
+    }
 };
 
 }  // namespace phasetree

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/math/value_noise.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
 
@@ -52,7 +53,7 @@ struct FractalNoise {
     static constexpr float steepest = 3.75f;
 
     /// The sum Σ 2⁻ⁱ over the octaves.
-    static float weights(float octaves) { return 2.f - std::exp2(1.f - octaves); }
+    static float weights(float octaves) { return 2.f - portable::exp2(1.f - octaves); }
 };
 
 }  // namespace phasetree

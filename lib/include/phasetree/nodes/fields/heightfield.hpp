@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/fields/fractal_noise.hpp"
 
 namespace phasetree {
@@ -40,7 +41,7 @@ struct Heightfield {
         detail::require_usable(info.name, {size});
         if (amplitude > 0) detail::require_usable(info.name, {amplitude});
         frequency = 1 / size;
-        share = amplitude / (2.f - std::exp2(1.f - octaves));
+        share = amplitude / (2.f - portable::exp2(1.f - octaves));
         const double slope = static_cast<double>(amplitude) * (1.0 + ridged) * FractalNoise::slope(size, octaves);
         inverse = static_cast<float>((1 - 1e-6) / std::sqrt(1 + slope * slope));
     }

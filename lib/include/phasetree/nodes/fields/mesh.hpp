@@ -1,6 +1,7 @@
 #pragma once
 
 #include "phasetree/math/found_equation.hpp"
+#include "phasetree/math/portable.hpp"
 #include "phasetree/model/from_file.hpp"
 #include "phasetree/nodes/fields/mesh_tree.hpp"
 #include "phasetree/nodes/fields/profile.hpp"
@@ -78,7 +79,7 @@ struct Mesh {
     static float spacing(const float* data) {
         const float* box = data + mesh::piece_kinds;
         const auto triangles = static_cast<float>(mesh::PieceList::count(data, mesh::PieceKind::face));
-        return 2 * std::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
+        return 2 * portable::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
     }
     /// A rough estimate of the cost of a search for each of eight points, in halves of that of a simple instruction.
     static constexpr unsigned search_half_instructions = 3000;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
@@ -48,7 +49,7 @@ struct Prism {
     double support(const glm::dvec3& d, float level) const {
         // The corners are at odd multiples of π/n, so the nearest is at most π/n from the direction d.
         const double pi = 3.14159265358979323846, step = pi / static_cast<double>(sides);
-        const double off = std::remainder(std::atan2(d.y, d.x) - step, 2 * step);
+        const double off = std::remainder(portable::atan2(d.y, d.x) - step, 2 * step);
         return detail::disk_support(d) * static_cast<double>(radius) * std::cos(off) +
                std::abs(d.z) * 0.5 * static_cast<double>(height) + glm::length(d) * static_cast<double>(level);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/math/support.hpp"
 #include "phasetree/nodes/fields/mirrors.hpp"
 
@@ -50,7 +51,7 @@ struct Star {
     double support(const glm::dvec3& d, float level) const {
         const double pi = 3.14159265358979323846, step = pi / static_cast<double>(points);
         const auto corners = [&](double shift) {
-            return std::cos(std::remainder(std::atan2(d.y, d.x) - shift, 2 * step)) * detail::disk_support(d);
+            return std::cos(std::remainder(portable::atan2(d.y, d.x) - shift, 2 * step)) * detail::disk_support(d);
         };
         return detail::section_support(
             d, std::max(corners(0) * static_cast<double>(radius), corners(step) * static_cast<double>(inner_radius)) +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phasetree/math/portable.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 
 namespace phasetree {
@@ -48,7 +49,7 @@ struct Taper {
     float value_scale() const {
         if (rate == 0) return 1;
         const double rho =
-            std::hypot(std::max(-inverse.low_x, inverse.high_x), std::max(-inverse.low_y, inverse.high_y));
+            portable::hypot(std::max(-inverse.low_x, inverse.high_x), std::max(-inverse.low_y, inverse.high_y));
         const double a = 1.0 / narrowest, b = rho * std::abs(rate) * a, n = a * a + b * b + 1;
         return static_cast<float>((1 - 1e-6) / std::sqrt(0.5 * (n + std::sqrt(std::max(n * n - 4 * a * a, 0.0)))));
     }
