@@ -108,7 +108,7 @@ TEST_CASE("clustered lamps: each that shines on a receiver is chosen with a prob
             // Also close to the lamps, and where they are just in sight.
             LightReceiver at = receiver(random);
             if (i % 2 == 0) {
-                const auto& lamp = one_by_one.area()[static_cast<std::size_t>(i) % one_by_one.area().size()];
+                const auto& lamp = one_by_one.area()[static_cast<std::size_t>(i) % one_by_one.area().size()].light;
                 at.p = std::visit([](const auto& light) -> BoundingSphere { return light.bounding_sphere(); }, lamp)
                            .centre +
                        std::pow(10.0f, -3 * random()) * square_to_uniform_sphere(random.two());
@@ -138,7 +138,7 @@ TEST_CASE("clustered lamps: weak ones close by are chosen beside strong ones, ab
     const Lights one_by_one = lights;
     lights.cluster_lamps();
     for (std::size_t k = 0; k < 400; k += 2) {
-        const glm::vec3 lamp = std::visit([](const auto& light) { return light.position(); }, lights.points()[k]);
+        const glm::vec3 lamp = std::visit([](const auto& light) { return light.position(); }, lights.points()[k].light);
         const LightReceiver at(glm::vec3(lamp.x + 0.001f, lamp.y, 0), {0, 0, 1});
         const float best = one_by_one.point_light_probability(at, k), found = lights.point_light_probability(at, k);
         REQUIRE(found > 1e-6f * best);

@@ -8,6 +8,7 @@
 #include "output/error.hpp"
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/model/handle.hpp"
+#include "view/server.hpp"
 
 namespace py = pybind11;
 
@@ -50,6 +51,8 @@ void add_errors(py::module_& module) {
             PyErr_SetString(PyExc_KeyboardInterrupt, e.what());
         } catch (const embree::EmbreeError& e) {
             PyErr_SetString(PyExc_RuntimeError, e.what());
+        } catch (const tracer::view::MissingLibraryError& e) {
+            PyErr_SetString(PyExc_ImportError, e.what());
         } catch (const tracer::OutputError& e) {
             PyErr_SetString(PyExc_OSError, e.what());
         } catch (const tracer::DisplayError& e) {

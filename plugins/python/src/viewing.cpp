@@ -26,8 +26,7 @@ class View {
     // available.
     View(const std::string& file, std::optional<int> width, std::optional<int> samples, int threads, int port)
         : file_{{file, std::nullopt, std::nullopt}, std::nullopt, std::nullopt} {
-        if (!view::can_serve())
-            throw OutputError("this phasetree was built without cpp-httplib, which serves the page");
+        view::require_server();
         const view::ReadScene read = file_.reader();
         std::promise<std::string> served;
         std::future<std::string> url = served.get_future();

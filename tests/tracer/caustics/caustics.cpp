@@ -155,9 +155,9 @@ TEST_CASE("lines are as dense from lamps in clusters as from the same lamps one 
     REQUIRE(clustered.lights.area().size() == 60);
     Scene one_by_one = clustered;
     one_by_one.lights = {};
-    for (const auto& light : clustered.lights.infinite()) one_by_one.lights.add(light);
-    for (const auto& light : clustered.lights.area()) one_by_one.lights.add(light);
-    for (const auto& light : clustered.lights.points()) one_by_one.lights.add(light);
+    for (const auto& listed : clustered.lights.infinite()) one_by_one.lights.add(listed.light);
+    for (const auto& listed : clustered.lights.area()) one_by_one.lights.add(listed.light);
+    for (const auto& listed : clustered.lights.points()) one_by_one.lights.add(listed.light);
     const World world(clustered);
     const PhotonEmission a(world, clustered), b(world, one_by_one);
     phasetree::tests::Uniform random(5);

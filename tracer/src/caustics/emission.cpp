@@ -67,18 +67,19 @@ PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(
     if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, sends_light_on)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
-    for (const InfiniteLight& infinite : scene.lights.infinite())
-        for (const Cap& part : std::visit([](const auto& light) { return light.bright_parts(); }, infinite))
+    for (const ListedInfiniteLight& infinite : scene.lights.infinite())
+        for (const Cap& part : std::visit([](const auto& light) { return light.bright_parts(); }, infinite.light))
             sources_.push_back(OfCap{part, {centre_, -part.axis(), radius_}});
     const auto aim_of = [&](const BoundingSphere& lamp) { return PhotonAim(lamp, {centre_, radius_}); };
     first_area_ = sources_.size();
-    for (const AreaLight& any : scene.lights.area())
-        sources_.push_back(OfArea{
-            sources_.size() - first_area_,
-            aim_of(std::visit([](const auto& light) -> BoundingSphere { return light.bounding_sphere(); }, any))});
+    for (const ListedLight<AreaLight>& area : scene.lights.area())
+        sources_.push_back(
+            OfArea{sources_.size() - first_area_,
+                   aim_of(std::visit([](const auto& light) -> BoundingSphere { return light.bounding_sphere(); },
+                                     area.light))});
     first_point_ = sources_.size();
-    for (const AnyPointLight& any : scene.lights.points())
-        sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of({position_of(any), 0.0f})});
+    for (const ListedLight<AnyPointLight>& point : scene.lights.points())
+        sources_.push_back(OfPoint{sources_.size() - first_point_, aim_of({position_of(point.light), 0.0f})});
     first_glowing_ = sources_.size();
     const std::span<const GlowingPart> glowing = scene.lights.glowing();
     if (glowing.size() <= most_glowing)
@@ -177,7 +178,7 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfArea& s
     const glm::vec2 u_light = sampler.next2();
     const float u_cell = sampler.next();
     const SurfacePoint from = std::visit([&](const auto& light) { return light.surface_point(u_light); },
-                                         scene_.lights.area()[source.number]);
+                                         scene_.lights.area()[source.number].light);
     const auto aimed = source.aim.sample(from.position, u_cell, sampler.next2());
     if (!aimed || !(glm::dot(aimed->direction, from.normal) > 0.0f)) return std::nullopt;
     return Line{from.position + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
@@ -188,7 +189,7 @@ std::optional<PhotonEmission::Line> PhotonEmission::sampled_line(const OfPoint& 
     // lights. Emissive media draw more.
     sampler.next2();
     const float u_cell = sampler.next();
-    const glm::vec3 from = position_of(scene_.lights.points()[source.number]);
+    const glm::vec3 from = position_of(scene_.lights.points()[source.number].light);
     const auto aimed = source.aim.sample(from, u_cell, sampler.next2());
     if (!aimed) return std::nullopt;
     return Line{from + aimed->distance * aimed->direction, aimed->direction, aimed->distance, aimed->cell};
@@ -223,7 +224,7 @@ std::optional<EmittedPhoton> PhotonEmission::photon_of_seen(const Line& line, co
 
 std::optional<EmittedPhoton> PhotonEmission::photon_on(const Line& line, const OfPoint& point,
                                                        const Start& start) const {
-    const AnyPointLight& light = scene_.lights.points()[point.number];
+    const AnyPointLight& light = scene_.lights.points()[point.number].light;
     const glm::vec3 intensity = scene_.lights.intensity(point.number, line.direction, start.wavelengths);
     const float density = direction_density(point.number, line.direction);
     if (!(density > 0.0f) || intensity == glm::vec3(0.0f)) return std::nullopt;
@@ -289,7 +290,7 @@ float PhotonEmission::direction_density(std::size_t point_light, const glm::vec3
     const std::size_t source = first_point_ + point_light;
     if (source >= first_glowing_) return 0.0f;
     return share(source) * std::get<OfPoint>(sources_[source])
-                               .aim.density(position_of(scene_.lights.points()[point_light]), from_light);
+                               .aim.density(position_of(scene_.lights.points()[point_light].light), from_light);
 }
 
 float PhotonEmission::line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const {
@@ -371,7 +372,7 @@ PhotonEmission::LampOnLine PhotonEmission::met(const OfArea& source, const glm::
             if (!(cosine > 0.0f)) return {0.0f, *distance};
             return {source.aim.density(point, -towards_light) / (light.area() * cosine), *distance};
         },
-        scene_.lights.area()[source.number]);
+        scene_.lights.area()[source.number].light);
 }
 
 }  // namespace phasetree::tracer

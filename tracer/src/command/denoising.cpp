@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command/option_error.hpp"
 #include "command/streams.hpp"
-#include "output/error.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
 
@@ -19,7 +19,7 @@ auto as_option(F&& f) {
     try {
         return f();
     } catch (const DenoiseError& e) {
-        throw OutputError(fmt::format("--denoise: {}", e.what()));
+        throw OptionError(fmt::format("--denoise: {}", e.what()));
     }
 }
 
@@ -43,9 +43,9 @@ void check_denoising(const std::string& denoise, int samples) {
 }
 
 void check_denoising(const Planes::Choice& kept, bool has_pictures) {
-    if (!has_pictures) throw OutputError("--denoise is for pictures, and all outputs are .part files");
+    if (!has_pictures) throw OptionError("--denoise is for pictures, and all outputs are .part files");
     if ((kept & denoising_planes()) != denoising_planes())
-        throw OutputError("--denoise needs parts that were rendered with --denoise");
+        throw OptionError("--denoise needs parts that were rendered with --denoise");
 }
 
 void denoise_picture(Image& image, const Denoising& how) {

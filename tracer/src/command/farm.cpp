@@ -7,6 +7,7 @@
 #include "command/denoising.hpp"
 #include "command/farm_scripts.hpp"
 #include "command/load.hpp"
+#include "command/option_error.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
 
@@ -22,7 +23,7 @@ struct FarmOptions {
     std::string folder, program = "phasetree";
 };
 
-// Parses what follows "--" as `render` would. Throws OutputError.
+// Parses what follows "--" as `render` would. Throws OptionError.
 RenderOptions render_options(const FarmOptions& options) {
     CLI::App app;
     RenderOptions render;
@@ -33,15 +34,15 @@ RenderOptions render_options(const FarmOptions& options) {
     try {
         app.parse(words);
     } catch (const CLI::ParseError& e) {
-        throw OutputError(fmt::format("what follows -- is for render, which says: {}", e.what()));
+        throw OptionError(fmt::format("what follows -- is for render, which says: {}", e.what()));
     }
     if (!render.outputs.empty() || render.share || render.checkpoint || render.resume || render.stats)
-        throw OutputError(
+        throw OptionError(
             "what follows -- is for every share: --output, --samples, --checkpoint, --resume and --stats are not");
     if (render.frames)
-        throw OutputError("a farm shares the samples of one picture: name its time by --at, before the --");
-    if (render.scene->at) throw OutputError("--at is for before the --");
-    if (render.time_seconds > 0) throw OutputError("--time is not for shares, which have all of their samples");
+        throw OptionError("a farm shares the samples of one picture: name its time by --at, before the --");
+    if (render.scene->at) throw OptionError("--at is for before the --");
+    if (render.time_seconds > 0) throw OptionError("--time is not for shares, which have all of their samples");
     return render;
 }
 
@@ -56,12 +57,12 @@ void check_limits(const Farm& farm) {
     constexpr std::size_t longest_name = 255, longest_line = (128 << 10) - 1;
     const std::string part = std::filesystem::path(part_of_share(farm, farm.shares - 1)).filename().string();
     if (part.size() > longest_name)
-        throw OutputError(
+        throw OptionError(
             fmt::format("the parts' names would have {} bytes, such as \"{}\"; file systems allow {}, so "
                         "give the scene file a shorter name",
                         part.size(), part, longest_name));
     if (const std::size_t bytes = longest_merge_line(farm); bytes > longest_line)
-        throw OutputError(
+        throw OptionError(
             fmt::format("--merge-width {}: the command line of a merge would have {} bytes, and Linux "
                         "allows {}; let a merge read fewer parts",
                         farm.most_parts, bytes, longest_line));
@@ -69,17 +70,17 @@ void check_limits(const Farm& farm) {
 
 int write_farm(const FarmOptions& options) {
     if (options.kind != "slurm" && options.kind != "list")
-        throw OutputError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
+        throw OptionError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
     if (options.kind != "slurm" && options.most_running > 0)
-        throw OutputError(
+        throw OptionError(
             "--max-running is for slurm; whatever runs a list decides how many of its commands run at a time");
-    if (options.scene->is_standard_input()) throw OutputError("the scene of a farm must be a file that all can read");
+    if (options.scene->is_standard_input()) throw OptionError("the scene of a farm must be a file that all can read");
     const RenderOptions render = render_options(options);
     Scene scene = load_scene(read_document(*options.scene));
     apply(render, scene);
     (void)pixels_of(render, scene);
     if (scene.settings.noise > 0)
-        throw OutputError(
+        throw OptionError(
             "a farm and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
             "some; -- --noise 0 turns off what the scene says");
     Farm farm;
@@ -107,7 +108,7 @@ int write_farm(const FarmOptions& options) {
     farm.most_parts = options.most_parts;
     farm.most_running = options.most_running;
     if (farm.shares > farm.samples)
-        throw OutputError(
+        throw OptionError(
             fmt::format("--shares {}: there are only {} samples a pixel to share", farm.shares, farm.samples));
     for (const auto& [name, value] :
          {std::pair("--display", render.display), std::pair("--view", render.view),
@@ -123,7 +124,7 @@ int write_farm(const FarmOptions& options) {
     std::vector<std::string> all{farm.program, farm.scene, farm.parts};
     for (const auto* words : {&farm.render_options, &farm.outputs, &farm.sbatch_options})
         all.insert(all.end(), words->begin(), words->end());
-    if (std::ranges::any_of(all, has_line_feed)) throw OutputError("no word of a farm may have a line feed in it");
+    if (std::ranges::any_of(all, has_line_feed)) throw OptionError("no word of a farm may have a line feed in it");
     put(text);
     return 0;
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "command/option_error.hpp"
 #include "command/streams.hpp"
-#include "output/error.hpp"
 #include "output/layers.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "scene/image_parameters.hpp"
@@ -26,7 +26,7 @@ FrameRange range_of_frames(const std::string& text) {
     const std::vector<int> ends = integers(text, ':', 2, "--frames", "FIRST:LAST, the last excluded");
     const FrameRange range{ends[0], ends[1]};
     if (range.first < 0 || range.first >= range.last || range.last > most_frames)
-        throw OutputError(
+        throw OptionError(
             fmt::format("--frames {}: they must be numbers from 0 to {}, the last, which is excluded, above the first",
                         text, most_frames));
     return range;
@@ -41,7 +41,7 @@ RenderOptions options_of_frame(const RenderOptions& options, int frame, bool is_
         if (const auto numbered = name_of_frame(name, frame))
             name = *numbered;
         else if (!is_alone)
-            throw OutputError(
+            throw OptionError(
                 fmt::format("{} {}: each frame needs a file of its own, so there must be #### in the "
                             "name, which becomes the frame's number",
                             option, name));
@@ -82,12 +82,12 @@ std::optional<std::string> name_of_frame(const std::string& name, int frame) {
 int render_frames(const RenderOptions& options, const std::function<int(const RenderOptions&)>& render) {
     const FrameRange range = range_of_frames(*options.frames);
     const int count = range.last - range.first;
-    if (options.scene->at) throw OutputError("--frames says when each frame is, so --at cannot");
+    if (options.scene->at) throw OptionError("--frames says when each frame is, so --at cannot");
     if (options.outputs.empty())
-        throw OutputError(
+        throw OptionError(
             "--frames needs names for its files: -o name.####.exr, where #### becomes the frame's number");
     if (count > 1 && options.scene->is_standard_input())
-        throw OutputError("--frames: the scene of several frames cannot come from standard input");
+        throw OptionError("--frames: the scene of several frames cannot come from standard input");
     (void)options_of_frame(options, range.first, count == 1);
     int skipped = 0;
     for (int frame = range.first; frame < range.last; ++frame) {

@@ -4,13 +4,16 @@
 
 #include "command/commands.hpp"
 #include "command/numbers.hpp"
+#include "command/option_error.hpp"
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
 #include "command/version_report.hpp"
 #include "film_file/error.hpp"
 #include "output/error.hpp"
+#include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/model/handle.hpp"
+#include "view/server.hpp"
 
 namespace {
 
@@ -41,6 +44,12 @@ int run_command(int argc, char** argv) {
     } catch (const tracer::InputError& e) {
         say("{}\n", e.what());
     } catch (const ModelError& e) {
+        say("phasetree: {}\n", e.what());
+    } catch (const tracer::OptionError& e) {
+        say("phasetree: {}\n", e.what());
+    } catch (const tracer::view::MissingLibraryError& e) {
+        say("phasetree: {}\n", e.what());
+    } catch (const CellsFileError& e) {
         say("phasetree: {}\n", e.what());
     } catch (const tracer::OutputError& e) {
         say("phasetree: {}\n", e.what());

@@ -6,6 +6,7 @@
 #include "command/commands.hpp"
 #include "command/denoising.hpp"
 #include "command/load.hpp"
+#include "command/option_error.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -110,7 +111,7 @@ int merge_parts(const MergeOptions& options) {
             fmt::format("{} of the {} of each pixel; --allow-gaps makes a picture of those that there are", missing,
                         parts.header().samples_in_all));
     if (!film_files.empty() && !parts.are_joined())
-        throw OutputError("a .part cannot be made of parts between which something is missing");
+        throw OptionError("a .part cannot be made of parts between which something is missing");
     const Denoiser denoiser = denoiser_of(options.denoise.value_or("best"));
     if (options.denoise) check_denoising(parts.header().film.planes, !images.empty());
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "command/option_error.hpp"
 #include "command/streams.hpp"
 #include "film/faults.hpp"
 #include "film_file/write.hpp"
@@ -35,11 +36,12 @@ class Writing {
     bool all_is_well_ = true;
 };
 
-// Checks that all outputs can be written before rendering starts. Throws OutputError.
+// Checks that all outputs can be written before rendering starts. Throws OutputError and
+// OptionError.
 inline void check_outputs(const std::vector<std::string>& outputs) {
     for (const std::string& output : outputs) {
         if (is_film_file(output) && is_for_each_plane(output))
-            throw OutputError("a .part has all planes in one file, so {plane} is not for it");
+            throw OptionError("a .part has all planes in one file, so {plane} is not for it");
         is_film_file(output) ? check_file_writable(output) : check_writable(output);
     }
 }

@@ -1,4 +1,5 @@
 #include "render/render.hpp"
+#include "command/option_error.hpp"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,7 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Sam
         return format == Format::exr || (options.planes == "alpha" && format != Format::jpeg);
     };
     if (options.planes && std::ranges::none_of(outputs, keeps_planes))
-        throw OutputError(
+        throw OptionError(
             "--planes needs an output that can hold them: name a .exr or .part file with -o, or for alpha alone a .png "
             "or .tif file");
     if (options.stats) check_file_writable(*options.stats);
@@ -220,8 +221,6 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
     } catch (const BuildCancelled&) {
         say("phasetree: interrupted while {}; nothing is written\n", while_preparing);
         return false;
-    } catch (const CellsFileError& e) {
-        throw OutputError(e.what());
     }
 }
 
@@ -306,7 +305,7 @@ int render_scene(const RenderOptions& options) {
         scene.film.planes |= denoising_planes();
     }
     if (!scene.placed.empty() && (options.detail || options.cells))
-        throw OutputError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
+        throw OptionError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
                                       options.detail ? "--detail" : "--cells"));
     if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     RenderJob job;

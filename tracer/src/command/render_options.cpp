@@ -11,8 +11,8 @@
 #include "command/denoising.hpp"
 #include "command/duration.hpp"
 #include "command/max_memory.hpp"
+#include "command/option_error.hpp"
 #include "film/chosen_planes.hpp"
-#include "output/error.hpp"
 
 namespace phasetree::tracer {
 
@@ -29,7 +29,7 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
         from = to + 1;
     }
     if (values.size() != count || from != text.size() + 1)
-        throw OutputError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
+        throw OptionError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
     return values;
 }
 
@@ -47,7 +47,7 @@ Planes::Choice planes_of(const std::string& list) {
     try {
         return chosen_planes(names);
     } catch (const std::invalid_argument& e) {
-        throw OutputError(fmt::format("--planes: {}", e.what()));
+        throw OptionError(fmt::format("--planes: {}", e.what()));
     }
 }
 
@@ -59,14 +59,14 @@ void apply(const RenderOptions& options, Scene& scene) {
     if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
     // CLI11's range check accepts NaN.
-    if (options.noise && !(*options.noise >= 0)) throw OutputError("--noise must be a number from 0 to 1");
+    if (options.noise && !(*options.noise >= 0)) throw OptionError("--noise must be a number from 0 to 1");
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
         const std::vector<int> size = integers(*options.size, 'x', 2, "--size", "WIDTHxHEIGHT in pixels");
         for (const int n : size)
             if (n < 1 || n > 32768)
-                throw OutputError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
+                throw OptionError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
         scene.film.width = size[0];
         scene.film.height = size[1];
     }
@@ -79,7 +79,7 @@ PixelRange pixels_of(const RenderOptions& options, const Scene& scene) {
     range = {c[0], c[1], c[2], c[3]};
     if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.film.width || range.y1 > scene.film.height ||
         range.x0 >= range.x1 || range.y0 >= range.y1)
-        throw OutputError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.film.width,
+        throw OptionError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.film.width,
                                       scene.film.height));
     return range;
 }
@@ -88,15 +88,15 @@ SampleRange samples_of(const RenderOptions& options, const Scene& scene) {
     SampleRange range{0, scene.settings.samples};
     if (!options.share) return range;
     if (options.time_seconds > 0)
-        throw OutputError("--samples and --time: a share has to have all of its samples, however long that takes");
+        throw OptionError("--samples and --time: a share has to have all of its samples, however long that takes");
     if (scene.settings.noise > 0)
-        throw OutputError(
+        throw OptionError(
             "--samples and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
             "some; --noise 0 turns off what the scene says");
     const std::vector<int> ends = integers(*options.share, ':', 2, "--samples", "FIRST:LAST, the last excluded");
     range = {ends[0], ends[1]};
     if (range.first < 0 || range.first >= range.last || range.last > scene.settings.samples)
-        throw OutputError(fmt::format("--samples {}: they must be some of the {} samples a pixel, from 0 on",
+        throw OptionError(fmt::format("--samples {}: they must be some of the {} samples a pixel, from 0 on",
                                       *options.share, scene.settings.samples));
     return range;
 }

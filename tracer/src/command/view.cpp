@@ -7,9 +7,9 @@
 
 #include "command/commands.hpp"
 #include "command/max_memory.hpp"
+#include "command/option_error.hpp"
 #include "command/streams.hpp"
 #include "command/viewed_file.hpp"
-#include "output/error.hpp"
 #include "output/interrupt.hpp"
 #include "render/threads.hpp"
 #include "view/server.hpp"
@@ -44,10 +44,9 @@ void open_browser(const std::string& url) {
 }
 
 int view_scene(const ViewOptions& options) {
-    if (!view::can_serve())
-        throw OutputError("view: this phasetree was built without cpp-httplib, which serves the page");
+    view::require_server();
     if (options.scene->is_standard_input())
-        throw OutputError("view: the scene must be a file, which is read again when it is saved");
+        throw OptionError("view: the scene must be a file, which is read again when it is saved");
     const AvailableThreads threads(options.threads);
     const ViewedFile file = options.file();
     const view::SessionOptions session_options{

@@ -3,22 +3,12 @@
 #pragma once
 
 #include "film/path_record.hpp"
-#include "sampling/sobol.hpp"
-#include "world/world.hpp"
+#include "integrator/path_context.hpp"
 
 namespace phasetree::tracer {
 
 class Guide;
 class PathFindings;
-class PhotonEmission;
-class PhotonMap;
-
-/// The photons that a path gathers, if there are any.
-struct Photons {
-    const PhotonEmission* emission = nullptr;
-    const PhotonMap* map = nullptr;
-    explicit operator bool() const { return map != nullptr; }
-};
 
 /// Optional inputs and outputs of a path.
 struct PathHelp {

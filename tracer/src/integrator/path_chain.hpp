@@ -6,9 +6,8 @@
 #include <optional>
 
 #include "integrator/light_proposal.hpp"
+#include "integrator/path_context.hpp"
 #include "integrator/photon_density.hpp"
-#include "integrator/shadow_ray.hpp"
-#include "integrator/technique_weight.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
@@ -36,31 +35,17 @@ struct PathChain {
 
     /// The MIS weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do
     /// not follow is found by the path alone, whichever techniques are selected.
-    float weight(const Scene& scene, const Photons& photons, const Ray& ray) const {
-        return weight_with(scene, [&] { return line_density(photons, ray); });
-    }
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray) const;
     /// As above, for the emission of a surface that the ray met.
-    float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const {
-        return weight_with(scene, [&] { return line_density(photons, ray, glowing); });
-    }
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const;
     /// As above, for the emission of the ray's medium, from its origin up to a distance.
-    float weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const {
-        return weight_with(scene, [&] { return line_density_in_medium(photons, ray, distance); });
-    }
+    float weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const;
 
   private:
     /// Evaluates the line density only if photons bring the light.
     template <class LineDensity>
-    float weight_with(const Scene& scene, LineDensity&& line_density_at_end) const {
-        const float per_line = by_photons.per_line_density;
-        const bool is_found = per_line > 0.0f && photons_follow(interfaces());
-        return weight(scene, is_found ? per_line * line_density_at_end() : 0.0f);
-    }
-    float weight(const Scene& scene, float density_of_photons) const {
-        if (!pdf || length > longest_chain || (has_mirror && density_of_photons == 0.0f)) return 1;
-        return technique_weight(scene.settings.techniques, Technique::directions, *pdf,
-                                has_mirror ? 0.0f : proposal.pdf(scene.lights, direction), density_of_photons);
-    }
+    float weight_with(const Scene& scene, LineDensity&& line_density_at_end) const;
+    float weight(const Scene& scene, float density_of_photons) const;
 };
 
 }  // namespace phasetree::tracer

@@ -19,20 +19,12 @@ class PathGuiding {
         : guide_(guide), findings_(findings), is_spectral_(is_spectral) {}
 
     /// The guide's distribution of directions at a surface; null if only the BSDF chooses.
-    const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const {
-        if (!guide_ || !may_differ() || !can_be_guided(surface, bsdf)) return nullptr;
-        return guide_->at(surface.near_side.origin, facing_of(surface.geometric_normal));
-    }
+    const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const;
     /// Whether the path may still deviate from the pdfs of the BSDFs.
     bool may_differ() const { return pdf_over_unguided_ >= least_pdf_over_unguided; }
     /// Reports that the path leaves a surface in this direction of world space, with this throughput, before roulette.
     void leave(const Surface& surface, const Bsdf& bsdf, const GuidedBsdf::Sample& next, const glm::vec3& direction,
-               const glm::vec3& throughput) {
-        pdf_over_unguided_ *= next.pdf_over_unguided;
-        if (findings_ && !next.delta && can_be_guided(surface, bsdf))
-            findings_->leave(surface.near_side.origin, facing_of(surface.geometric_normal), direction,
-                             next.wi.z / next.pdf, brightness(throughput, is_spectral_));
-    }
+               const glm::vec3& throughput);
     /// Reports radiance that the path found. If the path is spectral, it is in the path's wavelengths, like the
     /// throughput passed to leave().
     void add_light(const glm::vec3& radiance) {
@@ -48,13 +40,6 @@ class PathGuiding {
     // (interface_choice.hpp), may double a path's weight at each surface, and once more after it has reached this
     // limit.
     static constexpr float least_pdf_over_unguided = 2.0f / PathRecord::weight_limit;
-
-    // Only opaque surfaces that receive light from nearly all directions are guided; elsewhere the BSDF is better.
-    // Media are not guided: a path is scattered there many times, and each guided direction widens the spread of path
-    // weights. For a body of jade, guiding increased the variance sevenfold.
-    static bool can_be_guided(const Surface& surface, const Bsdf& bsdf) {
-        return !surface.far_side && bsdf.is_diffuse();
-    }
 
     const Guide* guide_;
     PathFindings* findings_;

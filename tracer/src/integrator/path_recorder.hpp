@@ -3,6 +3,9 @@
 #pragma once
 
 #include "film/path_record.hpp"
+#include "integrator/guided.hpp"
+#include "integrator/path_wavelengths.hpp"
+#include "media/medium.hpp"
 #include "scene/scene.hpp"
 #include "world/hit.hpp"
 
@@ -10,28 +13,47 @@ namespace phasetree::tracer {
 
 class PathRecorder {
   public:
-    /// A null record disables recording. Refers to the scene.
-    PathRecorder(PathRecord* record, const Scene& scene) : record_(record), lights_(scene.lights) {
-        if (record_) begin(scene);
+    /// A null record disables recording. `camera_ior` is the refractive index around the camera. Refers to the scene.
+    PathRecorder(PathRecord* record, const Scene& scene, float camera_ior)
+        : record_(record), scene_(scene), camera_ior_(camera_ior) {
+        if (record_) begin();
     }
 
-    bool is_asked() const { return record_ != nullptr; }
+    /// The path has flown through a medium, up to a surface at the end of `segment`. To be called for paths in
+    /// wavelengths only. `throughput` is that at the start of the flight.
+    void flew(const Medium& medium, const Way& segment, const Flight& flight, const glm::vec3& throughput,
+              Sampler& sampler) {
+        if (record_) rgb_throughput_ *= rgb_weight(medium, segment, flight, throughput, sampler);
+    }
+
+    /// A path of red, green and blue has been dispersed.
+    void dispersed(const glm::vec3& throughput) { rgb_throughput_ = throughput; }
 
     /// The path has travelled this distance in the phase.
     void travelled(Phase phase, float distance) {
         if (record_ && !record_->behind) add_length(phase, distance);
     }
 
-    /// The path was scattered. `is_delta` is true for scattering into a few discrete directions, `is_link` for a smooth
-    /// clear interface. `weight` is that of the next direction, or 0, and `throughput` the path's including that
-    /// weight. Both apply to basic radiance, which is radiance over the square of the refractive index.
-    void scattered(const Surface& surface, bool is_delta, bool is_link, const glm::vec3& weight,
-                   const glm::vec3& throughput);
+    /// How the path leaves a surface.
+    struct Departure {
+        float u_lobe;                                   ///< the first argument of GuidedBsdf::sample()
+        glm::vec2 u;                                    ///< the second one
+        float odds;                                     ///< InterfaceChoice::odds_over_fresnel
+        const std::optional<GuidedBsdf::Sample>& next;  ///< the result
+    };
+    /// The path was scattered at a surface that it met in the phase `from`, with this throughput and wavelengths.
+    void scattered(const Surface& surface, const GuidedBsdf& bsdf, const Departure& departure, Phase from,
+                   const glm::vec3& throughput, const PathWavelengths& wavelengths) {
+        if (record_) add_departure(surface, bsdf, departure, from, throughput, wavelengths);
+    }
 
     /// The path's odds of taking its branch were this many times those by Fresnel.
     void chose(float odds_over_fresnel) {
         if (record_ && !record_->behind) record_->weight /= odds_over_fresnel;
     }
+
+    /// The path has survived roulette with this probability.
+    void survived(float probability) { rgb_throughput_ /= probability; }
 
     /// The camera ray met nothing and shows the background.
     void shows_background() {
@@ -57,13 +79,22 @@ class PathRecorder {
     }
 
   private:
-    void begin(const Scene& scene);
+    void begin();
+    static glm::vec3 rgb_weight(const Medium& medium, const Way& segment, const Flight& flight,
+                                const glm::vec3& throughput, Sampler& sampler);
     void add_length(Phase phase, float distance);
+    void add_departure(const Surface& surface, const GuidedBsdf& bsdf, const Departure& departure, Phase from,
+                       const glm::vec3& throughput, const PathWavelengths& wavelengths);
+    void add_surface(const Surface& surface, const Bsdf& bsdf, const std::optional<BsdfSample>& next, Phase from,
+                     const glm::vec3& throughput);
     void add_to_parts(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
                       const glm::vec3& direction, bool is_to_be_scattered);
 
     PathRecord* record_;
-    const Lights& lights_;
+    const Scene& scene_;
+    float camera_ior_;
+    /// The path's throughput in red, green and blue, for paths in wavelengths.
+    glm::vec3 rgb_throughput_{1.0f};
     float distance_ = 0;  ///< from the camera
     int scatterings_ = 0;
 };

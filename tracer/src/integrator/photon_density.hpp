@@ -2,15 +2,13 @@
 // density, which is known only at the light's end of a chain.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
-#include "caustics/photon_map.hpp"
 #include "caustics/photon_placement.hpp"
-#include "caustics/rough_chain.hpp"
 #include "integrator/guided.hpp"
-#include "integrator/path.hpp"
-#include "world/chain.hpp"
+#include "integrator/path_context.hpp"
+#include "scene/scene.hpp"
+#include "world/hit.hpp"
 
 namespace phasetree::tracer {
 
@@ -32,41 +30,19 @@ struct PhotonDensity {
 };
 
 /// The cosine by which photons from a local direction are spread over the surface, relative to the geometric normal.
-inline float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3& wi) {
-    if (surface.far_side) return std::abs(wi.z);
-    if (surface.normal == surface.geometric_normal) return wi.z;
-    return wi.z > 0.0f ? glm::dot(frame.to_world(wi), surface.geometric_normal) : 0.0f;
-}
+float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3& wi);
 
 /// N π r² n². In a dispersive phase, n is that of the d line: all techniques use the same factor, so their weights
 /// still sum to 1. Requires photons.
-inline float per_line_density_across(const Photons& photons, const Scene& scene, Phase phase) {
-    const float ior = clear_at(scene, phase).ior;
-    return photons.map->expected() * ior * ior;
-}
+float per_line_density_across(const Photons& photons, const Scene& scene, Phase phase);
 
 /// PhotonDensity::per_line_density of a direction at a surface that gathers photons; 0 if they do not count in it.
-inline float per_line_density_at(const Photons& photons, const Scene& scene, const Surface& surface,
-                                 const GuidedBsdf& bsdf, const glm::vec3& wi) {
-    // Photons with a smaller cosine are dropped, because their contribution is divided by the cosine and one of them
-    // would count a thousand times. The other techniques find such light instead, except for that of point lights.
-    constexpr float least_photon_cosine = 1e-3f;
-    if (!photons || bsdf.bsdf().is_delta()) return 0.0f;
-    const float cosine = photon_cosine(surface, bsdf.frame(), wi);
-    if (!(cosine > least_photon_cosine)) return 0.0f;
-    return per_line_density_across(photons, scene, wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) *
-           cosine;
-}
+float per_line_density_at(const Photons& photons, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
+                          const glm::vec3& wi);
 
 /// As above, for a direction that continues from a rough interface, if photons count at an earlier vertex. `before` is
 /// that of the direction in which the path left the earlier vertex, over the pdf with which the path chose it.
-inline float per_line_density_beyond(float before, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
-                                     const glm::vec3& wi) {
-    // A bump may send the path into the surface again, where no photon comes from.
-    if (!surface.far_side && !(photon_cosine(surface, bsdf.frame(), wi) > 0.0f)) return 0.0f;
-    const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
-    return before * rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene, left_to.phase).ior, wi.z,
-                                 clear_at(scene, surface.near_side.phase).ior, bsdf.wo().z);
-}
+float per_line_density_beyond(float before, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
+                              const glm::vec3& wi);
 
 }  // namespace phasetree::tracer

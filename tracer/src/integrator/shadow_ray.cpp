@@ -4,28 +4,16 @@
 
 #include "caustics/emission.hpp"
 #include "caustics/rough_chain.hpp"
+#include "integrator/line_density.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "world/chain.hpp"
 
 namespace phasetree::tracer {
 
-float line_density(const Photons& photons, const Ray& ray) {
-    return photons ? photons.emission->line_density(ray.origin, ray.direction, ray.phase) : 0.0f;
-}
-
-float line_density(const Photons& photons, const Ray& ray, const Surface& glowing) {
-    return photons ? photons.emission->line_density(glowing, ray.direction, glowing.distance) : 0.0f;
-}
-
-float line_density_in_medium(const Photons& photons, const Ray& ray, float distance) {
-    return photons ? photons.emission->line_density_in_medium(ray.origin, ray.direction, ray.phase, distance) : 0.0f;
-}
-
 namespace {
 
 // Arrival::line_density of a point light that is seen without refraction.
-float point_density(const ShadowRayContext& context, const Ray& ray, const LightSample& sampled,
-                    const OfPointLight& light) {
+float point_density(const PathContext& context, const Ray& ray, const LightSample& sampled, const OfPointLight& light) {
     if (!context.photons) return 0.0f;
     return context.photons.emission->direction_density(light.index, -ray.direction) /
            squared_optical_distance(clear_at(context.scene, ray.phase).ior, sampled.distance);
@@ -33,7 +21,7 @@ float point_density(const ShadowRayContext& context, const Ray& ray, const Light
 
 }  // namespace
 
-Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSample& sampled,
+Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample& sampled,
                          const PathWavelengths& path_wavelengths, int interfaces_before) {
     const auto density_at_end = [&](int length, const Surface* glowing) {
         if (!photons_follow(interfaces_before + length)) return 0.0f;
@@ -48,9 +36,10 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
     };
     Arrival arrival;
     glm::vec3 throughput(1.0f);
-    float to_sampled =
-        sampled.distance;  // distance of the sampled light from the ray's origin while the ray is straight
+    // The distance of the sampled light from the ray's origin while the ray is straight.
+    float to_sampled = sampled.distance;
     for (int length = 0, segment = 0;; ++segment) {
+        // Find what is in the way of the segment.
         const bool is_straight = segment == 0 || (sampled.is_of_point_light() && length == 0);
         const float far = is_straight ? to_sampled : Bounds::infinity;
         const Visibility met = context.world.geometry().visibility(ray, far, context.counters);
@@ -59,7 +48,8 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         const bool escaped = !surface && !blocked;
         const float distance = surface ? surface->distance : blocked ? blocked->distance : Bounds::infinity;
         if (segment == 0) arrival.to_boundary = distance;
-        const Medium& medium = clear_at(context.scene, ray.phase).interior;
+
+        // Find the light that the segment reaches: a lamp, what is behind everything, or an emissive surface.
         const Surface* glowing =
             blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
         std::optional<Lights::Emission> light;
@@ -70,14 +60,17 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
         if (light) glowing = nullptr;  // a lamp is in front of it
         if (const auto emitted = glowing ? glowing->emitted(ray_wavelengths.now()) : std::nullopt)
             light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
+
+        // Pass the medium.
+        const Medium& medium = clear_at(context.scene, ray.phase).interior;
         const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
         const float way = light ? light->distance : distance;
         const Passage passage =
             pass(medium, context.world.geometry().way_through_medium(ray, way, ray_wavelengths.now()), context.sampler);
-        const bool is_dispersed_here = ray_wavelengths.is_dispersed && !path_wavelengths.is_dispersed;
-        const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.wavelengths->hero_to_all : glm::vec3(1.0f);
+        const bool is_dispersed_here = ray_wavelengths.is_dispersed() && !path_wavelengths.is_dispersed();
+        const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.all()->hero_to_all : glm::vec3(1.0f);
         if (brings_emission && passage.emitted != glm::vec3(0.0f))
             arrival.from_media.push_back(
                 {throughput * passage.emitted * to_path, photons_follow(interfaces_before + length)
@@ -85,14 +78,18 @@ Arrival trace_shadow_ray(const ShadowRayContext& context, Ray ray, const LightSa
                                                              : 0.0f});
         throughput *= passage.left;
         if (is_dark || throughput == glm::vec3(0.0f)) return arrival;
+
+        // End at the light.
         if (light) {
             throughput *= to_path;
             arrival.light = Arrival::FromLight{throughput * light->radiance, light->source, ray.direction,
                                                density_at_end(length, glowing)};
             return arrival;
         }
+
+        // Continue through the interface, if it is smooth: straight on, reflected or refracted.
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;
-        if (surface->optics.get().disperses()) ray_wavelengths.is_dispersed = true;
+        if (surface->optics.get().disperses()) ray_wavelengths.disperse();
         const Bsdf bsdf = surface->bsdf(ray_wavelengths.now());
         if (bsdf.passes_through()) {
             to_sampled = std::max(to_sampled - distance, 0.0f);

@@ -4,32 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "integrator/path.hpp"
+#include "integrator/path_context.hpp"
+#include "integrator/path_wavelengths.hpp"
 #include "lights/lights.hpp"
-#include "spectrum/wavelengths.hpp"
 
 namespace phasetree::tracer {
-
-/// What shadow rays are traced in, and where they are counted.
-struct ShadowRayContext {
-    const World& world;
-    const Scene& scene;
-    const Photons& photons;
-    Sampler& sampler;
-    PathCounters& counters;
-};
-
-/// The wavelengths of the path that a shadow ray belongs to.
-struct PathWavelengths {
-    /// Those of a spectral path, or those that a path of colours will have once it is dispersed. Null only in scenes
-    /// that are not spectral and in which nothing disperses.
-    const Wavelengths* wavelengths = nullptr;
-    bool is_dispersed = false;  ///< whether the path has been dispersed already
-    /// What the path's numbers stand for; null if they are red, green and blue.
-    const Wavelengths* now() const {
-        return wavelengths && (is_dispersed || wavelengths->is_spectral) ? wavelengths : nullptr;
-    }
-};
 
 /// What a shadow ray found.
 struct Arrival {
@@ -68,15 +47,7 @@ struct Arrival {
 ///
 /// The ray may start at a rough interface that photons pass before they reach the point that gathers them.
 /// `interfaces_before` counts that interface and those from there to the gathering point.
-Arrival trace_shadow_ray(const ShadowRayContext&, Ray ray, const LightSample& sampled, const PathWavelengths&,
+Arrival trace_shadow_ray(const PathContext&, Ray ray, const LightSample& sampled, const PathWavelengths&,
                          int interfaces_before);
-
-/// The density with which photons start on the line along which a ray reaches a light (EmittedPhoton::line_density); 0
-/// without photons.
-float line_density(const Photons&, const Ray&);
-/// As above, for a ray that reaches an emissive surface.
-float line_density(const Photons&, const Ray&, const Surface& glowing);
-/// As above, for the segment of a ray, from its origin up to a distance, in an emissive medium.
-float line_density_in_medium(const Photons&, const Ray&, float distance);
 
 }  // namespace phasetree::tracer

@@ -49,6 +49,12 @@ FromPoint seen_from(const glm::vec3& p, const AnyPointLight& any) {
         any);
 }
 
+glm::vec3 radiance_from(const ListedInfiniteLight& infinite, const glm::vec3& direction,
+                        const Wavelengths* wavelengths) {
+    const glm::vec3 radiance = std::visit([&](const auto& light) { return light.radiance(direction); }, infinite.light);
+    return light_of(radiance, infinite.spectrum, wavelengths);
+}
+
 // Whether lights can be chosen by weights with this sum. Otherwise there is no sample.
 bool is_usable(float total) {
     return total > 0.0f && total < infinity;
@@ -63,23 +69,17 @@ std::size_t Lights::group_of(std::string_view name) {
 }
 
 void Lights::add(InfiniteLight light, std::string_view group, SharedLightSpectrum spectrum) {
-    infinite_spectrum_.push_back(std::move(spectrum));
-    irradiance_.emplace_back(light);
-    infinite_.push_back(std::move(light));
-    infinite_group_.push_back(group_of(group));
+    const DiffuseIrradiance irradiance(light);
+    infinite_.push_back({{std::move(light), group_of(group), std::move(spectrum)}, irradiance});
 }
 
 void Lights::add(AreaLight light, std::string_view group, SharedLightSpectrum spectrum) {
-    area_spectrum_.push_back(std::move(spectrum));
-    area_.push_back(std::move(light));
-    area_group_.push_back(group_of(group));
+    area_.push_back({std::move(light), group_of(group), std::move(spectrum)});
     tree_.add(LightNode::Kind::area);
 }
 
 void Lights::add(AnyPointLight light, std::string_view group, SharedLightSpectrum spectrum) {
-    point_spectrum_.push_back(std::move(spectrum));
-    points_.push_back(std::move(light));
-    point_group_.push_back(group_of(group));
+    points_.push_back({std::move(light), group_of(group), std::move(spectrum)});
     tree_.add(LightNode::Kind::point);
 }
 
@@ -93,7 +93,7 @@ void Lights::cluster_lamps() {
     const auto add_all = [&](const auto& lights, LightNode::Kind kind) {
         for (std::uint32_t i = 0; i < lights.size(); ++i)
             lamps.push_back(
-                {{kind, i}, std::visit([](const auto& light) { return light.emission_bounds(); }, lights[i])});
+                {{kind, i}, std::visit([](const auto& light) { return light.emission_bounds(); }, lights[i].light)});
     };
     add_all(area_, LightNode::Kind::area);
     add_all(points_, LightNode::Kind::point);
@@ -105,37 +105,47 @@ void Lights::cluster_lamps() {
 void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
                            const glm::vec3& direction, std::span<glm::vec3> groups) const {
     const glm::vec3 radiance = colour_of_found(found, wavelengths);
-    const auto is_like_first = [&](std::size_t group) { return group == infinite_group_.front(); };
+    const auto is_like_first = [&](const auto& infinite) { return infinite.group == infinite_.front().group; };
     if (const auto* area = std::get_if<OfAreaLight>(&source)) {
-        groups[area_group_[area->index]] += radiance;
+        groups[area_[area->index].group] += radiance;
     } else if (const auto* point = std::get_if<OfPointLight>(&source)) {
-        groups[point_group_[point->index]] += radiance;
+        groups[points_[point->index].group] += radiance;
     } else if (const auto* glowing = std::get_if<OfGlowingSurface>(&source)) {
         groups[glowing->group] += radiance;
     } else if (std::holds_alternative<Background>(source) || infinite_.empty()) {
         groups[0] += radiance;
-    } else if (std::ranges::all_of(infinite_group_, is_like_first)) {
-        groups[infinite_group_.front()] += radiance;
+    } else if (std::ranges::all_of(infinite_, is_like_first)) {
+        groups[infinite_.front().group] += radiance;
     } else if (const glm::vec3 all = infinite_radiance(direction, wavelengths); all == glm::vec3(0.0f)) {
-        groups[infinite_group_.front()] += radiance;
+        groups[infinite_.front().group] += radiance;
     } else {
-        for (std::size_t i = 0; i < infinite_.size(); ++i) {
-            const glm::vec3 part = radiance_of_infinite(i, direction, wavelengths);
+        for (const ListedInfiniteLight& infinite : infinite_) {
+            const glm::vec3 part = radiance_from(infinite, direction, wavelengths);
             glm::vec3 share(0.0f);
             // The light of a dispersed shadow ray has colours that the lights did not emit. It is divided by
             // brightness.
             for (int c = 0; c < 3; ++c)
                 share[c] = found[c] * (all[c] > 0 ? part[c] / all[c] : luminance(part) / luminance(all));
-            groups[infinite_group_[i]] += colour_of_found(share, wavelengths);
+            groups[infinite.group] += colour_of_found(share, wavelengths);
         }
     }
 }
 
 std::vector<SharedLightSpectrum> Lights::spectra() const {
     std::vector<SharedLightSpectrum> all;
-    for (const auto* const of_kind : {&infinite_spectrum_, &area_spectrum_, &point_spectrum_})
-        all.insert(all.end(), of_kind->begin(), of_kind->end());
+    const auto add_all = [&](const auto& lights) {
+        for (const auto& listed : lights) all.push_back(listed.spectrum);
+    };
+    add_all(infinite_);
+    add_all(area_);
+    add_all(points_);
     return all;
+}
+
+glm::vec3 Lights::infinite_radiance(const glm::vec3& direction, const Wavelengths* wavelengths) const {
+    glm::vec3 sum(0.0f);
+    for (const ListedInfiniteLight& infinite : infinite_) sum += radiance_from(infinite, direction, wavelengths);
+    return sum;
 }
 
 void Lights::set_background(const std::optional<glm::vec3>& radiance) {
@@ -151,12 +161,12 @@ float Lights::weigh(const LightReceiver& at, std::span<float> weights) const {
             [&](const auto& light) {
                 const std::optional<glm::vec3> centre = light.centre_direction();
                 // With portals, all of the light counts: what is seen through them is hardly found by chance.
-                const float part = centre || !portals_.empty() ? 1.0f : irradiance_[i].unevenness();
+                const float part = centre || !portals_.empty() ? 1.0f : infinite_[i].irradiance.unevenness();
                 if (!at.normal) return part * light.fluence();
-                if (!centre) return part * irradiance_[i].at(*at.normal);
+                if (!centre) return part * infinite_[i].irradiance.at(*at.normal);
                 return light.fluence() * std::max(glm::dot(*centre, *at.normal), least_cosine_of_sun);
             },
-            infinite_[i]);
+            infinite_[i].light);
         total += weights[index++];
     }
     for (const LightNode& root : tree_.roots()) {
@@ -177,13 +187,13 @@ float Lights::received_from(const LightNode& node, const LightReceiver& at) cons
                 const double cosine = at.normal ? mean_cosine(light.bounding_sphere(), at) : 1.0;
                 return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
             },
-            area_[node.number]);
+            area_[node.number].light);
     if (node.kind == LightNode::Kind::glowing) {
         const GlowingPart& part = glowing_[node.number];
         const double cosine = at.normal ? mean_cosine(part.bounding_sphere(), at) : 1.0;
         return static_cast<float>(static_cast<double>(part.luminance()) * part.solid_angle(at.p) * cosine);
     }
-    const FromPoint from_point = seen_from(at.p, points_[node.number]);
+    const FromPoint from_point = seen_from(at.p, points_[node.number].light);
     const float cosine = at.normal ? std::max(glm::dot(from_point.direction, *at.normal), 0.0f) : 1.0f;
     return cosine > 0.0f ? luminance(from_point.irradiance) * cosine : 0.0f;
 }
@@ -200,7 +210,7 @@ void Lights::move_weight_to_portals(const glm::vec3& p, std::span<float> weights
     if (!(solid_angle > 0.0f)) return;
     float moved = 0.0f;
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
-        if (std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i])) continue;
+        if (std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i].light)) continue;
         moved += part * weights[i];
         weights[i] *= 1.0f - part;
     }
@@ -216,8 +226,8 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
     };
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
         if (is_other(i))
-            density +=
-                weights[i] / total * std::visit([&](const auto& light) { return light.pdf(direction); }, infinite_[i]);
+            density += weights[i] / total *
+                       std::visit([&](const auto& light) { return light.pdf(direction); }, infinite_[i].light);
     }
     float of_portals = 0.0f;
     for (std::size_t i = 0; i < portals_.size(); ++i)
@@ -244,7 +254,7 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
                 hit(lamp.number, *distance);
                 add([&] { return light.pdf_at(at.p, direction, *distance); });
             },
-            area_[lamp.number]);
+            area_[lamp.number].light);
     });
     return density;
 }
@@ -297,18 +307,19 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
     if (!(probability > 0.0f)) return std::nullopt;
     std::optional<DirectionSample> sampled;
     if (chosen.weight < infinite_.size()) {
-        sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen.weight]);
+        sampled = std::visit([&](const auto& light) { return light.sample(u); }, infinite_[chosen.weight].light);
     } else if (!chosen.lamp) {
         sampled = portals_[chosen.weight - first_portal()].sample(p, u);
     } else if (chosen.lamp->kind == LightNode::Kind::point) {
-        const FromPoint from_point = seen_from(p, points_[chosen.lamp->number]);
-        const glm::vec3 irradiance = light_of(from_point.irradiance, point_spectrum_[chosen.lamp->number], wavelengths);
+        const ListedLight<AnyPointLight>& point = points_[chosen.lamp->number];
+        const FromPoint from_point = seen_from(p, point.light);
+        const glm::vec3 irradiance = light_of(from_point.irradiance, point.spectrum, wavelengths);
         return LightSample{from_point.direction, from_point.distance, irradiance, probability,
                            OfPointLight{chosen.lamp->number}};
     } else if (chosen.lamp->kind == LightNode::Kind::glowing) {
         sampled = glowing_[chosen.lamp->number].sample(p, u);
     } else {
-        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen.lamp->number]);
+        sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen.lamp->number].light);
     }
     if (!sampled) return std::nullopt;
     const glm::vec3 wi = sampled->direction;
@@ -332,11 +343,11 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
 }
 
 glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
-    if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number]).direction;
+    if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number].light).direction;
     if (node.kind == LightNode::Kind::cluster) return glm::normalize(tree_.sphere(node.number).centre - p);
     if (node.kind == LightNode::Kind::glowing) return glm::normalize(glowing_[node.number].centre() - p);
     const glm::vec2 middle(0.5f);
-    return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number]);
+    return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number].light);
 }
 
 std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm::vec3& normal) const {
@@ -353,8 +364,9 @@ std::optional<glm::vec3> Lights::towards_brightest(const glm::vec3& p, const glm
         return true;
     };
     for (std::size_t i = 0; i < infinite_.size(); ++i)
-        consider(weights.values()[i],
-                 [&] { return std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i]); });
+        consider(weights.values()[i], [&] {
+            return std::visit([](const auto& light) { return light.centre_direction(); }, infinite_[i].light);
+        });
     std::optional<LightNode> node;
     for (std::size_t i = 0; i < tree_.roots().size(); ++i) {
         const LightNode root = tree_.roots()[i];

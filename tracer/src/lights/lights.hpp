@@ -87,6 +87,18 @@ struct LightSample {
 
 inline constexpr std::string_view default_group = "default";
 
+/// A light of the list.
+template <class Light>
+struct ListedLight {
+    Light light;
+    std::size_t group;               ///< its number in Lights::groups()
+    SharedLightSpectrum spectrum{};  ///< null for a light that has only a colour
+};
+
+struct ListedInfiniteLight : ListedLight<InfiniteLight> {
+    DiffuseIrradiance irradiance;
+};
+
 class Lights {
   public:
     struct Emission {
@@ -129,9 +141,9 @@ class Lights {
     bool empty() const { return infinite_.empty() && area_.empty() && points_.empty(); }
     /// The spectra of all lights; null for one without.
     std::vector<SharedLightSpectrum> spectra() const;
-    std::span<const InfiniteLight> infinite() const { return infinite_; }
-    std::span<const AreaLight> area() const { return area_; }
-    std::span<const AnyPointLight> points() const { return points_; }
+    std::span<const ListedInfiniteLight> infinite() const { return infinite_; }
+    std::span<const ListedLight<AreaLight>> area() const { return area_; }
+    std::span<const ListedLight<AnyPointLight>> points() const { return points_; }
     std::span<const GlowingPart> glowing() const { return glowing_; }
 
     /// Samples a direction; `u` is in [0, 1)². u.x chooses the light. Its remainder, rescaled to [0, 1), is the x of
@@ -209,19 +221,15 @@ class Lights {
     float with_others(float density, const std::optional<Chosen>& chosen, const LightReceiver& at,
                       const glm::vec3& direction, std::span<const float> weights, float total, const Hit& hit) const;
     Emission emission_of(std::uint32_t area_light, float distance, const Wavelengths* wavelengths) const;
-    glm::vec3 radiance_of_infinite(std::size_t index, const glm::vec3& direction, const Wavelengths* wavelengths) const;
     glm::vec3 infinite_radiance(const glm::vec3& direction, const Wavelengths* wavelengths) const;
 
-    std::vector<InfiniteLight> infinite_;
-    std::vector<DiffuseIrradiance> irradiance_;  ///< of each infinite light
-    std::vector<AreaLight> area_;
-    std::vector<AnyPointLight> points_;
+    std::vector<ListedInfiniteLight> infinite_;
+    std::vector<ListedLight<AreaLight>> area_;
+    std::vector<ListedLight<AnyPointLight>> points_;
     std::vector<GlowingPart> glowing_;
     LightTree tree_;  ///< of the area and point lights, and of emissive parts
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};
-    std::vector<std::size_t> infinite_group_, area_group_, point_group_;                   ///< the group of each light
-    std::vector<SharedLightSpectrum> infinite_spectrum_, area_spectrum_, point_spectrum_;  ///< of each light
     std::optional<glm::vec3> background_;
 };
 

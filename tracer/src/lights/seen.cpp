@@ -15,8 +15,8 @@ constexpr float nothing_in_the_way = std::numeric_limits<float>::infinity();
 
 Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance, const Wavelengths* wavelengths) const {
     const glm::vec3 radiance =
-        std::visit([](const auto& light) { return glm::vec3(light.radiance()); }, area_[area_light]);
-    return {distance, light_of(radiance, area_spectrum_[area_light], wavelengths), OfAreaLight{area_light}};
+        std::visit([](const auto& light) { return glm::vec3(light.radiance()); }, area_[area_light].light);
+    return {distance, light_of(radiance, area_[area_light].spectrum, wavelengths), OfAreaLight{area_light}};
 }
 
 float Lights::glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const {
@@ -30,8 +30,9 @@ float Lights::glowing_luminance(const glm::vec3& origin, const glm::vec3& direct
 }
 
 glm::vec3 Lights::intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths) const {
-    const glm::vec3 intensity = std::visit([&](const auto& light) { return light.intensity(away); }, points_[index]);
-    return light_of(intensity, point_spectrum_[index], wavelengths);
+    const glm::vec3 intensity =
+        std::visit([&](const auto& light) { return light.intensity(away); }, points_[index].light);
+    return light_of(intensity, points_[index].spectrum, wavelengths);
 }
 
 std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin, const glm::vec3& direction,
@@ -48,7 +49,7 @@ std::optional<Lights::Emission> Lights::area_light_seen(const glm::vec3& origin,
                 const auto distance = light.intersect(origin, direction);
                 if (distance && *distance < farthest()) nearest = emission_of(lamp.number, *distance, wavelengths);
             },
-            area_[lamp.number]);
+            area_[lamp.number].light);
     });
     return nearest;
 }
@@ -68,7 +69,7 @@ std::optional<float> Lights::area_light_in_the_way(const glm::vec3& origin, cons
                 const auto back = light.intersect(origin + end * direction, -direction);
                 if (back && *back < end && (!nearest || end - *back < *nearest)) nearest = end - *back;
             },
-            area_[number]);
+            area_[number].light);
     });
     return nearest;
 }
@@ -80,19 +81,6 @@ std::optional<Lights::Emission> Lights::seen(const glm::vec3& origin, const glm:
     if (camera_ray && background_)
         return Emission{nothing_in_the_way, for_light(*background_, wavelengths), Background{}};
     return Emission{nothing_in_the_way, infinite_radiance(direction, wavelengths), InfiniteLights{}};
-}
-
-glm::vec3 Lights::radiance_of_infinite(std::size_t index, const glm::vec3& direction,
-                                       const Wavelengths* wavelengths) const {
-    const glm::vec3 radiance =
-        std::visit([&](const auto& light) { return light.radiance(direction); }, infinite_[index]);
-    return light_of(radiance, infinite_spectrum_[index], wavelengths);
-}
-
-glm::vec3 Lights::infinite_radiance(const glm::vec3& direction, const Wavelengths* wavelengths) const {
-    glm::vec3 sum(0.0f);
-    for (std::size_t i = 0; i < infinite_.size(); ++i) sum += radiance_of_infinite(i, direction, wavelengths);
-    return sum;
 }
 
 }  // namespace phasetree::tracer

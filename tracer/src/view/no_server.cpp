@@ -1,12 +1,12 @@
 // Replaces server.cpp in builds without cpp-httplib.
 #include "view/server.hpp"
 
-#include <stdexcept>
-
 namespace phasetree::tracer::view {
 
-bool can_serve() {
-    return false;
+void require_server() {
+    throw MissingLibraryError(
+        "this phasetree was built without cpp-httplib, which serves the page: install libcpp-httplib-dev, or the "
+        "library from github.com/yhirose/cpp-httplib, and build again");
 }
 
 std::string server_library() {
@@ -14,7 +14,7 @@ std::string server_library() {
 }
 
 void serve(Session&, const ServeOptions&) {
-    throw std::logic_error("this build cannot serve pages");
+    require_server();
 }
 
 }  // namespace phasetree::tracer::view

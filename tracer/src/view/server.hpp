@@ -2,14 +2,21 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "view/session.hpp"
 
 namespace phasetree::tracer::view {
 
-/// Whether this build includes the server library.
-bool can_serve();
+/// This build lacks a library. The message says how to add it.
+class MissingLibraryError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws MissingLibraryError if this build does not include the server library.
+void require_server();
 /// The name and version of the server library, as in "cpp-httplib 0.11.4"; empty if this build cannot serve pages.
 std::string server_library();
 

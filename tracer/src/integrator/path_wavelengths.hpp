@@ -1,0 +1,31 @@
+// The wavelengths of a path, and whether it has been dispersed (spectrum/wavelengths.hpp).
+#pragma once
+
+#include <optional>
+
+#include "spectrum/wavelengths.hpp"
+
+namespace phasetree::tracer {
+
+class PathWavelengths {
+  public:
+    /// For a path of red, green and blue in a scene where nothing disperses.
+    PathWavelengths() = default;
+    /// For a path that is spectral or may be dispersed.
+    explicit PathWavelengths(const Wavelengths& all) : all_(all) {}
+
+    /// Those of a spectral path, or those that a path of colours has once it is dispersed; null without wavelengths.
+    const Wavelengths* all() const { return all_ ? &*all_ : nullptr; }
+    /// What the path's numbers stand for; null if they are red, green and blue.
+    const Wavelengths* now() const { return all_ && (is_dispersed_ || all_->is_spectral) ? &*all_ : nullptr; }
+
+    bool is_dispersed() const { return is_dispersed_; }
+    /// From here on, the path carries its hero wavelength only. Requires all().
+    void disperse() { is_dispersed_ = true; }
+
+  private:
+    std::optional<Wavelengths> all_;
+    bool is_dispersed_ = false;
+};
+
+}  // namespace phasetree::tracer
