@@ -17,8 +17,8 @@ struct CellsFile;
 /// An object divided into cells: boxes around its interfaces, each with the few instructions that matter there. A ray
 /// changes phase only inside a cell. The caller finds the cells along a ray, for example with Embree.
 ///
-/// Within a cell and up to reach() beyond it, the cell's program gives the labels of the whole object, and distances
-/// within which the label stays the same. Immutable; any thread may read it.
+/// In all of bounds(cell), the cell's program gives the labels of the whole object, and distances within which the
+/// label stays the same. Immutable; any thread may read it.
 class InterfaceCells {
   public:
     /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too
