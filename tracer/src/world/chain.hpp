@@ -1,5 +1,6 @@
-// Chains of smooth interfaces between clear phases, which shadow rays and photons follow with Fresnel's odds
-// (path.hpp). Photons also follow them through mirrors, rough metal and rough interfaces (caustics/rough_chain.hpp).
+// Chains of smooth interfaces between clear phases, which shadow rays and photons follow with the probabilities of
+// Fresnel's equations (path.hpp). Photons also follow them through mirrors, rough metal and rough interfaces
+// (caustics/rough_chain.hpp).
 #pragma once
 
 #include <algorithm>

@@ -34,7 +34,8 @@ class InterfaceCells {
     const Bounds& bounds() const;
 
     /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). For a ray
-    /// that starts at a crossing of this cell, the hint usually spares the search. It must come from this cell.
+    /// that starts at a crossing of this cell, the hint usually makes a search unnecessary. It must come from this
+    /// cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
                                            std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;
