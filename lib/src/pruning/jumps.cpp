@@ -33,7 +33,7 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-// The guard above a fold tells whether the fold may jump in the ball: the guard's first operand (its bound) is at least
+// The guard above a fold shows whether the fold may jump in the ball: the guard's first operand (its bound) is at least
 // half of the guard's constant wherever the fold jumps (`guarded` in math/number.hpp). A guard and its fold are matched
 // by their point: endless_grid measures the bound at the very point that it folds. Pruning requires the bound
 // everywhere (resolve_guarded), so only a value that equals it can replace it. If the replacement's operand is another

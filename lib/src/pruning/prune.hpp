@@ -72,8 +72,8 @@ struct RangesInBall {
 };
 
 /// Prunes a program for a region, given the ranges of its values there. Returns nullopt if no ray can meet an interface
-/// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`,
-/// except that a program of which nothing can be deleted is returned itself.
+/// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`.
+/// If nothing can be deleted from the program, the program itself may be returned.
 ///
 /// In the region, the result gives the same labels, and the absolute values of its components are still lower bounds of
 /// the distance to where the label changes.
