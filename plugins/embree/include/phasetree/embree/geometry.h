@@ -60,8 +60,8 @@ typedef struct PhasetreeGeometryOptions {
     PhasetreePhaseSet shownPhases;
     /* Phases that rays never enter because their materials are opaque. Interfaces between two of them are not searched
      * for, so the geometry builds and traces as fast as its outer surface alone. A ray that starts inside an opaque
-     * phase finds only some of its interfaces, and phasetreeFindClosestInterface ignores interfaces between two opaque
-     * phases. Filters must therefore not let rays pass into these phases. They must be shown, and may not include the
+     * phase finds only some of its interfaces, so filters must not let rays pass into these phases.
+     * phasetreeFindClosestInterface ignores interfaces between two of them. They must be shown, and may not include the
      * vacuum.
      */
     PhasetreePhaseSet opaquePhases;
