@@ -61,8 +61,8 @@ typedef struct PhasetreeGeometryOptions {
     /* Phases that rays never enter because their materials are opaque. Interfaces between two of them are not searched
      * for, so the geometry builds and traces as fast as its outer surface alone. A ray that starts inside an opaque
      * phase finds only some of its interfaces, so filters must not let rays pass into these phases.
-     * phasetreeFindClosestInterface ignores interfaces between two of them. They must be shown, and may not include the
-     * vacuum.
+     * phasetreeFindClosestInterface ignores interfaces between two of them. Opaque phases must be shown, and may not
+     * include the vacuum.
      */
     PhasetreePhaseSet opaquePhases;
     /* Polled from any thread while cells are built; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL.
