@@ -1,5 +1,5 @@
 // The reference of the nodes, as page, text and schema, follows from the nodes' own definitions. What a whole scene
-// file may say, the path tracer's kinds too, is in tracer/scene_reference.cpp.
+// file may say, the path tracer's kinds too, is in tracer/scene/scene_reference.cpp.
 
 #include "phasetree/io/reference.hpp"
 

@@ -29,7 +29,7 @@ inline constexpr std::array<std::uint64_t, CellsFileHeader::sections> item_bytes
     sizeof(StoredCell),    sizeof(RoutineTables::Shape),  sizeof(Step),          sizeof(OutputSlot),
     sizeof(std::uint32_t), sizeof(PackedCertificateStep), sizeof(std::uint32_t), sizeof(float)};
 
-/// The kind of machine. The instruction set is not part of it, because the tables are the same for all of them.
+/// The processor architecture. The instruction set is not part of it, because the tables are the same for all of them.
 std::string_view machine();
 /// The text in an array of the header. Control characters and non-ASCII bytes, which could disturb a terminal, become
 /// "?".

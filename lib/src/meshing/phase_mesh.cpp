@@ -191,7 +191,8 @@ class Mesher {
         }
     }
 
-    // An edge of the grid shows one crossing if its ends have different labels; all other crossings are skipped.
+    // An edge of the grid shows one of its crossings, if it has any and its ends have different labels; all others are
+    // skipped.
     void count_crossings(PhaseMesh& mesh) const {
         for (const CrossingsAlong& axis : crossings_) mesh.crossings += axis.size();
         std::vector<std::size_t> shown(static_cast<std::size_t>(grid_.points.z), 0);

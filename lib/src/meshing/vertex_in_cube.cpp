@@ -42,9 +42,9 @@ Eigen eigen_of(glm::dmat3 a) {
     return {{a[0][0], a[1][1], a[2][2]}, {v[0], v[1], v[2]}};
 }
 
-// How far outside the cube the vertex may be, in side lengths. This limit keeps few vertices from an edge of the object
-// to which they belong. With a larger one, vertices of neighbouring cubes pass each other where two faces meet at a
-// small angle, and the triangles between them fold over.
+// How far outside the cube the vertex may be, in side lengths. With this limit, only few vertices that belong on an
+// edge of the object miss it. With a larger one, vertices of neighbouring cubes pass each other where two faces meet at
+// a small angle, and the triangles between them fold over.
 constexpr double most_outside = 0.5;
 
 // Returns b. If that is too far from the cube, returns the point where the segment from a, which is in the cube, to b

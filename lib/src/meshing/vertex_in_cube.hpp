@@ -6,9 +6,9 @@
 // between two faces and at the corner of three.
 //
 // If the surface is smooth, the planes meet as far on one side of it as m is on the other. For points at the distance d
-// to both sides on a surface of curvature κ, m is κd²/2 below it, and the planes meet κd²/2 above it. So where all
-// normals agree up to a bend, the vertex is halfway to where the planes meet, which is on the surface as far as κ is
-// constant.
+// to both sides on a surface of curvature κ, m is κd²/2 below it, and the planes meet κd²/2 above it. So if the normals
+// differ only by the surface's curvature, the vertex is placed halfway between m and the point where the planes meet,
+// which is on the surface as far as κ is constant.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -65,10 +65,10 @@ Change change_of_lowest(const CubeLabels& c) {
     return {};
 }
 
-// Finds the change that a cube needs, if any. The outermost points are all vacuum, and stay so. In a cube with four of
-// them, any side that contains some of them contains two neighbouring ones, so no phase is only at opposite corners.
-// In such a cube, each patch surrounds corners of the inner side. So in a patch, the vacuum has one ring, and so have
-// all other phases taken together.
+// Finds the change that a cube needs, if any. The outermost points are all vacuum, and stay so. A cube at the border
+// has at least four of them as corners. Each of its sides that has such corners has two adjacent ones, so no phase is
+// only at opposite corners of that side. In such a cube, each patch surrounds corners of the inner side. So in a patch,
+// the vacuum has one ring, and so have all other phases taken together.
 Change change_of(const CubeLabels& c) {
     if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);

@@ -4,11 +4,12 @@
 // their voxels nowhere touch only along an edge or only at a corner. We require less, because a cube may have several
 // vertices (cube_patches.hpp). In each cube, consider the cube's edges that have exactly one end in a given phase. Each
 // such edge lies on two sides of the cube, and on each of them it is linked to one other such edge. So they form closed
-// rings. Triangles around an edge of the grid have
-// vertices in four cubes. So every edge of a triangle leads across one side of a cube, or is the diagonal between two
-// cubes that share one edge. Only two problems can then remain:
+// rings. The triangles of a grid edge have their vertices in the four cubes around it. So each edge of a triangle
+// either crosses the common side of two cubes, or is the diagonal between two cubes that share only an edge. Two
+// problems remain (cube_patches.hpp defines patches and walls):
 //   - a patch has two rings of a phase, which touch at its vertex;
-//   - both faces of a wall across a side belong to the same patch, so that they may share an edge there.
+//   - both faces of a wall across a side (WallAcross in cube_patches.hpp) belong to the same patch, so that they may
+//     share an edge there.
 #pragma once
 
 #include <functional>
@@ -18,10 +19,10 @@
 
 namespace phasetree::meshing {
 
-/// Changes labels until neither problem occurs. Labels only increase, and only take values adjacent to them, so this
-/// terminates. As a result, a phase of a higher index fills gaps narrower than the grid. Before the call, all sides
-/// around which phases alternate must have been examined (JoinedSides); the same holds afterwards. The outermost points
-/// must be vacuum, and stay so. `cancelled` is called periodically, and may throw.
+/// Changes labels until neither problem occurs. A label is only ever replaced by a higher one that a neighbouring point
+/// has, so this terminates. As a result, a phase of a higher index fills gaps narrower than the grid. Before the call,
+/// all sides around which phases alternate must have been examined (JoinedSides); the same holds afterwards. The
+/// outermost points must be vacuum, and stay so. `cancelled` is called periodically, and may throw.
 void make_well_composed(const Grid&, Labels&, JoinedSides&, const std::function<void()>& cancelled);
 
 }  // namespace phasetree::meshing

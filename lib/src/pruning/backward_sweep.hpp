@@ -10,9 +10,9 @@ namespace phasetree::pruning {
 using program::operands, program::ProgramOutput;
 using rewriting::LiveSet, rewriting::Rewriter, rewriting::SignedValue;
 
-/// The sweep of prune.hpp over one program, from the last instruction to the first. From the ranges of its operands and
-/// its own required interval, it decides what each instruction becomes, and what that requires of the operands.
-/// `Ranges` provides the values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
+/// The sweep of prune.hpp over one program, from the last instruction to the first. For each instruction, it decides
+/// from the ranges of the operands and from the required interval what the instruction becomes, and what that requires
+/// of the operands. `Ranges` provides the values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
 template <class Ranges>
 class BackwardSweep {
   public:

@@ -114,8 +114,8 @@ void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     // If a is above r by more than the radius, b replaces the smooth minimum:
     //  - Where b ≤ r.high, it is more than the radius below a, so it is the smooth minimum.
     //  - Where b > r.high, the smooth minimum is above r as well. If b is the smaller, blending lowers it by at most a
-    //    sixth of ρ − (a − b), and it is above r by more than all of that. If a is the smaller, it is above r by more
-    //    than ρ, and is lowered by at most a sixth of ρ.
+    //    sixth of ρ − (a − b), which is less than its distance above r. If a is the smaller, it is above r by more than
+    //    ρ, and is lowered by at most a sixth of ρ.
     // The same holds with a and b exchanged.
     if (low(in.a) > r.high() + radius) return replace(i, in.b);
     if (low(in.b) > r.high() + radius) return replace(i, in.a);
@@ -144,8 +144,9 @@ void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
         change(i, Op::maximum);
         return resolve_maximum(i);
     }
-    // The bound itself is required, because c − a depends on it. The field does not matter below the smallest value of
-    // the bound, which is then the maximum, nor below r, nor above r, where min(b, c − a) is above r or equals c − a.
+    // The bound a itself is required, because c − a depends on it. The field b does not matter below the smallest value
+    // of a, because the maximum is a there. It does not matter below r, because min(b, c − a) is then below r, too. Nor
+    // does it matter above r, because min(b, c − a) is then above r or equals c − a.
     require(in.a, RequiredInterval::all());
     require(in.b, {std::max(r.low(), low(in.a)), r.high()});
 }

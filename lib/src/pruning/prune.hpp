@@ -18,14 +18,14 @@
 /// *By the required interval*: only the sign of an output matters, and the sign of max(a, b) − τ is that of b − τ if a
 /// stays below τ. Negations, offsets and scalings only move the threshold τ. In min(a, b), values of a above the
 /// largest value of b do not matter, because the minimum is b there. So each value is required only in an interval;
-/// outside of it, only the side matters (required_interval.hpp). In a long chain of minima,
-/// this prunes the links that are far from the region, wherever they are in the chain, even if each link is too close
-/// to the next to be pruned by value.
+/// outside of it, only the side matters (required_interval.hpp). In a long chain of minima, this prunes the links that
+/// are far from the region, wherever they are in the chain, even if each link is too close to the next to be pruned by
+/// value.
 ///
-/// A replacement equals the value within its required interval, and outside lies on the same side of it. Both operands
-/// of min(a, b) may be replaced at once, a by a′ and b by b′, which also equal them at the interval's ends. Let the
-/// minimum be required in [l, u], and let A and B be the largest values of a and b in the region. Then a is required in
-/// [l, min(u, B)] and b in [l, min(u, A)]. Where a ≤ b (and likewise where b ≤ a),
+/// Where a value lies in its required interval, ends included, its replacement equals it. Elsewhere, both lie on the
+/// same side of the interval. Both operands of min(a, b) may be replaced at once, a by a′ and b by b′. Let the minimum
+/// be required in [l, u], and let A and B be the largest values of a and b in the region. Then a is required in [l,
+/// min(u, B)] and b in [l, min(u, A)]. Where a ≤ b (and likewise where b ≤ a),
 ///     l ≤ a ≤ u   a′ = a, for a ≤ b ≤ B;  b′ = b, or both are above min(u, A) ≥ a   so min(a′, b′) = a
 ///     a > u       a′ > u;                 b′ > u, for b ≥ a > u                     so min(a′, b′) > u
 ///     a < l       a′ < l                                                            so min(a′, b′) < l
@@ -45,6 +45,10 @@
 ///     operand, which is the instruction's bound. An operand that replaces a sum whose other operand is zero is no
 ///     steeper than the sum of both bounds.
 ///   - The maximum that replaces `guarded` gets the bound of its steeper operand.
+///
+/// Three types of the namespace `rewriting` are parameters of the functions here. A WorkingProgram is a program derived
+/// from an object's program for a part of space. ProgramContext holds what all of these share: constants, the error
+/// bound, the opaque phases. Arenas are where results and scratch data are allocated.
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;
@@ -68,8 +72,8 @@ struct RangesInBall {
 };
 
 /// Prunes a program for a region, given the ranges of its values there. Returns nullopt if no ray can meet an interface
-/// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`,
-/// unless it is the program itself because that was pruned before and nothing is deleted.
+/// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`.
+/// If nothing can be deleted from the program, the program itself may be returned.
 ///
 /// In the region, the result gives the same labels, and the absolute values of its components are still lower bounds of
 /// the distance to where the label changes.

@@ -77,7 +77,7 @@ class PhaseMesh(NamedTuple):
     names: tuple  #: of the phases
     spacing: float  #: of the grid's points
     crossings: int  #: along the lines of the grid
-    passed_over: int  #: how many of these are not shown, because a phase is thinner there than the spacing
+    passed_over: int  #: how many of these are not shown: at edges, and where a phase is thinner than the spacing
 
     def surface(self, *phases):
         """What bounds some phases together, each given by itself or by its name: (vertices, triangles).

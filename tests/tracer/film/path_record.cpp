@@ -96,8 +96,8 @@ TEST_CASE("the first surface of a ball: where it is, how it faces, which phases 
     CHECK_FALSE(one_path(scene, {0, -10, 0}, {0, 0, 1}).record.first);
 }
 
-// A ray that F decides to reflect at once does not enter, and one within goes on for another passage d' with the odds F
-// each time, so that the mean length is (1 − F) d'/(1 − F) = d'.
+// A ray that F decides to reflect at once does not enter, and one within goes on for another passage d' with the
+// probability F each time, so that the mean length is (1 − F) d'/(1 − F) = d'.
 TEST_CASE("the length of the camera ray in a slab of glass, and what is seen behind it") {
     const Scene scene =
         scene_of(R"("glass": {"clear": {"ior": 1.5}}, "paper": {"diffuse": {"color": [0.8, 0.4, 0.2]}})", slab_of_glass,

@@ -1,5 +1,5 @@
 // The choice between reflection and refraction by what lights are seen in both directions: it is unbiased, a lamp's
-// reflection in glass has little noise, and planes tell what Fresnel's odds would have shown.
+// reflection in glass has little noise, and planes show what the probabilities of Fresnel's equations would have given.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -130,8 +130,9 @@ TEST_CASE("a lamp in a pane is as bright as theory says, with little noise") {
     CAPTURE(found.standard_error());
     CHECK(mean_p_value(found, expected, 1e-4 * expected) > sidak(1e-4, 2));
     CHECK(mean_p_value(found, 1.01 * expected, 1e-4 * expected) < sidak(1e-4, 2));
-    // Had the path been reflected by Fresnel's odds alone, the relative variance would be R (1 − R) (L − L')² / L̄²,
-    // nearly 9, with R the pane's reflectance, L the lamp's radiance, L' that behind, and L̄ the mean of them.
+    // Had the path been reflected by the probabilities of Fresnel's equations alone, the relative variance would be R
+    // (1 − R) (L − L')² / L̄², nearly 9, with R the pane's reflectance, L the lamp's radiance, L' that behind, and L̄
+    // the mean of them.
     const double variance = found.standard_error() * found.standard_error() * samples;
     CHECK(variance / (expected * expected) < 1.5);
 }

@@ -1,4 +1,4 @@
-// Little-endian serialisation of numbers, for films in files and for triangles.
+// Little-endian serialisation of numbers, for film files and for triangle files (mesh_file).
 #pragma once
 
 #include <bit>
@@ -11,8 +11,7 @@
 
 namespace phasetree::tracer {
 
-/// Thrown for bytes that are not a valid film. The message is a clause about the file, such as "it
-/// ends too early".
+/// Thrown for bytes that are not a valid film. The message is a clause about the file, such as "it ends too early".
 class BytesError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

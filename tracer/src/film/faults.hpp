@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 /// neither the sums nor these counts depend on how the work was divided.
 struct FilmFaults {
     std::uint64_t not_finite = 0;  ///< NaN and infinities, which count as 0
-    std::uint64_t too_large = 0;   ///< values beyond the limit of a sum (FixedSum::limit), clamped to it
+    std::uint64_t too_large = 0;   ///< values beyond the limit of a sum (2^FixedSum::limit_exponent), clamped to it
 
     FilmFaults& operator+=(const FilmFaults& other) {
         not_finite += other.not_finite;

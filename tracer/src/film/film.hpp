@@ -8,7 +8,7 @@
 //     default planes: three sums of 16 bytes,
 //     and the number of samples                     52    (431 MB for 3840×2160 pixels)
 //     each further mean of a chosen plane           16
-//     limit for 2 GB at 3840×2160 pixels           241
+//     most that fits into 2 GB at 3840×2160        241
 #pragma once
 
 #include <cstdint>
@@ -64,9 +64,9 @@ class FilmTile {
     void write_into(Image& image, const PixelRange& area) const;
 
     /// Writes a row of the area as bytes, or reads one into a tile that has no samples in that row. Both return the
-    /// number of samples in the row. Reading throws BytesError. Whatever is read, a tile takes at most about thirty
-    /// times as much memory as the bytes of its rows, because even a pixel without samples takes some bytes in the
-    /// file.
+    /// number of samples in the row. Reading throws BytesError. Even for forged input, the memory of a tile is at most
+    /// about thirty times the size of its rows in the file, because a row has some bytes for each pixel, even for one
+    /// without samples.
     std::uint64_t write_row(int y, ByteWriter& out) const;
     std::uint64_t read_row(int y, ByteReader& in);
 

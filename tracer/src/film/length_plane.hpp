@@ -1,5 +1,6 @@
 // The distance that camera rays travel in each phase, up to the first surface that is not perfectly smooth: the mean
-// over the samples, weighted as if each were reflected or refracted with Fresnel's odds (path_record.hpp).
+// over the samples, weighted as if each were reflected or refracted with the probabilities of Fresnel's equations
+// (path_record.hpp).
 #pragma once
 
 #include "film/channel_name.hpp"

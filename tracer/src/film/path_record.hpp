@@ -1,8 +1,8 @@
 // Data of a path, besides its radiance, for the planes that need it.
 //
 // A camera ray is followed from the camera, with the path's own choices at each interface, through smooth surfaces to
-// the first one that is not smooth: that is what one sees of the scene, in a mirror or behind glass. Paths have
-// weights, which make them count as if interfaces reflected with Fresnel's odds. So means over the samples of a pixel
+// the first one that is not smooth: that is what one sees of the scene, in a mirror or behind glass. Paths are weighted
+// as if interfaces had reflected with the probabilities of Fresnel's equations. So means over the samples of a pixel
 // blend reflection and refraction in the proportions in which one sees them. The documentation of Open Image Denoise
 // recommends this for its albedo and normal. Rousselle, Manzi & Zwicker (Robust Denoising using Feature and Color
 // Information, Computer Graphics Forum 32(7), 2013) use it for the features of a filter.
@@ -43,10 +43,10 @@ struct PathRecord {
     std::vector<glm::vec3> groups;
     /// Whether the camera ray left the scene and saw the infinite lights, or the background instead.
     bool shows_background = false;
-    /// The probability of the path's choices with Fresnel's odds, over that of its actual choices
-    /// (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth. It is at most
-    /// weight_limit, up to rounding. `behind->albedo` already includes it; no other member does. Roulette is not
-    /// included.
+    /// The probability of the path's choices according to Fresnel's equations, divided by the probability with which
+    /// they were actually made (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth.
+    /// It is at most weight_limit, up to rounding. `behind->albedo` already includes it; no other member does. Roulette
+    /// is not included.
     float weight = 1;
     static constexpr float weight_limit = 16;
     /// The first surface.

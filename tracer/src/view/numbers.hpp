@@ -26,8 +26,8 @@ struct TextNumbers {
 
     std::vector<NumberInText> numbers;  ///< in the order of the text, at most `most`, without the file's version
     bool has_more = false;              ///< whether there are more
-    /// For each member of a JSON object whose value contains any of these numbers: its pointer, by the offset of its
-    /// key in the text.
+    /// Maps the offset of a key in the text to the JSON pointer of its member, for each member whose value contains any
+    /// of these numbers.
     std::unordered_map<std::size_t, std::string> members;
 };
 

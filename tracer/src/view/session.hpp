@@ -87,10 +87,11 @@ class Session {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // The latest wishes. Each number increases with every wish of its kind.
+    // The requested state.
     struct Wishes {
+        // How often the files were to be read, and how often the text, the object and the view were changed. Each
+        // number only increases.
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
-        // These count: readings of the files, and changes of the text, of the object and of the view.
         Edits edits;
         Reading read_as;
         std::optional<AnyCameraParameters> camera;

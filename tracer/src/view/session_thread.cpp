@@ -20,6 +20,7 @@ namespace {
 // While a slider is dragged, each wish arrives before the picture of the last one is complete. Its coarse cells are
 // completed anyway, unless they take longer than this.
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
+
 // The message that a terminal would show.
 std::string error_text(std::exception_ptr failure) {
     try {

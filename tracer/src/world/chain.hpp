@@ -1,5 +1,6 @@
-// Chains of smooth interfaces between clear phases, which shadow rays and photons follow with Fresnel's odds
-// (path.hpp). Photons also follow them through mirrors, rough metal and rough interfaces (caustics/rough_chain.hpp).
+// Chains of smooth interfaces between clear phases, which shadow rays and photons follow with the probabilities of
+// Fresnel's equations (path.hpp). Photons also follow them through mirrors, rough metal and rough interfaces
+// (caustics/rough_chain.hpp).
 #pragma once
 
 #include <algorithm>
@@ -44,8 +45,8 @@ inline bool sends_photons_on(const Bsdf& bsdf, const Surface& surface) {
 }
 
 /// The receiver of shadow rays on a surface from which photons continue; `of_path` is the side from which the path
-/// comes. Paths and photons both use it, because their weights add up to 1 only if both compute the same odds for each
-/// lamp. A surface that is clear on both sides receives light from both, so it has no normal; metal has one.
+/// comes. Paths and photons both use it, because their weights add up to 1 only if both compute the same probability
+/// for each lamp. A surface that is clear on both sides receives light from both, so it has no normal; metal has one.
 inline LightReceiver receiver_of_passed_light(const Surface& surface, const Surface::Side& of_path) {
     return surface.far_side ? LightReceiver(of_path.origin) : LightReceiver(of_path.origin, surface.normal);
 }

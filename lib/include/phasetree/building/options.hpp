@@ -16,7 +16,7 @@ class BuildCancelled : public std::runtime_error {
 
 /// How much time to spend on building cells, to make tracing faster. Rays find the same crossings with either.
 enum class BuildQuality {
-    low,    ///< for objects that are rebuilt often: a quarter to two thirds of the build time, slower rays
+    low,    ///< for objects that are rebuilt often: a quarter to three quarters of the build time, slower rays
     medium  ///< for most objects
 };
 

@@ -17,8 +17,8 @@ struct CellsFile;
 /// An object divided into cells: boxes around its interfaces, each with the few instructions that matter there. A ray
 /// changes phase only inside a cell. The caller finds the cells along a ray, for example with Embree.
 ///
-/// Within a cell and up to reach() beyond it, the cell's program gives the labels of the whole object, and distances
-/// within which the label stays the same. Immutable; any thread may read it.
+/// In all of bounds(cell), the cell's program gives the labels of the whole object, and distances within which the
+/// label stays the same. Immutable; any thread may read it.
 class InterfaceCells {
   public:
     /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too
@@ -34,7 +34,8 @@ class InterfaceCells {
     const Bounds& bounds() const;
 
     /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). For a ray
-    /// that starts at a crossing of this cell, the hint usually spares the search. It must come from this cell.
+    /// that starts at a crossing of this cell, the hint usually makes a search unnecessary. It must come from this
+    /// cell.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
                                            std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;

@@ -15,7 +15,7 @@ class CellsFileError : public std::runtime_error {
         missing,    ///< the file does not exist
         unusable,   ///< it cannot be opened, read or written
         foreign,    ///< it is not a cell file
-        differing,  ///< it was written for another object, options, build of the library or kind of machine
+        differing,  ///< it was written for another object, options, build of the library or processor architecture
         damaged     ///< its size is wrong, or its content has changed since it was written
     };
     CellsFileError(Reason reason, const std::filesystem::path&, const std::string& what);
@@ -34,9 +34,10 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 /// would build. The callbacks in the options are not called.
 ///
 /// The file records the object's program (names and materials do not matter), the resolution, quality, divisions,
-/// memory limit and opaque phases for which the cells were built, the build of the library, and the kind of machine. It
-/// is rejected if any of these differ. A file with a wrong size or checksum is rejected before anything of its size is
-/// allocated, and so is one with an index out of range.
+/// memory limit and opaque phases for which the cells were built, the build of the library, and the processor
+/// architecture. It is rejected if any of these differ, except that a memory limit that had no effect may be raised. A
+/// file with a wrong size or checksum is rejected before anything of its size is allocated, and so is one with an index
+/// out of range.
 ///
 /// Checksums detect accidents, not forgery. A forged file can describe wrong cells, but no ray reads memory outside
 /// them, because every index in the file is checked.

@@ -59,9 +59,10 @@ struct PhaseMesh {
     std::vector<glm::vec3> vertices;
     std::vector<Triangle> triangles;
     float spacing = 0;  ///< in use
-    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. A
-    /// crossing is missing if both ends of its edge of the grid have the same label after labels were changed (see
-    /// mesh_of), or if another crossing represents the edge.
+    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. Each edge of
+    /// the grid whose ends have different labels shows one of its crossings. All others are missing: further crossings
+    /// of that edge, and those of edges whose ends have the same label, possibly after labels were changed (see
+    /// mesh_of).
     std::size_t crossings = 0, passed_over = 0;
 
     /// The phases that have triangles.

@@ -20,8 +20,8 @@ class Phased;
 /// *By boxes:* each node makes its box from those of its children, along its own axes. This is fast, but each rotation
 /// puts a box around a rotated box.
 ///
-/// *By directions:* the outward normals of the six sides of the box of the node that is asked first (the root, below)
-/// are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
+/// *By directions:* the query starts at one node, here called the root. The outward normals of the six sides of the
+/// root's box are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
 /// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
 /// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. A map

@@ -31,8 +31,8 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
-/// A primitive with a long equation. It counts as many instructions. In boxes where its Lipschitz bound suffices to
-/// bound its values, its equation is not evaluated with interval arithmetic (Enclosure, in the library's sources).
+/// A primitive with a long equation, which counts as several instructions. In boxes where its Lipschitz bound is tight
+/// enough, its equation is not evaluated with interval arithmetic.
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
@@ -55,7 +55,8 @@ concept CheckedData = DataPrimitive<N> && requires(std::span<const float> floats
 
 /// A long primitive that simplifies in a small box. N::Specialised, a primitive with data, has the same values there,
 /// to the last bit. specialise() appends its floats for the points of `range`; if there is nothing to gain, it appends
-/// nothing and returns false. `of` is empty, or holds the floats from specialising for an enclosing box.
+/// nothing and returns false. If the primitive was already specialised for an enclosing box, `of` holds the floats of
+/// that; otherwise it is empty.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
@@ -73,9 +74,9 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. Consider every surface point that is
-/// nearest to some point within `reach` of p: a ball of radius rolling_radius(p, reach) touches the surface there from
-/// inside. The radius is a lower bound, and infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. At each surface point that is nearest
+/// to a point within `reach` of p, a ball of radius rolling_radius(p, reach) fits inside the solid and touches the
+/// surface. The radius is a lower bound, and infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;

@@ -16,8 +16,8 @@ namespace phasetree {
 /// The bracket is no longer than the resolution, with one exception: where solids abut, rounding can leave a sliver of
 /// a third phase between them. A bracket may span such a sliver, and is then up to 2.75 resolutions long.
 ///
-/// A ray that carries a phase which is nowhere near its start crosses at once. This crossing has zero length: p_in and
-/// p_out are the point where the search begins, which is in `to`, and `from` is the carried phase.
+/// If the carried phase occurs nowhere near the start of the ray, a crossing is reported right there. It has zero
+/// length: p_in and p_out are the point where the search begins, which is in `to`, and `from` is the carried phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out
@@ -31,9 +31,9 @@ struct Crossing {
 ///
 /// The normal points from `from` into `to`, so it points along the ray: into a solid where the ray enters, out of it
 /// where it leaves. (Embree's Ng, as returned by the plugin, faces the ray and is the opposite.) It is the direction of
-/// the gradient of the component of `from` at p_in. If that gradient is zero to rounding or contradicts the bracket, it
-/// is taken one or two resolutions away, where it is certain. Near an edge the normal is that of one of the faces, or
-/// that of the distance to the edge, which lies between them.
+/// the gradient of φ of the phase `from` (its component of Φ) at p_in. If that gradient is zero to rounding or
+/// contradicts the bracket, it is taken one or two resolutions away, where it is certain. Near an edge the normal is
+/// that of one of the faces, or that of the distance to the edge, which lies between them.
 struct CrossingNormal {
     glm::vec3 unit{0};  ///< of unit length
     /// The gradient of the component of `from` at p_in, along `unit` and at most 1 long, from which a LeavingHint is

@@ -8,7 +8,8 @@
 
 namespace phasetree {
 
-/// The index of a phase. 0 is the vacuum, which has a component of its own; an object's materials are 1 … 63.
+/// The index of a phase. 0 is the vacuum, which has a distance φ₀ of its own (a component of Φ); an object's materials
+/// are 1 … 63.
 struct Phase {
     std::uint8_t index = 0;
 

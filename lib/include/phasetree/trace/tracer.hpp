@@ -29,9 +29,9 @@ class InterfaceTracer {
     ///
     /// `resolution`, in the scene's unit of length, is the thickness of a phase along a ray that is guaranteed to be
     /// found. Thinner phases may be missed. A thicker phase may be missed in two cases:
-    ///   - it is at most 2.75 resolutions thick along the ray, and the ray is deeper in it than a sixteenth of a
-    ///     resolution for at most one resolution of its length;
-    ///   - the ray runs along the surface of the phase and is nowhere deeper in it than that.
+    ///   - the ray is in it for at most 2.75 resolutions, of which at most one is deeper inside than a sixteenth of a
+    ///     resolution;
+    ///   - the ray grazes the phase and is nowhere deeper inside than a sixteenth of a resolution.
     ///
     /// 0 selects 2·10⁻⁶ of the object's diagonal, or the precision of float coordinates far from the origin. Other
     /// values are clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, at most a hundredth of the
@@ -47,8 +47,9 @@ class InterfaceTracer {
     ///
     /// direction     of unit length.
     /// t_min, t_max  the range of distances from the origin.
-    /// carried       the phase that the ray is in; by default, the label at the start. If the label at the start
-    ///               differs from the carried phase by more than rounding explains, there is a crossing at the start.
+    /// carried       the phase that the ray is in; by default, the phase at the start (its label, see label() in
+    ///               model/handle.hpp). If that differs from the carried phase by more than rounding explains, there is
+    ///               a crossing at the start.
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,

@@ -42,7 +42,7 @@ class Metric {
     }
 
     double distance(const glm::vec3& p) const { return glm::length(map_ * (glm::dvec3(p) - glm::dvec3(from_))); }
-    // No point of the box is nearer.
+    // A lower bound of the distance to the box.
     double below(const Bounds& box) const {
         if (is_similarity_) {
             const glm::vec3 nearest = glm::clamp(from_, box.low, box.high);
@@ -168,7 +168,7 @@ class Search {
     }
 
     bool is_done() const {
-        // Boxes that are left but are not nearer than what was found are never divided.
+        // Boxes that are no nearer than the interface found need not be divided.
         if (left_.empty() || !(left_.top().below < nearest_)) return true;
         const double next = std::min(left_.top().below, nearest_undivided_);
         if (next >= nearest_) return true;

@@ -5,8 +5,8 @@
 
 namespace phasetree::embree {
 
-/// Information about a ray that starts at p_in or p_out of a crossing that was hit, and carries the phase there. It
-/// spares the hit's cell the search that most rays do not need: most reflected and refracted rays leave the cell and
+/// Information about a ray that starts at p_in or p_out of a crossing that was hit, and carries the phase there. With
+/// it, the cell of that hit usually need not be searched again: most reflected and refracted rays leave the cell and
 /// never come back.
 struct StartHint {
     ObjectInstance object;

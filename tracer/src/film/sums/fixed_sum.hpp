@@ -94,10 +94,10 @@ class FixedSum {
 
     bool operator==(const FixedSum&) const = default;
 
-    /// Most sums have few significant bytes between the sign bytes above and the zero bytes below, and only those are
-    /// written. The first byte written is (bytes + 1) · z + n, where z is the number of zero bytes below that are
-    /// omitted, and n the number of bytes that follow. A byte above is omitted if the one below it implies the same
-    /// sign. A negative number always keeps one byte, because no bytes mean 0. So equal sums have equal bytes.
+    /// Only the significant bytes of a sum are written, without the sign bytes above and the zero bytes below them. The
+    /// first byte written is (bytes + 1) · z + n, where z is the number of zero bytes below that are omitted, and n the
+    /// number of bytes that follow. A byte above is omitted if the one below it implies the same sign. A negative
+    /// number always keeps one byte, because no bytes mean 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;

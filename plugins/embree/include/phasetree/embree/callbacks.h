@@ -20,8 +20,7 @@ PHASETREE_API void phasetreeOccludedFunction(const struct RTCOccludedFunctionNAr
  *
  * primID is ignored, unless the handle has PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES. Then it selects the cell, and must
  * be below PhasetreeGeometryStatistics.cells; otherwise nothing is hit and the bounds are empty. The filter functions
- * of the application's RTCGeometry apply. A geometry whose handle has been freed is never hit and has
- * empty bounds. */
+ * of the application's RTCGeometry apply. A geometry whose handle has been freed is never hit and has empty bounds. */
 PHASETREE_API void phasetreeGetPrimitiveBounds(PhasetreeGeometry geometry,
                                                const struct RTCBoundsFunctionArguments* args);
 PHASETREE_API void phasetreeIntersectPrimitive(PhasetreeGeometry geometry,

@@ -41,10 +41,10 @@ typedef enum PhasetreeGeometryFlags {
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
     /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
-     * ray may be missed. 0 selects 2·10⁻⁶ of the
-     * diagonal of the tree's bounds, or the precision of 32-bit coordinates if the tree is far from the origin. Other
-     * values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, at most a hundredth of the
-     * diagonal. phasetreeGetGeometryStatistics returns the value in use, phasetreeGetGeometryWarning the reason. */
+     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or the precision of 32-bit coordinates
+     * if the tree is far from the origin. Other values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest
+     * coordinate, at most a hundredth of the diagonal. phasetreeGetGeometryStatistics returns the value in use,
+     * phasetreeGetGeometryWarning the reason. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. LOW
      * takes a quarter to three quarters of the build time and usually makes rays slower; use it for objects under edit.
@@ -60,8 +60,9 @@ typedef struct PhasetreeGeometryOptions {
     PhasetreePhaseSet shownPhases;
     /* Phases that rays never enter because their materials are opaque. Interfaces between two of them are not searched
      * for, so the geometry builds and traces as fast as its outer surface alone. A ray that starts inside an opaque
-     * phase finds only some of its interfaces, and the closest interface is always that of a phase that is not opaque.
-     * Filters must therefore not let rays pass into these phases. They must be shown, and may not include the vacuum.
+     * phase finds only some of its interfaces, so filters must not let rays pass into these phases.
+     * phasetreeFindClosestInterface ignores interfaces between two of them. Opaque phases must be shown, and may not
+     * include the vacuum.
      */
     PhasetreePhaseSet opaquePhases;
     /* Polled from any thread while cells are built; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL.
@@ -185,10 +186,11 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  *                steps that are half a turn apart the matrix has no inverse, and nothing is hit.
  * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT. 1 for a transform without motion; 0, with transforms NULL, to return to
  *                the tree's own space.
- * startTime, endTime   the times of the first and last step, in the unit of the rays' time, in which the shutter is
- *                open from 0 to 1. endTime must be greater than startTime, and at least a millionth of the interval
- *                must be in the shutter. At other times the object keeps its first or last transform, but Embree may
- *                hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and endTime.
+ * startTime, endTime   the times of the first and the last step, in the unit of the rays' time, in which the shutter
+ *                interval is 0 … 1. endTime must be greater than startTime, and at least a millionth of
+ *                [startTime, endTime] must lie in [0, 1]. At other times the object keeps its first or last transform,
+ *                but Embree may hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and
+ *                endTime.
  *
  * Exclusive. Nothing is rebuilt; commit the RTCGeometry and the scene.
  *
@@ -208,12 +210,13 @@ PHASETREE_API PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geome
  * to the last bit. Embree's BVH over them is built as usual.
  *
  * tree, options  must match those for which the cells were built: the same shapes (names and materials may differ),
- *                resolution, buildQuality, cellDivisions and opaquePhases. Other options may differ.
+ *                resolution, buildQuality, cellDivisions and opaquePhases. mostBytes must not be smaller than it was;
+ *                if it made the cells coarser, it must be equal. Other options may differ.
  *
  * PHASETREE_ERROR_CELLS_FILE  the file does not exist, is not a cell file, or is damaged (its size, checksums and
  *                             indices are verified); or it was written for another tree, other options, another build
- *                             of the library or another kind of machine. The message says which. Build the geometry,
- *                             then write the file again.
+ *                             of the library or another processor architecture. The message says which. Build the
+ *                             geometry, then write the file again.
  *
  * The file depends on the processor architecture and byte order, but not on the instruction set (SSE2 … AVX-512). The
  * checksums detect accidents, not forgery: a forged file can describe a wrong object, but cannot make a ray read memory

@@ -32,10 +32,10 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
 /* Decodes the hit of an ordinary ray query: finds the exact bracket of the crossing. Decode a hit to continue a ray
  * from it. To shade a surface, RTCHit.u and v (the two phases) and Ng (the normal) are enough.
  *
- * rayhit       as left by the query: the ray's origin, direction, tnear, time and tfar, and a hit of this geometry.
+ * rayhit         as left by the query: the ray's origin, direction, tnear, time and tfar, and a hit of this geometry.
  * objectToWorld  the transform of the instance through which the ray hit the geometry, at the ray's time: 12 floats,
- *              3×4 column-major; the product of all transforms for nested instances. NULL if hit.instID[0] is
- *              RTC_INVALID_GEOMETRY_ID.
+ *                3×4 column-major; the product of all transforms for nested instances. NULL if hit.instID[0] is
+ *                RTC_INVALID_GEOMETRY_ID.
  *
  * pointIn and pointOut are in geometry space; apply objectToWorld to get world coordinates.
  *

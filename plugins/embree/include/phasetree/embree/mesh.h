@@ -39,8 +39,8 @@ typedef struct PhasetreeMesh {
     const unsigned char* front;  /* triangleCount phases: the one with the lower index; 0 is the vacuum */
     size_t vertexCount, triangleCount;
     float spacing; /* the spacing used */
-    /* The number of crossings along the grid's lines, and the number of those missing from the mesh because a phase is
-     * thinner than the spacing there. */
+    /* The number of crossings along the grid's lines, and of those that the mesh does not show: at edges of the object,
+     * and where a phase is thinner than the spacing. */
     size_t crossings, passedOver;
 } PhasetreeMesh;
 

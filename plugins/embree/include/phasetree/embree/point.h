@@ -49,9 +49,9 @@ static inline void phasetreeInitPoints(PhasetreePoints* points) {
     points->timeStride = sizeof(float);
 }
 
-/* Returns the phases at many points. The results equal phasetreeGetPhase to the last bit, several times as fast,
- * because eight points are evaluated together. Runs on the calling thread; to use more threads, call it for parts of
- * the points with disjoint outputs.
+/* Returns the phases at many points. The results equal those of phasetreeGetPhase to the last bit. This call is several
+ * times as fast, because eight points are evaluated together. Runs on the calling thread; to use more threads, call it
+ * for parts of the points with disjoint outputs.
  *
  * phases      receives `count` phases.
  * emptyRadii  receives `count` radii, or NULL.
@@ -79,9 +79,9 @@ PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, 
 /* The result of a search for the closest interface. */
 typedef struct PhasetreeClosest {
     bool found;
-    /* No interface is closer than emptyRadius, guaranteed. If `found`, there is an interface at `point`, at `distance`,
-     * between points of the phases `here` and `there` that are at most one resolution apart. Otherwise emptyRadius is
-     * the radius searched: at least the one requested, or less if the evaluations ran out. `distance` is then the
+    /* No interface is closer than emptyRadius, guaranteed. If `found`, `point` is within one resolution of an interface
+     * between the phases `here` and `there`, and `distance` is its distance from the query point. Otherwise emptyRadius
+     * is the radius searched: at least the one requested, or less if the evaluations ran out. `distance` is then the
      * radius requested, and the other members are not set. */
     float emptyRadius;
     float distance;
