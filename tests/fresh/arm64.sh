@@ -82,9 +82,9 @@ packages() {
 
 compile() {
     export PHASETREE_ARM64_ROOT=$folder/root
-    # Less optimisation and larger units than in a release take less time to compile. The bits must not depend on them.
+    # Less optimisation than in a release takes less time to compile. The bits must not depend on it.
     cmake -S "$root" -B "$folder/build" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$here/arm64.cmake" -DCMAKE_BUILD_TYPE=Release \
-        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 \
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 \
         -DPHASETREE_BUILD_BENCHMARKS=ON -DPHASETREE_INSTALL=OFF >"$folder/configure.log" 2>&1 || { tail -n 40 "$folder/configure.log" >&2 && return 1; }
     cmake --build "$folder/build" --parallel "$jobs" --target phasetree-bench test-lib test-cells >"$folder/build.log" 2>&1 ||
         { grep -A 20 -m 3 -e 'error:' -e 'FAILED:' "$folder/build.log" >&2 && return 1; }
