@@ -13,6 +13,8 @@ What is done follows from the block's language, and from a comment `<!-- test: â
   c             `main`: statements of a main() with an Embree device and scene. Compiled, linked, run.
   any           `excerpt FILE`: the block stands in that file, which other tests compile or run.
                 `none, REASON`: it cannot be run.
+
+The pages of the scene reference show examples, each of which is rendered in its studio.
 """
 
 import importlib.util
@@ -32,6 +34,7 @@ from markdown import ROOT, Block, blocks, without_comments
 
 COMMAND = os.environ["PHASETREE_COMMAND"]
 STUBS = pathlib.Path(__file__).parent / "stubs"
+REFERENCE = ROOT / "scenes/reference"
 DOCUMENTS = sorted([ROOT / "README.md", ROOT / "scenes/README.md", ROOT / "plugins/embree/README.md",
                     ROOT / "plugins/python/README.md", *(ROOT / "tracer/manual").rglob("*.md")])
 ALL = [block for document in DOCUMENTS for block in blocks(document)]
@@ -205,6 +208,32 @@ class Snippets(unittest.TestCase):
                 self.assertEqual(compiled.returncode, 0, f"{block}\n{compiled.stderr}")
                 done = subprocess.run([program], cwd=ROOT, capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}")
+
+
+class SceneReference(unittest.TestCase):
+    """The examples of scenes/reference, as render.py renders them, and the pages that show them."""
+
+    def test_examples_are_rendered(self):
+        specification = importlib.util.spec_from_file_location("render", REFERENCE / "render.py")
+        render = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(render)
+        self.assertGreater(len(render.examples()), 40)
+        with tempfile.TemporaryDirectory() as folder:
+            for example in render.examples():
+                with self.subTest(str(example.relative_to(REFERENCE))):
+                    done = subprocess.run([COMMAND, "render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o",
+                                           f"{folder}/picture.png"], input=json.dumps(render.scene_of(example)), text=True,
+                                          capture_output=True, cwd=ROOT / "scenes")
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), example)
+
+    def test_pages_show_only_examples(self):
+        """So that no block of these pages is untested."""
+        examples = {path.read_text(encoding="utf-8").strip() for path in REFERENCE.glob("*/*.json")}
+        shown = [block for page in REFERENCE.glob("*.md") for block in blocks(page)]
+        self.assertGreater(len(shown), 40)
+        for block in shown:
+            self.assertEqual(block.language, "json", block)
+            self.assertIn(block.text.strip(), examples, block)
 
 
 class CommandLine(unittest.TestCase):
