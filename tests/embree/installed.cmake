@@ -72,6 +72,15 @@ foreach(name renderer stock)
         message(FATAL_ERROR "${name}.ppm has ${size} bytes")
     endif()
 endforeach()
+# The tutorial's renderer is a project of its own.
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}/small_renderer" -B "${WORK}/small_renderer" -DCMAKE_PREFIX_PATH=${prefix}
+    -DEMBREE=${MAJOR} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror ${FLAGS}")
+run(${CMAKE_COMMAND} --build "${WORK}/small_renderer")
+run("${WORK}/small_renderer/small_renderer" "${prefix}/share/phasetree/scenes/hourglass.json" "${WORK}/small_renderer.ppm")
+file(SIZE "${WORK}/small_renderer.ppm" size)
+if(NOT size EQUAL 307215)
+    message(FATAL_ERROR "small_renderer.ppm has ${size} bytes")
+endif()
 # An error is reported and does not crash the program.
 execute_process(COMMAND "${WORK}/examples/phases" /no/such.json RESULT_VARIABLE status ERROR_VARIABLE errors)
 if(NOT status EQUAL 1)
