@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Takes the pictures of nodes.md: each tree in fields/, objects/ and warps/ is put into the studio and rendered to a JPEG
+# Renders the pictures of nodes in the scene reference: each tree in fields/, objects/ and warps/ is put into the studio and rendered to a JPEG
 # of the same name beside it. Without names, all are rendered:
 #
 #   scenes/nodes/render.sh build/release/tracer/phasetree                  # all of them

@@ -6,13 +6,19 @@ What is done follows from the block's language, and from a comment `<!-- test: â
                 `phases`: the block has members of "phases". `step`: its members replace those of the scene before it in
                 the same document, and the result is checked and rendered. `step = FILE`: it is also what is in that file.
   sh            Run by bash in a folder of its own, where pictures are small and cmake, sbatch and the like are stubs
-                that check their arguments (stubs/). `with FILE`: the scene above is in that file.
+                that check their arguments (stubs/). `with FILE`: the scene above is in that file. `then`: run in the folder
+                of the block before it in the same document.
   console       Lines that begin with `$ ` are run; what follows them must be their output.
   python        All blocks of a document are run, one after the other, with small pictures.
   text          `output`: part of what the document's Python blocks print.
   c             `main`: statements of a main() with an Embree device and scene. Compiled, linked, run.
+  cpp           `program`: a whole program. `step`: its functions and structs replace those of the program before it, or
+                are added to it. Compiled, linked, and run with a scene and a picture, which must change with each step.
+                `step = FILE`: the program is also what is in that file.
   any           `excerpt FILE`: the block stands in that file, which other tests compile or run.
                 `none, REASON`: it cannot be run.
+
+The pages of the scene reference show examples, each of which is rendered in its studio.
 """
 
 import importlib.util
@@ -32,6 +38,7 @@ from markdown import ROOT, Block, blocks, without_comments
 
 COMMAND = os.environ["PHASETREE_COMMAND"]
 STUBS = pathlib.Path(__file__).parent / "stubs"
+REFERENCE = ROOT / "scenes/reference"
 DOCUMENTS = sorted([ROOT / "README.md", ROOT / "scenes/README.md", ROOT / "plugins/embree/README.md",
                     ROOT / "plugins/python/README.md", *(ROOT / "tracer/manual").rglob("*.md")])
 ALL = [block for document in DOCUMENTS for block in blocks(document)]
@@ -40,8 +47,8 @@ MOST_UNTESTED = 6
 
 # The comments that may stand above a block of each language; "" is none. Any block may be an excerpt, or untested.
 FORMS: dict[str, tuple[str, ...]] = {
-    "json": ("", "phases", "step"), "jsonc": ("", "phases", "step"), "sh": ("", "with"), "console": ("",), "python": ("",),
-    "c": ("main",), "cpp": (), "cmake": (), "rooms": ("",), "text": ("", "output"),
+    "json": ("", "phases", "step"), "jsonc": ("", "phases", "step"), "sh": ("", "with", "then"), "console": ("",), "python": ("",),
+    "c": ("main",), "cpp": ("program", "step"), "cmake": (), "rooms": ("",), "text": ("", "output"),
 }
 
 PLAIN = {
@@ -87,6 +94,28 @@ def completed(members: dict) -> dict:
     elif "phases" in members and "tree" not in members:
         scene["tree"] = row_of(members["phases"])
     return scene
+
+
+# A function or struct at the beginning of a line, with the comments above it; its name is in one of the groups.
+DEFINITION = re.compile(r"^(?://[^\n]*\n)*(?:struct (\w+)|[\w:<> ]+ (\w+)\([^;{]*\)) \{\n.*?^\};?\n", re.M | re.S)
+
+
+def with_definitions(program: str, block: Block) -> str:
+    """A program whose functions and structs are replaced by those of a block. New ones go before the next known one."""
+    found = list(DEFINITION.finditer(block.text))
+    assert "".join(m.group(0) for m in found).split() == block.text.split(), f"{block}: more than functions and structs"
+    new = ""
+    for match in found:
+        name = match.group(1) or match.group(2)
+        old = [m for m in DEFINITION.finditer(program) if name in m.groups()]
+        new += match.group(0)
+        if old:
+            program = program[: old[0].start()] + new + program[old[0].end() :]
+            new = ""
+        else:
+            new += "\n"
+    assert not new, f"{block}: what comes last must replace something"
+    return program
 
 
 class Snippets(unittest.TestCase):
@@ -151,11 +180,16 @@ class Snippets(unittest.TestCase):
                 self.run_scene(block, scene, "version" in members or is_step == "step")
 
     def test_shell(self):
+        folders: dict[pathlib.Path, tempfile.TemporaryDirectory] = {}
         for block in self.of("sh"):
             form, _, name = block.directive.partition(" ")
-            if form not in ("", "with"):
+            if form not in ("", "with", "then"):
                 continue
-            with self.subTest(str(block)), tempfile.TemporaryDirectory() as folder:
+            if form != "then":
+                folders[block.path] = tempfile.TemporaryDirectory()
+                self.addCleanup(folders[block.path].cleanup)
+            folder = folders[block.path].name
+            with self.subTest(str(block)):
                 if form == "with":
                     scene = [b for b in self.of("json") if b.path == block.path and b.line < block.line][-1]
                     (pathlib.Path(folder) / name).write_text(scene.text, encoding="utf-8")
@@ -205,6 +239,59 @@ class Snippets(unittest.TestCase):
                 self.assertEqual(compiled.returncode, 0, f"{block}\n{compiled.stderr}")
                 done = subprocess.run([program], cwd=ROOT, capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}")
+
+
+    @unittest.skipUnless(os.environ.get("PHASETREE_C_FLAGS") and shutil.which("c++"), "no plugin or no C++ compiler")
+    def test_programs(self):
+        programs: dict[pathlib.Path, str] = {}
+        pictures: dict[pathlib.Path, list[bytes]] = {}
+        for block in self.of("cpp"):
+            form, _, result = block.directive.partition(" = ")
+            if form not in ("program", "step"):
+                continue
+            with self.subTest(str(block)), tempfile.TemporaryDirectory() as folder:
+                text = block.text if form == "program" else with_definitions(programs[block.path], block)
+                programs[block.path] = text
+                if result:
+                    self.assertEqual(text, (ROOT / result).read_text(encoding="utf-8"), block)
+                source, program = pathlib.Path(folder) / "main.cpp", pathlib.Path(folder) / "program"
+                source.write_text(text, encoding="utf-8")
+                compiled = subprocess.run(["c++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", source, "-o", program,
+                                           *shlex.split(os.environ["PHASETREE_C_FLAGS"])], capture_output=True, text=True)
+                self.assertEqual(compiled.returncode, 0, f"{block}\n{compiled.stderr}")
+                picture = pathlib.Path(folder) / "picture.ppm"
+                done = subprocess.run([program, ROOT / "scenes/hourglass.json", picture], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}")
+                before = pictures.setdefault(block.path, [])
+                self.assertNotIn(picture.read_bytes(), before, block)
+                before.append(picture.read_bytes())
+        self.assertTrue(programs)
+
+
+class SceneReference(unittest.TestCase):
+    """The examples of scenes/reference, as render.py renders them, and the pages that show them."""
+
+    def test_examples_are_rendered(self):
+        specification = importlib.util.spec_from_file_location("render", REFERENCE / "render.py")
+        render = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(render)
+        self.assertGreater(len(render.examples()), 40)
+        with tempfile.TemporaryDirectory() as folder:
+            for example in render.examples():
+                with self.subTest(str(example.relative_to(REFERENCE))):
+                    done = subprocess.run([COMMAND, "render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o",
+                                           f"{folder}/picture.png"], input=json.dumps(render.scene_of(example)), text=True,
+                                          capture_output=True, cwd=ROOT / "scenes")
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), example)
+
+    def test_pages_show_only_examples(self):
+        """So that no block of these pages is untested."""
+        examples = {path.read_text(encoding="utf-8").strip() for path in REFERENCE.glob("*/*.json")}
+        shown = [block for page in REFERENCE.glob("*.md") for block in blocks(page)]
+        self.assertGreater(len(shown), 40)
+        for block in shown:
+            self.assertEqual(block.language, "json", block)
+            self.assertIn(block.text.strip(), examples, block)
 
 
 class CommandLine(unittest.TestCase):

@@ -168,13 +168,17 @@ TEST_CASE("page and schema show types, units, limits and defaults") {
     const KindPage page = page_of<Lamp>();
     CHECK(page.name == "lamp");
     REQUIRE(page.parameters.size() == 9);
-    const Chapter chapter{"Lamps", "All of them.", {page}};
-    CHECK(reference_markdown({&chapter, 1}) == R"(
-## Lamps
+    const Chapter chapter{"Small lamps", "All of them.", {page}};
+    CHECK(file_stem(chapter) == "small-lamps");
+    CHECK(reference_index({&chapter, 1}) == R"(| chapter | |
+|---|---|
+| [Small lamps](small-lamps.md) | [`lamp`](small-lamps.md#lamp) |
+)");
+    CHECK(reference_markdown(chapter) == R"(# Small lamps
 
 All of them.
 
-### lamp
+## lamp
 
 A lamp.
 
@@ -190,6 +194,20 @@ A lamp.
 | `age` | number | s | Its age. | zero or more; default none |
 | `file` | name of a file |  | Its picture. | default none |
 )");
+    // Several kinds have a table of contents, with the first sentence of each.
+    KindPage torch = page;
+    torch.name = "torch";
+    torch.summary = "Burns. It needs air.";
+    torch.parameters.clear();
+    torch.example = "lamps/torch";
+    torch.snippet = R"({"torch": {}})";
+    const Chapter both{"Lamps", "Two of them.", {page, torch}};
+    const std::string text = reference_markdown(both);
+    CHECK(text.starts_with("# Lamps\n\nTwo of them.\n\n| | |\n|---|---|\n| [`lamp`](#lamp) | A lamp. |\n"
+                           "| [`torch`](#torch) | Burns. |\n\n## lamp\n"));
+    CHECK(text.ends_with("\n## torch\n\nBurns. It needs air.\n\n"
+                         "[![An example of torch](lamps/torch.jpg)](lamps/torch.json)\n\n"
+                         "```json\n{\"torch\": {}}\n```\n\nIt has no parameters.\n"));
     const Document schema = Document::from_text(schema_of(page));
     const Value properties = *schema.root().find("properties");
     CHECK(schema.root().find("required")->size() == 1);

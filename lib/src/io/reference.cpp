@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 
@@ -83,10 +84,52 @@ std::vector<KindPage> pages_of_nodes(TypeList<Ns...>) {
     return {page_of_node<Ns>()...};
 }
 
+// Whether a node is made from other nodes.
+template <class N>
+bool has_children() {
+    bool found = false;
+    const N node{};
+    for_each_parameter(node, [&]<class T>(const T&, const Parameter&) {
+        found = found || std::is_same_v<T, Field> || std::is_same_v<T, std::vector<Field>> || std::is_same_v<T, Phased>;
+    });
+    return found;
+}
+
+// Only those that have children, or only those that have none.
+template <bool HasChildren, class... Ns>
+std::vector<KindPage> pages_of_nodes(TypeList<Ns...>) {
+    std::vector<KindPage> pages;
+    (
+        [&] {
+            if (has_children<Ns>() == HasChildren) pages.push_back(page_of_node<Ns>());
+        }(),
+        ...);
+    return pages;
+}
+
 // The text in brackets after a description.
 std::string limits_of(const ParameterPage& p) {
     if (!p.optional) return p.limits;
     return fmt::format("{}{}default {}", p.limits, p.limits.empty() ? "" : "; ", p.default_value);
+}
+
+std::string first_sentence(const std::string& text) {
+    return text.substr(0, std::min(text.find(". "), text.size() - 1)) + ".";
+}
+
+// The section of a kind in a page of Markdown.
+std::string section_of(const KindPage& page) {
+    std::string text = fmt::format("\n## {}\n\n{}{}\n", page.name, page.summary,
+                                   page.section.empty() ? "" : fmt::format(" Section {}.", page.section));
+    if (!page.example.empty())
+        text += fmt::format("\n[![An example of {0}]({1}.jpg)]({1}.json)\n", page.name, page.example);
+    if (!page.snippet.empty()) text += fmt::format("\n```json\n{}\n```\n", page.snippet);
+    if (!page.equation.empty()) text += fmt::format("\n`{}`\n", page.equation);
+    if (page.parameters.empty()) return text + "\nIt has no parameters.\n";
+    text += "\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n";
+    for (const ParameterPage& p : page.parameters)
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.type, p.unit, p.description, limits_of(p));
+    return text;
 }
 
 Json property_of(const ParameterPage& p) {
@@ -131,15 +174,17 @@ ParameterPage parameter_page(const Parameter& p, const ValueType& type, std::str
 
 std::vector<Chapter> node_chapters() {
     std::vector<Chapter> chapters{
-        {"Fields", "A field is one signed distance, negative inside.", pages_of_nodes(PlainFields())},
-        {"Objects", "An object has several phases, of which exactly one is at any point.", pages_of_nodes(Objects())},
-        {"Warps", "A warp deforms a field or an object, and is what its child is.",
+        {"Shapes", "A field is one signed distance, negative inside. These fields are not made from other nodes.",
+         pages_of_nodes<false>(PlainFields())},
+        {"Operators on fields", "These fields are made from other nodes: combined, rounded, repeated or bounded.",
+         pages_of_nodes<true>(PlainFields())},
+        {"Objects", "An object has several phases. Each point lies in exactly one of them, or in the vacuum.",
+         pages_of_nodes(Objects())},
+        {"Warps", "A warp deforms a field or an object. The result is of the same type.",
          pages_of_nodes(detail::Map<WarpedPhased, Warps>::type())}};
-    for (Chapter& chapter : chapters) {
-        std::string folder = chapter.title;
-        folder.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(folder.front())));
-        for (KindPage& page : chapter.pages) page.example = fmt::format("nodes/{}/{}", folder, page.name);
-    }
+    const char* const folders[] = {"fields", "fields", "objects", "warps"};
+    for (std::size_t i = 0; i < chapters.size(); ++i)
+        for (KindPage& page : chapters[i].pages) page.example = fmt::format("../nodes/{}/{}", folders[i], page.name);
     return chapters;
 }
 
@@ -163,22 +208,31 @@ std::string reference_text(std::span<const Chapter> chapters) {
     return text;
 }
 
-std::string reference_markdown(std::span<const Chapter> chapters) {
-    std::string text;
+std::string file_stem(const Chapter& chapter) {
+    std::string stem;
+    for (const char c : chapter.title)
+        stem += c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return stem;
+}
+
+std::string reference_markdown(const Chapter& chapter) {
+    std::string text = fmt::format("# {}\n\n{}\n", chapter.title, chapter.text);
+    if (chapter.pages.size() > 1) {
+        text += "\n| | |\n|---|---|\n";
+        for (const KindPage& page : chapter.pages)
+            text += fmt::format("| [`{0}`](#{0}) | {1} |\n", page.name, first_sentence(page.summary));
+    }
+    for (const KindPage& page : chapter.pages) text += section_of(page);
+    return text;
+}
+
+std::string reference_index(std::span<const Chapter> chapters) {
+    std::string text = "| chapter | |\n|---|---|\n";
     for (const Chapter& chapter : chapters) {
-        text += fmt::format("\n## {}\n\n{}\n", chapter.title, chapter.text);
-        for (const KindPage& page : chapter.pages) {
-            text += fmt::format("\n### {}\n\n{}{}\n", page.name, page.summary,
-                                page.section.empty() ? "" : fmt::format(" Section {}.", page.section));
-            if (!page.example.empty())
-                text +=
-                    fmt::format("\n[![An example of {}]({}.jpg)]({}.json)\n", page.name, page.example, page.example);
-            if (!page.equation.empty()) text += fmt::format("\n`{}`\n", page.equation);
-            text += "\n| parameter | type | unit | | limits |\n|---|---|---|---|---|\n";
-            for (const ParameterPage& p : page.parameters)
-                text +=
-                    fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.type, p.unit, p.description, limits_of(p));
-        }
+        const std::string file = file_stem(chapter) + ".md";
+        text += fmt::format("| [{}]({}) |", chapter.title, file);
+        for (const KindPage& page : chapter.pages) text += fmt::format(" [`{0}`]({1}#{0})", page.name, file);
+        text += " |\n";
     }
     return text;
 }

@@ -1,4 +1,4 @@
-"""phasetree for the documents' shell blocks: renders small pictures of few samples, and ends `view` once it serves."""
+"""phasetree for the documents' shell blocks: renders small pictures with few samples, and ends `view` once it serves."""
 
 import os
 import subprocess
@@ -15,6 +15,10 @@ def without(arguments: list[str], option: str) -> list[str]:
             kept.append(argument)
         skip = argument == option
     return kept
+
+
+def value_of(arguments: list[str], option: str) -> str | None:
+    return arguments[arguments.index(option) + 1] if option in arguments else None
 
 
 def view(arguments: list[str]) -> int:
@@ -38,8 +42,10 @@ def main() -> int:
         if "--time" in arguments:
             arguments = [*without(arguments, "--time"), "--time", "0.3s"]
         if "--samples" not in arguments:
-            enough = "8" if any(a.startswith("--denoise") for a in arguments) else "1"
-            arguments = [*without(arguments, "--spp"), "--spp", enough]
+            enough = 8 if any(a.startswith("--denoise") for a in arguments) else 1
+            # Few samples are kept, so that a picture has the bytes of its parts.
+            if not enough <= int(value_of(arguments, "--spp") or 0) <= 32:
+                arguments = [*without(arguments, "--spp"), "--spp", str(enough)]
         arguments = [*without(arguments, "--size"), "--size", "24x18"]
     if arguments[:1] == ["export"] and "--spacing" not in arguments:
         if not any(a.endswith((".html", ".glsl")) for a in arguments):

@@ -326,19 +326,19 @@ inline std::vector<Case> cases() {
     texture("image", R"("file": "sky.hdr")");
     texture("mesh_image", R"("file": "sky.hdr")");
     texture("vertex_color", "");
-    all.push_back({"Numbers", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
+    all.push_back({"Number textures", "field", R"("of": {"sphere": {"radius": 1}}, "ramp": [[-2, 0], [2, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"field": )", "}}}}", tell_material_of_scene});
-    all.push_back({"Numbers", "mesh_image", R"("file": "sky.hdr")",
+    all.push_back({"Number textures", "mesh_image", R"("file": "sky.hdr")",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"mesh_image": )", "}}}}",
                    tell_material_of_scene});
-    all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
+    all.push_back({"Number textures", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"per_copy": )", "}}}}",
                    tell_material_of_scene});
-    all.push_back({"Maps of normals", "normal_map", R"("file": "sky.hdr")",
+    all.push_back({"Normal maps", "normal_map", R"("file": "sky.hdr")",
                    scene + R"(diffuse": {"color": [1, 1, 1], "normal_map": )", "}}}", tell_material_of_scene});
     const std::string images = R"("file": "layer.pgm", "spacing": [0.5, 0.4, 0.6])";
     const std::string aside = images + R"(, "translate": [0.25, 0.15, -0.4])";
-    all.push_back({"Voxels",
+    all.push_back({"Voxel grids",
                    "voxels",
                    images,
                    R"({"clear": {"ior": 1, "absorption": [1, 2, 3], "density_grid": )",
@@ -400,7 +400,7 @@ inline std::vector<Case> cases() {
     transform("scale", R"("factor": 2)");
     transform("stretch", R"("factors": [1, 2, 3])");
     transform("affine", "");
-    all.push_back({"Image", "render", "", "", "", tell_settings});
+    all.push_back({"Render settings", "render", "", "", "", tell_settings});
     return all;
 }
 

@@ -1,6 +1,6 @@
-// What a scene file can say is said once, in lists of parameters: the committed reference page and schema are what the
-// program prints, and what they promise is what the readers do.
-//     phasetree nodes --markdown > scenes/nodes.md; phasetree nodes --json-schema > scenes/scene.schema.json
+// What a scene file can say is said once, in lists of parameters: the committed reference pages and schema are what
+// the program writes, and what they promise is what the readers do.
+//     phasetree nodes --markdown scenes/reference; phasetree nodes --json-schema > scenes/scene.schema.json
 
 #include "scene/reference.hpp"
 
@@ -29,6 +29,19 @@ namespace {
 
 std::string committed(const std::string& file) {
     return bytes_of(source_directory() + "/scenes/" + file);
+}
+
+std::filesystem::path reference_folder() {
+    return source_directory() + "/scenes/reference";
+}
+
+/// Whether an object within the value has this key.
+bool uses(Value value, const std::string& key) {
+    if (value.is_object() && value.find(key)) return true;
+    if (!value.is_object() && !value.is_array()) return false;
+    for (const Value part : value)
+        if (uses(part, key)) return true;
+    return false;
 }
 
 const JsonSchema& schema() {
@@ -67,9 +80,10 @@ std::string vector_of(Value property, const std::string& first, const std::strin
 
 Value properties_of(const Case& c) {
     const std::map<std::string, std::string> definitions{
-        {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"}, {"Lights", "light"},
-        {"Meshes", "mesh"},        {"Cameras", "camera"},   {"Transforms", "transform"}};
-    for (const char* const with_one_kind : {"Image", "Maps of normals", "Voxels"})
+        {"Materials", "material"},  {"Textures", "texture"}, {"Number textures", "number_texture"},
+        {"Lights", "light"},        {"Meshes", "mesh"},      {"Cameras", "camera"},
+        {"Transforms", "transform"}};
+    for (const char* const with_one_kind : {"Render settings", "Normal maps", "Voxel grids"})
         if (c.chapter == with_one_kind) return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
     if (c.chapter == "Transforms") kinds = (*kinds.find("anyOf"))[0];
@@ -95,20 +109,67 @@ std::size_t column_of(const Document& document, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the committed reference page and schema are what the program prints") {
+TEST_CASE("the committed reference pages and schema are what the program writes") {
     // The texts are long, so they are not printed.
-    const bool is_page_current = committed("nodes.md") == tracer::scene_reference_markdown();
-    CHECK_MESSAGE(is_page_current, "to be rewritten: phasetree nodes --markdown > scenes/nodes.md");
+    std::set<std::string> files;
+    for (const tracer::ReferencePage& page : tracer::scene_reference_pages(reference_folder())) {
+        files.insert(page.file);
+        CAPTURE(page.file);
+        const bool is_page_current = committed("reference/" + page.file) == page.text;
+        CHECK_MESSAGE(is_page_current, "to be rewritten: phasetree nodes --markdown scenes/reference");
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(reference_folder()))
+        if (entry.path().extension() == ".md") CHECK(files.contains(entry.path().filename().string()));
     const bool is_schema_current = committed("scene.schema.json") == tracer::scene_json_schema();
     CHECK_MESSAGE(is_schema_current, "to be rewritten: phasetree nodes --json-schema > scenes/scene.schema.json");
+}
+
+TEST_CASE("every kind has an example that uses it and a picture, and none is left of a kind that has gone") {
+    const std::vector<Chapter> nodes = node_chapters();
+    std::uintmax_t bytes = 0;
+    for (const Chapter& chapter : tracer::scene_chapters()) {
+        if (std::ranges::find(nodes, chapter.title, &Chapter::title) != nodes.end()) continue;
+        const std::filesystem::path folder = reference_folder() / file_stem(chapter);
+        std::set<std::string> kinds{"studio"};
+        for (const KindPage& page : chapter.pages) {
+            CAPTURE(page.example);
+            kinds.insert(page.name);
+            const std::filesystem::path picture = reference_folder() / (page.example + ".jpg");
+            CHECK_MESSAGE(std::filesystem::exists(reference_folder() / (page.example + ".json")), "write this example");
+            REQUIRE_MESSAGE(std::filesystem::exists(picture), "scenes/reference/render.py renders it");
+            CHECK(bytes_of(picture.string()).starts_with("\xFF\xD8"));
+            bytes += std::filesystem::file_size(picture);
+            const Document example = Document::from_text(bytes_of(reference_folder() / (page.example + ".json")));
+            CHECK(uses(example.root(), page.name == "scene"    ? "tree"
+                                       : page.name == "voxels" ? "density_grid"
+                                                               : page.name));
+        }
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            const std::filesystem::path file = entry.path();
+            if (file.extension() != ".json" && file.extension() != ".jpg") continue;
+            CAPTURE(file.string());
+            CHECK(kinds.contains(file.stem().string()));
+        }
+    }
+    CHECK(bytes > 0);
+    CHECK(bytes < 1'000'000);
+}
+
+TEST_CASE("a kind without an example is an error that names the file") {
+    const support::TemporaryDirectory empty;
+    CHECK_THROWS_WITH(tracer::scene_reference_pages(empty.path()),
+                      fmt::format("{}: cannot read this example; every kind needs one, of members of a scene",
+                                  (empty / "scene-file/scene.json").string())
+                          .c_str());
 }
 
 TEST_CASE("every kind is in the page, in the schema and in these tests, with the same keys") {
     std::map<std::string, std::set<std::string>> tested;
     for (const Case& c : cases()) tested[c.chapter].insert(c.name);
     for (const Chapter& chapter : tracer::scene_chapters()) {
-        if (chapter.title == "Scene file" || chapter.title == "Fields" || chapter.title == "Objects" ||
-            chapter.title == "Warps" || chapter.title == "Objects and instances")
+        const std::vector<Chapter> nodes = node_chapters();
+        if (chapter.title == "Scene file" || chapter.title == "Placed objects" ||
+            std::ranges::find(nodes, chapter.title, &Chapter::title) != nodes.end())
             continue;
         CAPTURE(chapter.title);
         CHECK(!chapter.text.empty());

@@ -1,5 +1,12 @@
 #include "scene/reference.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
 #include "lights/light_kinds.hpp"
 #include "scene/camera_kinds.hpp"
 #include "scene/file_parts.hpp"
@@ -30,56 +37,72 @@ std::string schema_of_transform(const std::string& one) {
            schema_reference("keys") + "]}";
 }
 
+// An example of the reference, without the line feed at its end.
+std::string example_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in || text.empty())
+        throw std::runtime_error(
+            fmt::format("{}: cannot read this example; every kind needs one, of members of a scene", file.string()));
+    text.erase(text.find_last_not_of(" \n") + 1);
+    return text;
+}
+
 }  // namespace
 
 std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{
         {"Scene file",
-         "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
-         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. Instead of any number that need not be whole, vector or colour "
-         "there may be `{\"keys\": [[seconds, value], …]}`: it changes with time, linearly between its keys, or with "
-         "`\"between\": \"smooth\"` slowly at both ends. A picture shows what is there at its time. While the shutter "
-         "is open, the camera and the transforms of objects and instances go on, and are blurred; all else stays.",
+         "A scene is JSON with comments. z is up. Lengths are in one unit of your choice, called m here. Colours are "
+         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`.\n\n"
+         "Numbers that need not be whole, vectors and colours may change with time: `{\"keys\": [[seconds, value], "
+         "…]}` is interpolated linearly between the keys, or slowly at both ends with `\"between\": \"smooth\"`. A "
+         "picture shows the scene at its time. While the shutter is open, only the camera and the transforms of "
+         "objects and instances move, and are blurred.",
          {page_of<FileParts>()}}};
-    chapters.push_back({"Objects and instances",
-                        "A scene of several objects has \"objects\", and places them by \"instances\" and \"groups\".",
+    chapters.push_back({"Placed objects",
+                        "A scene of several objects has `\"objects\"`, and places them by `\"instances\"` and "
+                        "`\"groups\"`.",
                         {page_of<ObjectParameters>(), page_of<InstanceParameters>()}});
     chapters.push_back(
         {"Transforms",
-         "Where an object or an instance stands: one of these nodes' maps, or a list of them, of which "
-         "the first comes first. It moves with `{\"keys\": [[seconds, transform], …]}`: between two keys the "
-         "origin goes straight, scales change evenly, and it turns the shorter way, so a turn of more "
-         "than half a circle needs a key on its way, or an angle that has keys.",
+         "The place of an object or an instance: one of these maps, or a list of them, applied in order. It moves with "
+         "`{\"keys\": [[seconds, transform], …]}`. Between two keys the origin moves along a straight line, scales "
+         "change evenly, and rotations take the shorter way. For more than half a turn, add a key in between, or give "
+         "the angle keys of its own.",
          pages_of(TransformKinds())});
     for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
-    chapters.push_back(
-        {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
+    chapters.push_back({"Materials", "Each phase and each mesh has one material, `{\"kind\": {parameters}}`.",
+                        pages_of(MaterialKinds())});
     chapters.push_back(
         {"Textures",
-         "A material's colour may be a texture, which is a colour for each point of space: that of a whole "
-         "tree. Nodes that move or bend a part of the tree do not take the texture along: a field that a "
-         "colour follows must be moved in the same way. What is an object of \"objects\", or an instance "
-         "of one, takes its textures along.",
+         "A texture may replace a material's colour. It is a colour for each point in the space of the whole tree: "
+         "nodes that move or bend a part of the tree do not move the texture. If a colour follows a field, move that "
+         "field in the same way. Objects of `\"objects\"` and their instances take their textures along.",
          pages_of(NamedTextures())});
-    chapters.push_back({"Numbers",
-                        "A material's roughness, and the thickness of a film on it, may be another at each point.",
+    chapters.push_back({"Number textures",
+                        "The roughness of a material, the thickness of its film, the amount of a mixture and the "
+                        "opacity of a mesh may vary from point to point.",
                         pages_of(NumberTextures())});
-    chapters.push_back({"Maps of normals",
-                        "An opaque material of a mesh may have one, `\"normal_map\": {parameters}`.",
+    chapters.push_back({"Normal maps",
+                        "An opaque material of a mesh may have one: `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
-    chapters.push_back(
-        {"Voxels",
-         "They tell densities and temperatures of the medium of a clear material: `\"density_grid\": {parameters}` "
-         "and `\"temperature_grid\": {parameters}`.",
-         {page_of<Voxels>()}});
-    chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
+    chapters.push_back({"Voxel grids",
+                        "Grids set the density and the temperature of the medium in a clear material: "
+                        "`\"density_grid\": {parameters}` "
+                        "and `\"temperature_grid\": {parameters}`.",
+                        {page_of<Voxels>()}});
+    chapters.push_back({"Lights", "Radiance has no unit. The radiance of all lights and the exposure belong together.",
                         pages_of(LightKinds())});
-    chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
+    chapters.push_back({"Meshes", "Meshes stand beside the object. They are opaque.", pages_of(MeshKinds())});
+    chapters.push_back({"Cameras",
+                        "`\"camera\"` is `{\"kind\": {parameters}}`. The parameters of a thin lens may stand alone.",
+                        pages_of(CameraKinds())});
     chapters.push_back(
-        {"Cameras",
-         "Where the image is taken from: `{\"kind\": {parameters}}`, or the parameters of a thin lens alone.",
-         pages_of(CameraKinds())});
-    chapters.push_back({"Image", "How large the image is, and how it is made.", {page_of<ImageParameters>()}});
+        {"Render settings", "The size of the picture, and how it is rendered.", {page_of<ImageParameters>()}});
+    for (Chapter& chapter : chapters)
+        for (KindPage& page : chapter.pages)
+            if (page.example.empty()) page.example = fmt::format("{}/{}", file_stem(chapter), page.name);
     return chapters;
 }
 
@@ -87,13 +110,27 @@ std::string scene_reference_text() {
     return reference_text(scene_chapters());
 }
 
-std::string scene_reference_markdown() {
-    return "# Scene files\n\nAll that a scene file can say, written by `phasetree nodes --markdown` from the program's "
-           "own lists of parameters. Sections are the paper's. A node's picture leads to the tree that it shows; "
-           "[nodes/studio.json](nodes/studio.json) is the scene around it, and [nodes/render.sh](nodes/render.sh) "
-           "takes "
-           "the pictures.\n" +
-           reference_markdown(scene_chapters());
+std::vector<ReferencePage> scene_reference_pages(const std::filesystem::path& folder) {
+    const std::vector<Chapter> nodes = node_chapters();
+    std::vector<Chapter> chapters = scene_chapters();
+    std::vector<ReferencePage> pages{
+        {"README.md",
+         "# Scene reference\n\nEverything that a scene file can contain, with pictures, units, limits and defaults. "
+         "`phasetree nodes --markdown scenes/reference` writes these pages from the lists of parameters that the "
+         "program's readers use; `phasetree nodes` prints the same text. [Scene "
+         "files](../../tracer/manual/reference/scene-files.md) explains how a file is organised.\n\n"
+         "Each picture links to its example. The example of a node is a tree, shown in the "
+         "[studio](../nodes/studio.json). Other examples are members of a scene; the `studio.json` in their folder "
+         "supplies the rest. Sections are those of the paper.\n\n" +
+             reference_index(chapters)}};
+    for (Chapter& chapter : chapters) {
+        chapter.text += "\n\nAll chapters: [scene reference](README.md).";
+        const bool is_of_nodes = std::ranges::find(nodes, chapter.title, &Chapter::title) != nodes.end();
+        for (KindPage& page : chapter.pages)
+            if (!is_of_nodes) page.snippet = example_text(folder / (page.example + ".json"));
+        pages.push_back({file_stem(chapter) + ".md", reference_markdown(chapter)});
+    }
+    return pages;
 }
 
 std::string scene_json_schema() {

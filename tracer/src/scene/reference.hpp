@@ -1,7 +1,9 @@
 // The reference of scene files: the library's nodes, and the path tracer's lists of parameters.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "phasetree/io/reference.hpp"
 
@@ -9,9 +11,17 @@ namespace phasetree::tracer {
 
 std::vector<Chapter> scene_chapters();
 
-// For a terminal, and as the page scenes/nodes.md.
+// For a terminal.
 std::string scene_reference_text();
-std::string scene_reference_markdown();
+
+struct ReferencePage {
+    std::string file;  // such as "lights.md"
+    std::string text;  // in Markdown
+};
+
+// The pages of scenes/reference: one per chapter, and the index, README.md. The examples of kinds, except nodes, are
+// read from `folder`, such as lights/sun.json; throws std::runtime_error if one is missing.
+std::vector<ReferencePage> scene_reference_pages(const std::filesystem::path& folder);
 
 // The JSON Schema of scene files, scenes/scene.schema.json.
 std::string scene_json_schema();

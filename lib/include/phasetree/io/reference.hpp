@@ -29,8 +29,10 @@ struct KindPage {
     std::string section;   ///< of the paper; may be empty
     std::string equation;  ///< may be empty
     std::string summary;
-    /// Path of the example without extension; may be empty. The picture has the extension .jpg, its scene .json.
+    /// Path of the example without extension, relative to the reference; may be empty. The picture has the extension
+    /// .jpg, its JSON .json.
     std::string example;
+    std::string snippet;  ///< the example's JSON, to be shown on the page; may be empty
     std::vector<ParameterPage> parameters;
     /// Whether the only required parameter is a list or a text, which may be written instead of the parameters.
     bool list_alone = false;
@@ -66,13 +68,22 @@ std::vector<KindPage> pages_of(TypeList<Kinds...>) {
     return {page_of<Kinds>()...};
 }
 
-/// The chapters about the nodes of trees: fields, objects and warps.
+/// The chapters about the nodes of trees: shapes, operators on fields, objects and warps.
 std::vector<Chapter> node_chapters();
 
-/// Format chapters as a reference, with parameters, units, limits, defaults, equations and sections of the paper: as
-/// text for a terminal, or as Markdown without a title.
+/// Format chapters as text for a terminal, with parameters, units, limits, defaults, equations and sections of the
+/// paper.
 std::string reference_text(std::span<const Chapter>);
-std::string reference_markdown(std::span<const Chapter>);
+
+/// The title in lower case with hyphens, such as "operators-on-fields". It names the chapter's page and folder.
+std::string file_stem(const Chapter&);
+
+/// Format a chapter as a page of Markdown: a table of contents, then a section per kind with the same information as
+/// the text, its picture and its snippet.
+std::string reference_markdown(const Chapter&);
+
+/// Format the list of the chapters' pages and their kinds as a Markdown table.
+std::string reference_index(std::span<const Chapter>);
 
 /// JSON Schemas (draft 7) as JSON text: of a kind's parameters, of {"kind": {…}} for one of several kinds, and of a
 /// reference to one of the schema's definitions.

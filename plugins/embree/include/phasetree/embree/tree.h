@@ -76,7 +76,7 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, con
  * Returns NULL for the vacuum, for a phase whose member is not an object, and for trees built in C++.
  *
  * The library does not interpret materials; they are between the scene's author and the application. The scene file
- * reference (scenes/nodes.md) describes the path tracer's. The string is valid as long as the tree. Edits may change
+ * reference (scenes/reference) describes the path tracer's. The string is valid as long as the tree. Edits may change
  * it, like any other part of the text ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
