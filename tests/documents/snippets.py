@@ -284,6 +284,20 @@ class SceneReference(unittest.TestCase):
                                           capture_output=True, cwd=ROOT / "scenes")
                     self.assertEqual((done.returncode, done.stderr), (0, ""), example)
 
+    def test_command_writes_the_pages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            failed = subprocess.run([COMMAND, "nodes", "--markdown", folder], capture_output=True, text=True)
+            self.assertEqual(failed.returncode, 2)
+            self.assertIn(f"--markdown: {folder}/scene-file/scene.json: ", failed.stderr)
+            self.assertEqual(os.listdir(folder), [])
+            for example in REFERENCE.glob("*/*.json"):
+                copy = pathlib.Path(folder) / example.relative_to(REFERENCE)
+                copy.parent.mkdir(exist_ok=True)
+                shutil.copy(example, copy)
+            subprocess.run([COMMAND, "nodes", "--markdown", folder], check=True)
+            for page in REFERENCE.glob("*.md"):
+                self.assertTrue((pathlib.Path(folder) / page.name).read_bytes() == page.read_bytes(), page)
+
     def test_pages_show_only_examples(self):
         """So that no block of these pages is untested."""
         examples = {path.read_text(encoding="utf-8").strip() for path in REFERENCE.glob("*/*.json")}

@@ -120,8 +120,8 @@ std::vector<ReferencePage> scene_reference_pages(const std::filesystem::path& fo
          "program's readers use; `phasetree nodes` prints the same text. [Scene "
          "files](../../tracer/manual/reference/scene-files.md) explains how a file is organised.\n\n"
          "Each picture links to its example. The example of a node is a tree, shown in the "
-         "[studio](../nodes/studio.json). Other examples are members of a scene; the `studio.json` in their folder "
-         "supplies the rest. Sections are those of the paper.\n\n" +
+         "[studio](../nodes/studio.json). Other examples are members of a scene: `render.py` "
+         "adds the rest from a `studio.json`, and renders them. Sections are those of the paper.\n\n" +
              reference_index(chapters)}};
     for (Chapter& chapter : chapters) {
         chapter.text += "\n\nAll chapters: [scene reference](README.md).";
