@@ -37,7 +37,7 @@ def main() -> int:
     if arguments[:1] == ["render"]:
         if "--time" in arguments:
             arguments = [*without(arguments, "--time"), "--time", "0.3s"]
-        if "--samples" not in arguments:
+        if "--sample-range" not in arguments:
             enough = "8" if any(a.startswith("--denoise") for a in arguments) else "1"
             arguments = [*without(arguments, "--spp"), "--spp", enough]
         arguments = [*without(arguments, "--size"), "--size", "24x18"]

@@ -7,11 +7,10 @@
 namespace phasetree::tracer {
 
 void add_nodes(CLI::App& app, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("nodes", "Print all that a scene file can say, with parameters, units, limits and defaults");
+    CLI::App* command = app.add_subcommand("nodes", "Print the reference of the scene format");
     auto markdown = std::make_shared<bool>(false), schema = std::make_shared<bool>(false);
-    auto* first = command->add_flag("--markdown", *markdown, "As the page scenes/nodes.md");
-    command->add_flag("--json-schema", *schema, "The JSON Schema of scene files, scenes/scene.schema.json")
+    auto* first = command->add_flag("--markdown", *markdown, "Print it as Markdown, the page scenes/nodes.md");
+    command->add_flag("--json-schema", *schema, "Print a JSON Schema for editors, scenes/scene.schema.json")
         ->excludes(first);
     command->callback([markdown, schema, &run] {
         run = [markdown, schema] {
