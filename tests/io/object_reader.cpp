@@ -1,4 +1,4 @@
-// Typed access to the members of an object: what is read, and what a person is told who wrote it wrong.
+// Typed access to the members of an object: the values, and messages about mistakes.
 
 #include "phasetree/io/object_reader.hpp"
 
@@ -54,7 +54,7 @@ const std::vector<Bad>& bad_objects() {
          "radius"},
         {"{\n \"raduis\": 1}", finish_sphere, 2, 2, "unknown key \"raduis\" in the sphere", "radius"},
         {"{\"colour\": 1}", finish_sphere, 1, 2,
-         "unknown key \"colour\" in the sphere; it may have \"radius\", \"center\", \"material\""},
+         "unknown key \"colour\" in the sphere; the keys are \"radius\", \"center\", \"material\""},
         {"{\"radius\": 2, \"Center\": 1, \"x\": 2}", finish_sphere, 1, 15, "unknown key \"Center\" in the sphere",
          "center"},
         {"{\"x\": 1}", [](ObjectReader& reader) { reader.finish(); }, 1, 2, "unknown key \"x\" in the sphere"},

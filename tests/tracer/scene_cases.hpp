@@ -1,5 +1,5 @@
-// Each kind of thing that a scene file can say: the least that it needs, and how it is read. What was read is told in
-// numbers, so that tests can ask whether a key has changed it without knowing its type.
+// Each kind of thing that a scene file can say: the least that it needs, and how it is read. What was read is
+// converted to numbers, so tests can check whether a key changes it without knowing its type.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -54,7 +54,7 @@ inline const support::TemporaryDirectory& folder() {
 }
 
 /// A kind of thing: where the schema describes it, the members that it needs at least, and how it is read. `text` is
-/// an object of its parameters; what is read is told in numbers that show what became of them.
+/// an object of its parameters; what is read is converted to numbers that depend on them.
 struct Case {
     std::string chapter, name, needed;
     std::string before, after;  ///< around the object, to make of it what the reader reads
@@ -334,7 +334,7 @@ inline std::vector<Case> cases() {
     all.push_back({"Numbers", "per_copy", R"("ramp": [[0, 0], [1, 0.5]])",
                    scene + R"(coated": {"color": [1, 1, 1], "roughness": {"per_copy": )", "}}}}",
                    tell_material_of_scene});
-    all.push_back({"Maps of normals", "normal_map", R"("file": "sky.hdr")",
+    all.push_back({"Normal maps", "normal_map", R"("file": "sky.hdr")",
                    scene + R"(diffuse": {"color": [1, 1, 1], "normal_map": )", "}}}", tell_material_of_scene});
     const std::string images = R"("file": "layer.pgm", "spacing": [0.5, 0.4, 0.6])";
     const std::string aside = images + R"(, "translate": [0.25, 0.15, -0.4])";

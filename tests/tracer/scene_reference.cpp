@@ -69,7 +69,7 @@ Value properties_of(const Case& c) {
     const std::map<std::string, std::string> definitions{
         {"Materials", "material"}, {"Textures", "texture"}, {"Numbers", "number_texture"}, {"Lights", "light"},
         {"Meshes", "mesh"},        {"Cameras", "camera"},   {"Transforms", "transform"}};
-    for (const char* const with_one_kind : {"Image", "Maps of normals", "Voxels"})
+    for (const char* const with_one_kind : {"Image", "Normal maps", "Voxels"})
         if (c.chapter == with_one_kind) return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
     if (c.chapter == "Transforms") kinds = (*kinds.find("anyOf"))[0];
@@ -257,7 +257,7 @@ TEST_CASE("limits: refused outside, at the number's place, and accepted at the l
                 }
                 ++count;
             };
-            // As near as a float tells the two apart.
+            // As close as floats can distinguish.
             const auto beyond = [&](double limit, double sign) {
                 return is_integer ? limit + sign : limit + sign * std::max(std::abs(limit) * 1e-6, 1e-6);
             };

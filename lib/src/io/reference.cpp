@@ -131,9 +131,10 @@ ParameterPage parameter_page(const Parameter& p, const ValueType& type, std::str
 
 std::vector<Chapter> node_chapters() {
     std::vector<Chapter> chapters{
-        {"Fields", "A field is one signed distance, negative inside.", pages_of_nodes(PlainFields())},
-        {"Objects", "An object has several phases, of which exactly one is at any point.", pages_of_nodes(Objects())},
-        {"Warps", "A warp deforms a field or an object, and is what its child is.",
+        {"Fields", "A field is a signed distance, negative inside.", pages_of_nodes(PlainFields())},
+        {"Objects", "An object has several phases, exactly one of which contains any point.",
+         pages_of_nodes(Objects())},
+        {"Warps", "A warp deforms a field or an object; the result is of the same kind.",
          pages_of_nodes(detail::Map<WarpedPhased, Warps>::type())}};
     for (Chapter& chapter : chapters) {
         std::string folder = chapter.title;

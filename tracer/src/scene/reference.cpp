@@ -35,51 +35,46 @@ std::string schema_of_transform(const std::string& one) {
 std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{
         {"Scene file",
-         "A scene is JSON with comments. z is up; lengths are in any one unit, which is called m here; colours are "
-         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. Instead of any number that need not be whole, vector or colour "
-         "there may be `{\"keys\": [[seconds, value], …]}`: it changes with time, linearly between its keys, or with "
-         "`\"between\": \"smooth\"` slowly at both ends. A picture shows what is there at its time. While the shutter "
-         "is open, the camera and the transforms of objects and instances go on, and are blurred; all else stays.",
+         "A scene is JSON with comments. z is up. Lengths may be in any one unit, which is called m here. Colours are "
+         "linear `[r, g, b]` or sRGB `\"#rrggbb\"`. Numbers that need not be whole, vectors and colours can be "
+         "animated with `{\"keys\": [[seconds, value], …]}`: the value changes linearly between keys, or, with "
+         "`\"between\": \"smooth\"`, slowly near them. A picture shows the scene at one time. While the shutter is "
+         "open, the camera and the transforms of objects and instances keep moving, which blurs them; everything else "
+         "stands still.",
          {page_of<FileParts>()}}};
     chapters.push_back({"Objects and instances",
-                        "A scene of several objects has \"objects\", and places them by \"instances\" and \"groups\".",
+                        "A scene of several objects has \"objects\", which \"instances\" and \"groups\" place.",
                         {page_of<ObjectParameters>(), page_of<InstanceParameters>()}});
-    chapters.push_back(
-        {"Transforms",
-         "Where an object or an instance stands: one of these nodes' maps, or a list of them, of which "
-         "the first comes first. It moves with `{\"keys\": [[seconds, transform], …]}`: between two keys the "
-         "origin goes straight, scales change evenly, and it turns the shorter way, so a turn of more "
-         "than half a circle needs a key on its way, or an angle that has keys.",
-         pages_of(TransformKinds())});
+    chapters.push_back({"Transforms",
+                        "The transform of an object or an instance: one of these nodes, or a list of them, applied in "
+                        "order. It can be animated with `{\"keys\": [[seconds, transform], …]}`: between two keys the "
+                        "origin moves in a straight line, scales change linearly, and rotations take the shorter way. "
+                        "A turn of more than half a circle therefore needs a key in between, or an angle with keys.",
+                        pages_of(TransformKinds())});
     for (Chapter& chapter : node_chapters()) chapters.push_back(std::move(chapter));
-    chapters.push_back(
-        {"Materials", "A phase or a mesh is of one material, `{\"kind\": {parameters}}`.", pages_of(MaterialKinds())});
+    chapters.push_back({"Materials", "Each phase and each mesh has one material, `{\"kind\": {parameters}}`.",
+                        pages_of(MaterialKinds())});
     chapters.push_back(
         {"Textures",
-         "A material's colour may be a texture, which is a colour for each point of space: that of a whole "
-         "tree. Nodes that move or bend a part of the tree do not take the texture along: a field that a "
-         "colour follows must be moved in the same way. What is an object of \"objects\", or an instance "
-         "of one, takes its textures along.",
+         "A material's colour may be a texture, which has a colour for each point in the space of the whole tree. "
+         "Nodes that move or deform a part of the tree do not move the texture. If a colour follows a field, move the "
+         "field in the same way. An object of \"objects\" and its instances do carry their textures along.",
          pages_of(NamedTextures())});
-    chapters.push_back({"Numbers",
-                        "A material's roughness, and the thickness of a film on it, may be another at each point.",
+    chapters.push_back({"Numbers", "A material's roughness and the thickness of its film may vary from point to point.",
                         pages_of(NumberTextures())});
-    chapters.push_back({"Maps of normals",
-                        "An opaque material of a mesh may have one, `\"normal_map\": {parameters}`.",
+    chapters.push_back({"Normal maps",
+                        "An opaque material of a mesh may have a normal map, `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
+    chapters.push_back({"Voxels",
+                        "Densities and temperatures of the medium in a clear material: `\"density_grid\": "
+                        "{parameters}` and `\"temperature_grid\": {parameters}`.",
+                        {page_of<Voxels>()}});
     chapters.push_back(
-        {"Voxels",
-         "They tell densities and temperatures of the medium of a clear material: `\"density_grid\": {parameters}` "
-         "and `\"temperature_grid\": {parameters}`.",
-         {page_of<Voxels>()}});
-    chapters.push_back({"Lights", "Radiances have no unit. Those of all lights and the exposure belong together.",
-                        pages_of(LightKinds())});
-    chapters.push_back({"Meshes", "What stands beside the object. Meshes are opaque.", pages_of(MeshKinds())});
-    chapters.push_back(
-        {"Cameras",
-         "Where the image is taken from: `{\"kind\": {parameters}}`, or the parameters of a thin lens alone.",
-         pages_of(CameraKinds())});
-    chapters.push_back({"Image", "How large the image is, and how it is made.", {page_of<ImageParameters>()}});
+        {"Lights", "Radiances have no unit: only their ratios and the exposure matter.", pages_of(LightKinds())});
+    chapters.push_back({"Meshes", "Opaque meshes beside the object.", pages_of(MeshKinds())});
+    chapters.push_back({"Cameras", "The camera, `{\"kind\": {parameters}}`, or only the parameters of a thin lens.",
+                        pages_of(CameraKinds())});
+    chapters.push_back({"Image", "Size of the image and settings of the renderer.", {page_of<ImageParameters>()}});
     return chapters;
 }
 
@@ -88,11 +83,10 @@ std::string scene_reference_text() {
 }
 
 std::string scene_reference_markdown() {
-    return "# Scene files\n\nAll that a scene file can say, written by `phasetree nodes --markdown` from the program's "
-           "own lists of parameters. Sections are the paper's. A node's picture leads to the tree that it shows; "
-           "[nodes/studio.json](nodes/studio.json) is the scene around it, and [nodes/render.sh](nodes/render.sh) "
-           "takes "
-           "the pictures.\n" +
+    return "# Scene files\n\nThe complete reference of the scene format, written by `phasetree nodes --markdown` from "
+           "the program's own lists of parameters. Section numbers refer to the paper. The picture of a node links to "
+           "its tree; [nodes/studio.json](nodes/studio.json) is the scene around it, and "
+           "[nodes/render.sh](nodes/render.sh) renders the pictures.\n" +
            reference_markdown(scene_chapters());
 }
 

@@ -11,7 +11,7 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// Notes another ray, in its place: most rays meet a cell or two, so what this takes counts.
+// Records another ray in the existing storage. Most rays hit only a cell or two, so the cost of this matters.
 void note_ray(Query& query, const RTCRay& ray) {
     static_assert(std::is_trivially_destructible_v<SeenRay>);
     std::construct_at(&query.seen, ray);

@@ -42,7 +42,7 @@ void occluded_packet(const RTCOccludedFunctionNArguments* arguments) noexcept {
 CellGeometry::CellGeometry(RTCDevice device, std::shared_ptr<const InterfaceCells> cells, const Options& options)
     : handle_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)), cells_(std::move(cells)) {
     rtcSetGeometryUserPrimitiveCount(handle_, static_cast<unsigned>(cells_->size()));
-    rtcSetGeometryUserData(handle_, const_cast<InterfaceCells*>(cells_.get()));  // Embree hands it back, and no more
+    rtcSetGeometryUserData(handle_, const_cast<InterfaceCells*>(cells_.get()));  // Embree only passes it back
     rtcSetGeometryBoundsFunction(handle_, bounds, nullptr);
     rtcSetGeometryIntersectFunction(handle_, options.rays_carry_phases ? intersect_query : intersect_packet);
     rtcSetGeometryOccludedFunction(handle_, options.rays_carry_phases ? occluded_query : occluded_packet);

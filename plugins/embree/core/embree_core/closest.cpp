@@ -205,8 +205,8 @@ class Search {
     const glm::vec3 point_;
     const Metric metric_;
     const double tolerance_;
-    const float rounding_;      // what rounding can make of a distance, as the cells reckon
-    const double near_enough_;  // in the world: bounds that differ by no more end the search
+    const float rounding_;      // rounding error of a distance, as estimated by the cells
+    const double near_enough_;  // in world space; the search ends once the bounds are this close
     const PhaseSet opaque_;
 
     Closest best_;

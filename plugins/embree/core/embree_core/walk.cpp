@@ -15,8 +15,8 @@ std::optional<CellScene::Hit> Walk::next() {
     base_ = t_out;
     carried_ = c.to;
     // Where phases flicker within rounding, crossings may follow each other without end: after 32 within a resolution
-    // of `anchor_` the walk goes on by a resolution. If the phase is another one there, the next search says so: it
-    // reports a crossing of no length at its start.
+    // of `anchor_` the walk goes on by a resolution. If the phase has changed there, the next search
+    // reports a crossing of length zero at its start.
     const double resolution = static_cast<double>(scene_.cells().resolution());
     if (base_ - anchor_ > resolution) {
         anchor_ = base_;
