@@ -6,6 +6,10 @@
 
 namespace phasetree {
 
+bool is_kind(Value member, std::string_view name) {
+    return member.key() == name || is_other_spelling(member.key(), name);
+}
+
 Value member_of_kind(const Document& document, Value value, std::string_view what,
                      std::span<const std::string_view> kinds) {
     std::string list;
@@ -20,7 +24,7 @@ Value member_of_kind(const Document& document, Value value, std::string_view wha
                                value.size(), list));
     const Value member = value[0];
     for (const std::string_view kind : kinds)
-        if (member.key() == kind) return member;
+        if (is_kind(member, kind)) return member;
     throw document.error(member.key_offset(),
                          fmt::format("{} cannot be of the kind \"{}\"; choose from {}", what, member.key(), list),
                          closest(member.key(), kinds));
