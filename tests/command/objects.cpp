@@ -79,7 +79,7 @@ TEST_CASE("check and render name objects that overlap, and a point of both") {
         CHECK(bad.code == 0);
         CHECK(bad.err.find("\"cube\" (copy 0) and \"wet\" (copy 1) overlap, for example at [0.6249") !=
               std::string::npos);
-        CHECK(bad.err.find("for example; \"cube\" (copy 0) is there") != std::string::npos);
+        CHECK(bad.err.find("; \"cube\" (copy 0) takes precedence") != std::string::npos);
         CHECK(bad.err.find("bad.json:3:") != std::string::npos);
     }
 }
@@ -119,14 +119,14 @@ TEST_CASE(
     many = many.substr(0, many.find(",\n        \"groups\"")) + groups + "}}";
     write_text(shell.directory / "many.json", many);
     const std::string said = shell.run({"check", "many.json"}).err;
-    CHECK(said.find("the group \"g0\" stands nowhere") != std::string::npos);
+    CHECK(said.find("the group \"g0\" is not in the scene") != std::string::npos);
     CHECK(said.find("many.json: warning: 92 more groups are not in the scene\n") != std::string::npos);
 }
 
 TEST_CASE("what is for one tree says so, and the picture is the same for any number of threads") {
     const Shell shell;
     write_text(shell.directory / "scene.json", scene_of());
-    CHECK(shell.run({"render", "scene.json", "--cells", "x"}).err.find("--cells is for scenes of one tree") !=
+    CHECK(shell.run({"render", "scene.json", "--cells", "x"}).err.find("--cells needs a scene with a single") !=
           std::string::npos);
     CHECK(shell.run({"export", "scene.json", "-o", "a.glsl"}).code == 0);
     CHECK(shell.run({"render", "scene.json", "--threads", "1", "--planes", "all", "-o", "a.exr"}).code == 0);

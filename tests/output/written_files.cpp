@@ -75,7 +75,7 @@ TEST_CASE("a bad name is rejected with the reason, before and after rendering") 
     };
     const Case cases[] = {
         {folder / "a.bmp", "unknown image format \".bmp\"; use .exr, .png, .jpg, .jpeg, .tif or .tiff"},
-        {folder / "a", "its name has no extension; the formats are .exr"},
+        {folder / "a", "its name has no extension; use .exr"},
         {folder / ".exr", "its name has no extension"},
         {"", "its name has no extension"},
         {folder / "folder.png", "it is a directory"},

@@ -131,7 +131,7 @@ TEST_CASE("a file of another kind, or of none, is rejected with a hint") {
     CHECK(said("obj", "room.gltf") == "the name of the file must end in .obj; for room.gltf use the mesh \"gltf\"");
     CHECK(said("gltf", "room.obj") ==
           "the name of the file must end in .gltf or .glb; for room.obj use the mesh \"obj\"");
-    CHECK(said("stl", "none.stl") == "there is no file none.stl");
+    CHECK(said("stl", "none.stl") == "no such file none.stl");
 }
 
 }  // namespace test_file_meshes

@@ -165,7 +165,7 @@ TEST_CASE("what does not go together is said at its place") {
     is_said(R"("density_grid": {IMAGE})", "\"density_grid\" requires \"scattering\" or \"absorption\"");
     is_said(absorbs + R"("density": {"sphere": {"radius": 1}}, "density_depth": 1, "density_grid": {IMAGE})",
             "\"density_grid\" and \"density\" exclude each other");
-    is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "is of no use without \"emission\"");
+    is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "requires \"emission\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "temperature_grid": {IMAGE})",
             "is of no use without \"density_grid\" or \"density\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "emission_spectrum": {"blackbody": 2000}, "density_grid": {IMAGE},
