@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
         if (settings.quick) settings.width = settings.height = 128;
         if (size) set_size(settings, *size);
     } catch (const CLI::ParseError& e) {
-        return tracer::exit_code(app, e);
+        return tracer::report_parse_error(app, e);
     }
     if (static_cast<unsigned>(settings.threads) > cores)
         fmt::print("{} threads on {} cores: they will wait for each other\n", settings.threads, cores);

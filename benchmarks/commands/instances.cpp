@@ -26,7 +26,7 @@ namespace {
 constexpr int cubes = 256;  // along the mesh's longest side
 const char* const object_file = PHASETREE_SCENES "/benchmark/hourglass_monophase.json";
 
-// So many places on a cube's lattice, as far apart as the object is large, each turned at random.
+// Transforms on a cubic lattice, spaced by the size of the object, each with a random rotation.
 std::vector<glm::mat4x3> places(int along, const Bounds& object, std::uint64_t seed) {
     Random random(seed);
     std::vector<glm::mat4x3> result;

@@ -50,8 +50,7 @@ void say_what_is_compared(Report& report, const Settings& settings, int cubes) {
                     "thread(s)",
                     settings.width, settings.height, settings.threads));
     report.say(
-        "the field is told that no ray is inside, and a ray that leaves it where it found the hit, as a path tracer "
-        "does; "
+        "rays of the field carry their phase and their last hit, as those of a path tracer do; "
         "the mesh's ray starts a hair off");
     report.say(
         "build: processor time on one thread, from the tree for the field; the mesh's is the meshing and Embree's "

@@ -42,7 +42,7 @@ class Report {
     // Compares with what is wanted; the verdict is printed, and does not change the exit code.
     void at_most(const std::string& what, double measured, double wanted, const std::string& format = "{:.2f}");
     void at_least(const std::string& what, double measured, double wanted, const std::string& format = "{:.2f}");
-    // What must hold for the measurement to mean anything; the program's exit code tells if it does not.
+    // A condition without which the measurement is meaningless. If it fails, so does the program.
     void check(const std::string& what, bool holds, const std::string& found);
     void number(const std::string& key, double value) { json_[key] = value; }
 

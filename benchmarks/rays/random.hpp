@@ -18,7 +18,7 @@ class Random {
 
     // In [0, 1).
     float next() { return static_cast<float>(generator_() >> 40) * 0x1p-24f; }
-    // One of so many.
+    // An index below `count`.
     std::size_t below(std::size_t count) {
         return std::min(static_cast<std::size_t>(next() * static_cast<float>(count)), count - 1);
     }

@@ -15,7 +15,7 @@ SHAPE = (128, 128, 224)
 SCALE = 1.6  # The numbers below were found with a grid of fewer cells. One of its lengths is this many here.
 TIME_STEP = 0.6
 STEPS = 190
-STREAM_ENDS = 62.0  # when no more ink is poured
+STREAM_ENDS = 62.0  # when the pouring of ink ends
 # The acceleration by which ink of density 1 sinks, and how strongly eddies are spun up. The latter is meant for cells of
 # any size: what it makes up for is smaller where cells are.
 HEAVINESS, CONFINEMENT = 0.05, 0.10

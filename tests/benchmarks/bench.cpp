@@ -89,17 +89,16 @@ TEST_CASE("phasetree-bench: what is wrong with the command line is said, and not
         std::vector<std::string> arguments;
         std::string message;
     };
-    for (const Case& c :
-         std::vector<Case>{{{"tablel"}, "unknown subcommand \"tablel\"; did you mean \"table1\"?"},
-                           {{"nothing"}, "unknown subcommand \"nothing\"; the subcommands are table1, "},
-                           {{"phases", "--size", "32"}, "--size"},
-                           {{"phases", "--size", "0x5"}, "--size"},
-                           {{"phases", "--size", ""}, "--size"},
-                           {{"phases", "--threads", "0"}, "--threads"},
-                           {{"phases", "--seed", "-1"}, "--seed"},
-                           {{"phases", "--seed", "99999999999999999999999"}, "--seed"},
-                           {{"phases", "--nothing"}, "--nothing"},
-                           {{}, "subcommand"}}) {
+    for (const Case& c : std::vector<Case>{{{"tablel"}, "unknown subcommand \"tablel\"; did you mean \"table1\"?"},
+                                           {{"nothing"}, "unknown subcommand \"nothing\" (choose from table1, "},
+                                           {{"phases", "--size", "32"}, "--size"},
+                                           {{"phases", "--size", "0x5"}, "--size"},
+                                           {{"phases", "--size", ""}, "--size"},
+                                           {{"phases", "--threads", "0"}, "--threads"},
+                                           {{"phases", "--seed", "-1"}, "--seed"},
+                                           {{"phases", "--seed", "99999999999999999999999"}, "--seed"},
+                                           {{"phases", "--nothing"}, "--nothing"},
+                                           {{}, "subcommand"}}) {
         std::vector<std::string> arguments = c.arguments;
         if (!arguments.empty()) arguments.insert(arguments.end(), {"--json", file});
         CAPTURE(arguments);

@@ -320,7 +320,7 @@ struct EnclosingWalk {
     template <class P>
     Scalar primitive(const P& n, const Point& p) {
         if constexpr (LongPrimitive<P>) {
-            folds = true;  // only its slope is used; as good as nothing here
+            folds = true;  // only its slope is used, which is almost useless here
             return Enclosure(0.f);
         } else if constexpr (ConvexPrimitive<P>) {
             return known_to_be_convex(n.distance(p), p).tightened(half);

@@ -35,7 +35,7 @@ TEST_CASE("a file of other cells is rejected, and says in what it differs") {
         CAPTURE(message);
         CHECK(message.find(part) != std::string::npos);
     };
-    with([](CellsFileHeader& h) { h.library = {'9', '.', '9', '\n'}; }, "written by phasetree 9.9?, and this is ");
+    with([](CellsFileHeader& h) { h.library = {'9', '.', '9', '\n'}; }, "written by build 9.9?, but this is build ");
     with([](CellsFileHeader& h) { h.machine = {'p', 'd', 'p', '1', '1'}; }, "written for pdp11");
     with([](CellsFileHeader& h) { h.layout += 1; }, "other nodes");
     with([](CellsFileHeader& h) { h.format += 1; }, "format is version 2");

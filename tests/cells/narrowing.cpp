@@ -32,7 +32,7 @@ TEST_CASE("a ray finds where it enters a ball in few batches, because it knows a
     const double batches = static_cast<double>(counters.batches) / crossings;
     MESSAGE(batches, " batches a crossing");
     CHECK(crossings == 2000);
-    // 2.04, on every machine: often the first frame tells where. 2.36 if how the distance bends were not asked.
+    // 2.04, on every machine: often the first frame determines it. 2.36 if how the distance bends were not asked.
     CHECK(batches < 2.1);
 }
 

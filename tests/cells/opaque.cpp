@@ -77,7 +77,7 @@ TEST_CASE("an opaque object's inner interfaces cost the rays outside nothing") {
     compare("hourglass", BuildQuality::medium, 1.15, 1.01);
 }
 
-// The first samples know the labels here, and the surface's curvature tells where it is crossed; but between that place
+// The first samples know the labels here, and the surface's curvature determines the crossing; but between that place
 // and the next sample the label may have changed again.
 TEST_CASE("a neural field cut by a fine checker has the phase at its surface") {
     std::ifstream file(source_directory() + "/scenes/bunny.json");

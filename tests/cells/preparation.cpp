@@ -19,9 +19,9 @@ TEST_CASE("a node, and all nodes of a scene together, may do so much work and no
     const PreparationTogether scene;
     for (std::uint64_t i = 0; i < PreparationTogether::most / Preparation::most; ++i)
         Preparation("b").pay(Preparation::most);
-    CHECK_THROWS_WITH_AS(
-        Preparation("c").pay(1),
-        "c: this and the nodes before it take more work to prepare than a scene may: 4000 million steps", ModelError);
+    CHECK_THROWS_WITH_AS(Preparation("c").pay(1),
+                         "c: preparing this node and those before it exceeds the limit of 4000 million steps per scene",
+                         ModelError);
     {
         const PreparationTogether another;
         Preparation("d").pay(Preparation::most);

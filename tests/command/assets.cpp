@@ -151,10 +151,10 @@ TEST_CASE("an error of a file of weights has its place in the scene, and quotes 
 
     CHECK(told("wieghts.json") == "scene.json:3:39: wieghts.json: no such file (did you mean \"weights.json\"?)");
     write_text(shell.directory / "secret", "PASSWORD=hunter2\0USER=me");
-    CHECK(told("secret") == "scene.json:3:39: secret: is no JSON text (line 1, column 1)");
+    CHECK(told("secret") == "scene.json:3:39: secret: is not JSON (line 1, column 1)");
     const std::string form =
-        "is no network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": […]}, …]}, with a row of weights "
-        "for each number in bias ";
+        "is not a network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": […]}, …]} with one row of "
+        "weights per number in bias ";
     write_text(shell.directory / "secret", "{\"radius\": 1,\n  \"hunter2\": \"PASSWORD\", \"layers\": []}");
     CHECK(told("secret") == "scene.json:3:39: secret: " + form + "(line 2, column 3)");
     write_text(shell.directory / "secret", "{\"radius\": -31415, \"layers\": []}");
@@ -168,7 +168,7 @@ TEST_CASE("an error of a file of weights has its place in the scene, and quotes 
     for (const char* const command : {"check", "info", "eval"}) {
         const Outcome o = with_secret.run({command, "scene.json"});
         CHECK(o.code == 2);
-        CHECK(o.err.find("/proc/self/environ: is no JSON text") != std::string::npos);
+        CHECK(o.err.find("/proc/self/environ: is not JSON") != std::string::npos);
         CHECK(o.err.find("hunter2") == std::string::npos);
         CHECK(o.err.find("PASSWORD") == std::string::npos);
     }
@@ -211,9 +211,8 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
         CAPTURE(o.err);
         CHECK(o.code == 2);
         // The same whether there is such a file or not.
-        CHECK(o.err.find(fmt::format(
-                  "assets/scene.json:3:39: \"{}\" leads out of {}, the folder that files must lie in", name, here)) ==
-              0);
+        CHECK(o.err.find(fmt::format("assets/scene.json:3:39: \"{}\" is outside {}, the folder that files must be in",
+                                     name, here)) == 0);
     }
     CHECK(check(with_weights("dangling.json"), confined).code == 2);
     // By default any file may be read.
@@ -230,7 +229,7 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
         CHECK(check(scene, {}).err == "");
         const Outcome o = check(scene, confined);
         CHECK(o.code == 2);
-        CHECK(o.err.find("leads out of") != std::string::npos);
+        CHECK(o.err.find("is outside") != std::string::npos);
     }
     // A stack of images of which a link leads one out of the folder.
     SceneText stack;
@@ -241,7 +240,7 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
     write_text(at("assets/layer_01.pgm"), layer);
     fs::create_symlink("../layer_02.pgm", at("assets/layer_02.pgm"));
     CHECK(check(stack, {}).err == "");
-    CHECK(check(stack, confined).err.find("\"layer_##.pgm\" leads out of") != std::string::npos);
+    CHECK(check(stack, confined).err.find("\"layer_##.pgm\" is outside") != std::string::npos);
     fs::remove(at("assets/layer_02.pgm"));
     write_text(at("assets/deep/layer_02.pgm"), layer);
     fs::create_symlink("deep/layer_02.pgm", at("assets/layer_02.pgm"));
@@ -252,12 +251,12 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
         write_text(at("assets/scene.json"), with_weights("../outside.json").text());
         const Outcome o = shell.run({command, "assets/scene.json", "--assets-within", "assets"});
         CHECK(o.code == 2);
-        CHECK(o.err.find("leads out of") != std::string::npos);
+        CHECK(o.err.find("is outside") != std::string::npos);
     }
     for (const char* const folder : {"nowhere", "outside.json"}) {
         const Outcome o = check(SceneText(), {"--assets-within", folder});
         CHECK(o.code == 2);
-        CHECK(o.err == fmt::format("{}: is no folder that files could lie in\n", folder));
+        CHECK(o.err == fmt::format("{}: is not a folder\n", folder));
     }
 }
 

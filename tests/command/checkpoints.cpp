@@ -95,7 +95,7 @@ TEST_CASE("SIGTERM and SIGHUP say \"resume me\", and Ctrl-C does not; each leave
         CHECK(o.err.find("interrupted") != std::string::npos);
         REQUIRE(std::filesystem::exists(shell.directory / "a.part"));
         // It is unfinished, which merge knows.
-        CHECK(shell.run({"merge", "a.part", "-o", "b.exr"}).err.find("it is not finished") != std::string::npos);
+        CHECK(shell.run({"merge", "a.part", "-o", "b.exr"}).err.find("it is unfinished") != std::string::npos);
         REQUIRE(shell.run(joined(render, {"--resume", "a.part"})).code == 0);
         const bool same = bytes_of(shell.directory / "a.exr") == whole;
         CHECK(same);
@@ -133,7 +133,7 @@ TEST_CASE(
     }
     CAPTURE(o.err);
     REQUIRE(o.code == 75);
-    CHECK(o.err.find("the frame's picture is not written") != std::string::npos);
+    CHECK(o.err.find("the frame was not written") != std::string::npos);
     CHECK(std::filesystem::exists(shell.directory / "c.0.part"));
     CHECK_FALSE(std::filesystem::exists(shell.directory / "a.0.exr"));
     REQUIRE(shell.run(render).code == 0);
@@ -179,7 +179,7 @@ TEST_CASE("more samples than a checkpoint was to have are added to it") {
     const Outcome o = shell.run(joined(render, {"--resume", "a.part", "--spp", "2"}));
     CHECK(o.code == 2);
     CHECK(o.err.find("a.part") != std::string::npos);
-    CHECK(o.err.find("it is of the samples 0:3, and this render is of 0:2") != std::string::npos);
+    CHECK(o.err.find("it has the samples 0:3, but this render has 0:2") != std::string::npos);
 }
 
 TEST_CASE("a checkpoint that is of something else is rejected before any work, and stays as it is") {
@@ -199,11 +199,11 @@ TEST_CASE("a checkpoint that is of something else is rejected before any work, a
     };
     refused({"--seed", "4"}, "it has seed 0, not 4");
     refused({"--planes", "all"}, "planes");
-    refused({"--samples", "1:3"}, "it is of the samples 0:3, and this render is of 1:3");
+    refused({"--sample-range", "1:3"}, "it has the samples 0:3, but this render has 1:3");
     std::string scene = cut_scene(3);
     scene.replace(scene.find("-1.2"), 4, "-1.3");
     write_text(shell.directory / "scene.json", scene);
-    refused({}, "it is of another scene");
+    refused({}, "it belongs to another scene");
     const bool same = bytes_of(shell.directory / "a.part") == kept;
     CHECK(same);
     // Whatever is missing of it.

@@ -59,7 +59,7 @@ TEST_CASE("--denoise refuses what it cannot do, and says what it has left undone
         CHECK(o.err.find(why) != std::string::npos);
     };
     refused(joined(render, {"--denoise=regression", "--spp", "7", "-o", "a.png"}), "8 samples");
-    refused(joined(render, {"--denoise=magic", "-o", "a.png"}), "\"regression\" or \"oidn\", not \"magic\"");
+    refused(joined(render, {"--denoise=magic", "-o", "a.png"}), "must be \"regression\" or \"oidn\", but is \"magic\"");
     REQUIRE(shell.run(joined(render, {"-o", "plain.part"})).code == 0);
     refused({"merge", "plain.part", "--denoise=regression", "-o", "a.png"}, "rendered with --denoise");
     refused(joined(render, {"--denoise=regression", "--resume", "plain.part", "-o", "a.png"}), "planes");

@@ -11,7 +11,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-// Exit codes of what shells are told, or −1.
+// The exit code of a shell command, or −1.
 int run_by_shell(const Shell& shell, const std::string& command) {
     const std::string folder = shell.directory.path().string();
     const int status = std::system(("cd '" + folder + "' && " + command).c_str());
@@ -256,13 +256,13 @@ TEST_CASE("what makes no farm is rejected") {
         CHECK(o.out.empty());
         CHECK(o.err.find(why) != std::string::npos);
     };
-    refused({"cloud", "scene.json", "--shares", "2"}, "\"slurm\" or \"list\", not \"cloud\"");
-    refused({"list", "scene.json", "--shares", "5"}, "there are only 4 samples a pixel to share");
-    refused({"list", "scene.json", "--shares", "2", "--", "--sample", "1"}, "what follows -- is for render");
-    refused({"list", "scene.json", "--shares", "2", "--", "--samples", "0:1"}, "what follows -- is for every share");
+    refused({"cloud", "scene.json", "--shares", "2"}, "must be slurm or list, but is \"cloud\"");
+    refused({"list", "scene.json", "--shares", "5"}, "--shares 5: must be at most the number of samples per pixel, 4");
+    refused({"list", "scene.json", "--shares", "2", "--", "--sample", "1"}, "options after -- are for render");
+    refused({"list", "scene.json", "--shares", "2", "--", "--sample-range", "0:1"}, "are not allowed after --");
     refused({"list", "scene.json", "--shares", "2", "--", "--crop", "9,9,1,1"}, "--crop");
     refused({"list", "-", "--shares", "2"}, "must be a file");
-    refused({"list", "scene.json", "--shares", "2", "--program", "a\nb"}, "line feed");
+    refused({"list", "scene.json", "--shares", "2", "--program", "a\nb"}, "must not contain newlines");
     refused({"list", "scene.json", "--shares", "2", "--merge-width", "1"}, "--merge-width");
     refused({"list", "scene.json", "--shares", "2", "--", "--denoise"}, "8 samples");
     refused({"list", "scene.json", "--shares", "2", "--", "--spp", "9", "--denoise=magic"}, "not \"magic\"");

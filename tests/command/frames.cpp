@@ -46,7 +46,7 @@ TEST_CASE("frames are the same rendered together, one by one, and by their time"
     // Shares of a frame are joined to the frame, and not with those of another.
     for (const char* const share : {"0:2", "2:4"})
         REQUIRE(shell
-                    .run({"render", "scene.json", "--frames", "3:5", "--samples", share, "-o",
+                    .run({"render", "scene.json", "--frames", "3:5", "--sample-range", share, "-o",
                           "s" + std::string(share).substr(0, 1) + ".#.part"})
                     .code == 0);
     REQUIRE(shell.run({"merge", "s0.3.part", "s2.3.part", "-o", "m.exr"}).code == 0);
@@ -65,7 +65,7 @@ TEST_CASE("--skip-existing leaves out frames of which the file of each plane is 
     std::filesystem::remove(shell.directory / "a.1.beauty.exr");
     const Outcome again = run();
     CHECK(again.code == 0);
-    CHECK(again.err.find("1 of 2 frames were there already") != std::string::npos);
+    CHECK(again.err.find("skipped 1 of 2 frames, whose files exist") != std::string::npos);
     CHECK(shell.has("a.1.beauty.exr"));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("--skip-existing leaves out frames that are there") {
     CHECK(shell.bytes("a.1.png") == "kept");
     CHECK(shell.has("a.0.png"));
     CHECK(shell.has("a.2.png"));
-    CHECK(o.err.find("1 of 3 frames were there already") != std::string::npos);
+    CHECK(o.err.find("skipped 1 of 3 frames, whose files exist") != std::string::npos);
     REQUIRE(shell.run({"render", "scene.json", "--frames", "1:2", "-o", "a.#.png", "--spp", "1"}).code == 0);
     CHECK(shell.bytes("a.1.png") != "kept");
 }
@@ -94,13 +94,13 @@ TEST_CASE("what is wrong with frames is said, and in which frame") {
         CHECK(o.code == 2);
         CHECK(o.err.find(message) != std::string::npos);
     };
-    wrong({"--frames", "3", "-o", "a.#.png"}, "--frames must be FIRST:LAST, the last excluded, but is \"3\"");
+    wrong({"--frames", "3", "-o", "a.#.png"}, "--frames must be FIRST:LAST, where LAST is excluded, but is \"3\"");
     wrong({"--frames", "3:3", "-o", "a.#.png"}, "--frames 3:3:");
     wrong({"--frames", "-2:3", "-o", "a.#.png"}, "--frames -2:3:");
-    wrong({"--frames", "0:2"}, "--frames needs names for its files");
-    wrong({"--frames", "0:2", "-o", "a.png"}, "--output a.png: each frame needs a file of its own");
+    wrong({"--frames", "0:2"}, "--frames needs -o with ####");
+    wrong({"--frames", "0:2", "-o", "a.png"}, "--output a.png: each frame needs its own file");
     wrong({"--frames", "0:2", "-o", "a.#.png", "--checkpoint", "c.part"}, "--checkpoint c.part: each frame needs");
-    wrong({"--frames", "0:2", "-o", "a.#.png", "--at", "1"}, "--frames says when each frame is");
+    wrong({"--frames", "0:2", "-o", "a.#.png", "--at", "1"}, "--frames and --at cannot be combined");
     wrong({"--skip-existing"}, "--frames");
     CHECK_FALSE(shell.has("a.0.png"));
     // The ball grows around the camera.

@@ -107,15 +107,15 @@ class WrongScenes {
         cases_.push_back({"two scenes", SceneText().text() + SceneText().text(), ""});
         cases_.push_back({"a quote too few", R"({"version: 1})", ""});
         cases_.push_back({"no version", "{}", "version"});
-        cases_.push_back({"another version", R"({"version": 2})", "version 1"});
+        cases_.push_back({"another version", R"({"version": 2})", "\"version\" must be 1"});
         cases_.push_back({"a version of another kind", R"({"version": "banana"})", "version"});
         cases_.push_back({"a schema without a name", R"({"$schema": 3, "version": 1})", "$schema"});
     }
     // Keys, kinds and numbers.
     void add_keys_and_numbers() {
         rest("unknown key", "did you mean \"background\"", R"("backgruond": [0, 0, 0])");
-        rest("setting of the image in the scene", "\"samples\" stands in \"render\"", R"("samples": 3)");
-        rest("setting of the camera in the scene", "\"fov\" stands in \"camera\"", R"("fov": 3)");
+        rest("setting of the image in the scene", "\"samples\" belongs in \"render\"", R"("samples": 3)");
+        rest("setting of the camera in the scene", "\"fov\" belongs in \"camera\"", R"("fov": 3)");
         rest("a key twice", "lights", R"("lights": [])");
         ball("misspelt parameter", "did you mean \"radius\"", R"({"sphere": {"raduis": 1}})");
         ball("misspelt node", "did you mean \"sphere\"", R"({"shpere": {"radius": 1}})");
@@ -164,8 +164,8 @@ class WrongScenes {
     }
     // Trees that have no end, or none that can be waited for.
     void add_trees_without_end() {
-        ball("a shape of itself", "made of itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
-        add("two shapes of each other", "made of itself",
+        ball("a shape of itself", "contains itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
+        add("two shapes of each other", "contains itself",
             [](SceneText& s) { s.shapes = R"({"ball": {"union": ["other"]}, "other": {"union": ["ball"]}})"; });
         add("two names of each other", "itself",
             [](SceneText& s) { s.shapes = R"({"ball": "other", "other": "ball"})"; });
@@ -210,7 +210,7 @@ class WrongScenes {
     // Cameras and lights.
     void add_cameras_and_lights() {
         camera("camera that looks at itself", "", R"({"position": [0, 0, 3], "look_at": [0, 0, 3]})");
-        camera("camera with keys as a whole", "no keys",
+        camera("camera with keys as a whole", "cannot have keys",
                R"({"keys": [[0, {"position": [0, -5, 0], "look_at": [0, 0, 0]}]]})");
         camera("camera without a place", "position", R"({"look_at": [0, 0, 0]})");
         camera("camera that sees all", "fov", R"({"position": [0, -5, 0], "look_at": [0, 0, 0], "fov": 180})");
@@ -253,7 +253,7 @@ class WrongScenes {
         rest("a view that is not there", "Nowhere", R"("render": {"width": 4, "height": 4, "view": "Nowhere"})");
         rest("a mesh that is not there", "nowhere.obj",
              R"("meshes": [{"obj": {"file": "nowhere.obj", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
-        rest("a directory for a mesh", "must end with .obj",
+        rest("a directory for a mesh", "must end in .obj",
              R"("meshes": [{"obj": {"file": ".", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");
         rest("the scene for a mesh", "scene.json",
              R"("meshes": [{"obj": {"file": "scene.json", "material": {"diffuse": {"color": [1, 1, 1]}}}}])");

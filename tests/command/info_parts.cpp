@@ -78,8 +78,8 @@ TEST_CASE("info --carve: planes around the whole and each phase") {
 
     const Outcome few = shell.run({"info", "scene.json", "--carve", "--planes", "8"});
     CHECK(few.code == 0);
-    CHECK(
-        std::regex_search(few.out, std::regex("\ncarved +the whole: 8 planes, volume [0-9.]+, [0-9]+ % of its box's")));
+    CHECK(std::regex_search(
+        few.out, std::regex("\ncarved +whole object: 8 planes, volume [0-9.]+, [0-9]+ % of its bounding box")));
     CHECK(std::regex_search(few.out, std::regex("\ncarved +wood: [78] planes, volume ")));
     CHECK(std::regex_search(few.out, std::regex("\ncarved +glass: [78] planes, volume ")));
 }

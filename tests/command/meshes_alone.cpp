@@ -70,13 +70,13 @@ TEST_CASE("a scene of meshes alone is checked and rendered, and info lists them"
     CHECK(listed[1].at("triangles") == 2);
     CHECK(listed[1].at("bounds")[1][2] == 1);
     CHECK(shell.run({"info", "--cells", "scene.json"}).err ==
-          "--cells is for objects, but the scene has only meshes\n");
+          "phasetree: --cells needs an object, but the scene has only meshes\n");
 
     const Outcome without = shell.run({"check", "without camera.json"});
     CHECK(without.code == 3);
-    CHECK(
-        without.out ==
-        "without camera.json: the meshes are sound, for info; the scene has no \"camera\", so it cannot be rendered\n");
+    CHECK(without.out ==
+          "without camera.json: the meshes are valid and can be used by info; without a \"camera\" the scene cannot be "
+          "rendered\n");
     CHECK(shell.run({"info", "without camera.json"}).code == 0);
 }
 
@@ -115,9 +115,9 @@ TEST_CASE("a scene has both phases and a tree, or neither") {
           "alone\n");
     CHECK(said(R"(,
 "phases": {}, "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}})") ==
-          "half.json:5:11: \"phases\" must not be empty; leave it out if the scene has no \"tree\"\n");
+          "half.json:5:11: \"phases\" must not be empty; remove it if the scene has no \"tree\"\n");
     CHECK(said(R"(,
-"instances": [{"of": "a"}])") == "half.json:5:1: \"instances\" is of no use without \"objects\"\n");
+"instances": [{"of": "a"}])") == "half.json:5:1: \"instances\" requires \"objects\"\n");
     // Without meshes there would be nothing to see.
     scenes.write("nothing.json", R"({"version": 1, "lights": [{"constant": {}}], "meshes": [], )" + camera + "}");
     CHECK(first_line_of(scenes.shell.run({"check", "nothing.json"}).err) ==

@@ -91,13 +91,13 @@ TEST_CASE("the scene may say its limit of noise, and --noise 0 turns it off") {
     REQUIRE(shell.run(joined(render, {"-o", "a.exr", "--noise", "0", "--stats", "stats.json"})).code == 0);
     CHECK(nlohmann::json::parse(bytes_of(shell.directory / "stats.json"))["samples"] == 50);
     // Shares have some of a pixel's samples, so they cannot know where it stops.
-    const Outcome share = shell.run(joined(render, {"-o", "a.part", "--samples", "0:25"}));
+    const Outcome share = shell.run(joined(render, {"-o", "a.part", "--sample-range", "0:25"}));
     CHECK(share.code == 2);
-    CHECK(share.err.find("--samples and --noise") != std::string::npos);
-    CHECK(shell.run(joined(render, {"-o", "a.part", "--samples", "0:25", "--noise", "0"})).code == 0);
+    CHECK(share.err.find("--sample-range cannot be combined with a noise limit") != std::string::npos);
+    CHECK(shell.run(joined(render, {"-o", "a.part", "--sample-range", "0:25", "--noise", "0"})).code == 0);
     const Outcome farm = shell.run({"farm", "list", "scene.json", "--shares", "4"});
     CHECK(farm.code == 2);
-    CHECK(farm.err.find("a farm and --noise") != std::string::npos);
+    CHECK(farm.err.find("a farm cannot be combined with a noise limit") != std::string::npos);
     CHECK(shell.run({"farm", "list", "scene.json", "--shares", "4", "--", "--noise", "0"}).code == 0);
     CHECK(shell.run({"farm", "list", "plain.json", "--shares", "4", "--", "--time", "9s"}).code == 2);
     for (const char* wrong : {"2", "-1", "nan", "x"}) {
@@ -132,9 +132,9 @@ TEST_CASE("--time ends with whole samples, in time, and the bytes are those of a
     REQUIRE(shell.run(joined(render, {"--time", "1h", "--spp", "3", "-o", "a.exr"})).code == 0);
     REQUIRE(shell.run(joined(render, {"--spp", "3", "-o", "b.exr"})).code == 0);
     CHECK(is_same(shell, "a.exr", "b.exr"));
-    const Outcome share = shell.run(joined(render, {"--time", "9s", "--samples", "0:1", "-o", "x.part"}));
+    const Outcome share = shell.run(joined(render, {"--time", "9s", "--sample-range", "0:1", "-o", "x.part"}));
     CHECK(share.code == 2);
-    CHECK(share.err.find("--samples and --time") != std::string::npos);
+    CHECK(share.err.find("--sample-range cannot be combined with --time") != std::string::npos);
     for (const char* wrong : {"0", "-1s", "nan", "soon", "3 parsecs"}) {
         CAPTURE(wrong);
         CHECK(shell.run(joined(render, {"--time", wrong})).code == 2);

@@ -43,7 +43,7 @@ TEST_CASE("eval, trace and info tell of objects and copies") {
     CHECK(one.out == "x,y,z,phase,phi.vacuum,phi.glass,phi.water\n0.5,0,0,water,0.5,,-0.5\n");
     const Outcome none = shell.run({"eval", "scene.json", "--object", "wett"}, "");
     CHECK(none.code == 2);
-    CHECK(none.err.find("there is no object \"wett\"; the objects are cube, wet") != std::string::npos);
+    CHECK(none.err.find("unknown object \"wett\" (choose from cube, wet)") != std::string::npos);
 
     const Outcome rays = shell.run({"trace", "scene.json"}, "-5 0 0 1 0 0\n");
     std::string seen;
@@ -77,8 +77,9 @@ TEST_CASE("check and render name objects that overlap, and a point of both") {
     for (const char* const command : {"check", "render"}) {
         const Outcome bad = shell.run({command, "bad.json"});
         CHECK(bad.code == 0);
-        CHECK(bad.err.find("\"cube\" (copy 0) and \"wet\" (copy 1) overlap, at [0.6249") != std::string::npos);
-        CHECK(bad.err.find("for example; \"cube\" (copy 0) is there") != std::string::npos);
+        CHECK(bad.err.find("\"cube\" (copy 0) and \"wet\" (copy 1) overlap, for example at [0.6249") !=
+              std::string::npos);
+        CHECK(bad.err.find("; \"cube\" (copy 0) takes precedence") != std::string::npos);
         CHECK(bad.err.find("bad.json:3:") != std::string::npos);
     }
 }
@@ -102,12 +103,14 @@ TEST_CASE(
     for (const char* const command : {"check", "render"}) {
         const Outcome lost = shell.run({command, "lost.json"});
         CHECK(lost.code == 0);
-        CHECK(lost.err.find("lost.json:9:13: warning: the group \"set\" stands nowhere, because no instance names it; "
-                            "so \"cup\", \"drop\" are not there\n") != std::string::npos);
+        CHECK(lost.err.find(
+                  "lost.json:9:13: warning: the group \"set\" is not in the scene, because no instance refers to it; "
+                  "so \"cup\", \"drop\" are missing from the scene\n") != std::string::npos);
         // "pair" stands as soon as "set" does.
         CHECK(lost.err.find("\"pair\" stands") == std::string::npos);
-        CHECK(shell.run({command, "part.json"}).err.find("; so \"drop\" is not there\n") != std::string::npos);
-        CHECK(shell.run({command, "there.json"}).err.find("stands nowhere") == std::string::npos);
+        CHECK(shell.run({command, "part.json"}).err.find("; so \"drop\" is missing from the scene\n") !=
+              std::string::npos);
+        CHECK(shell.run({command, "there.json"}).err.find("is not in the scene") == std::string::npos);
     }
     CHECK(shell.run({"render", "--quiet", "lost.json"}).err == "");
     std::string groups = R"(, "instances": [{"of": "set"}], "groups": {"set": [{"of": "cup"}])";
@@ -116,14 +119,14 @@ TEST_CASE(
     many = many.substr(0, many.find(",\n        \"groups\"")) + groups + "}}";
     write_text(shell.directory / "many.json", many);
     const std::string said = shell.run({"check", "many.json"}).err;
-    CHECK(said.find("the group \"g0\" stands nowhere") != std::string::npos);
-    CHECK(said.find("many.json: warning: 92 more of its groups stand nowhere\n") != std::string::npos);
+    CHECK(said.find("the group \"g0\" is not in the scene") != std::string::npos);
+    CHECK(said.find("many.json: warning: 92 more groups are not in the scene\n") != std::string::npos);
 }
 
 TEST_CASE("what is for one tree says so, and the picture is the same for any number of threads") {
     const Shell shell;
     write_text(shell.directory / "scene.json", scene_of());
-    CHECK(shell.run({"render", "scene.json", "--cells", "x"}).err.find("--cells is for scenes of one tree") !=
+    CHECK(shell.run({"render", "scene.json", "--cells", "x"}).err.find("--cells needs a scene with a single") !=
           std::string::npos);
     CHECK(shell.run({"export", "scene.json", "-o", "a.glsl"}).code == 0);
     CHECK(shell.run({"render", "scene.json", "--threads", "1", "--planes", "all", "-o", "a.exr"}).code == 0);
@@ -150,7 +153,7 @@ TEST_CASE("a million copies take less than 1 GB and are ready in seconds") {
     CHECK(o.code == 0);
     CHECK(o.peak_megabytes < 1000);
     CHECK(o.processor_seconds < 30);
-    CHECK(shell.run({"eval", "scene.json"}, "").err.find("choose one of them with --object") != std::string::npos);
+    CHECK(shell.run({"eval", "scene.json"}, "").err.find("choose one object with --object") != std::string::npos);
 }
 
 }  // namespace test_objects

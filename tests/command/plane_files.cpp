@@ -27,11 +27,11 @@ TEST_CASE("a render and a merge of its shares write the same file for each plane
     const std::vector<std::string> render{"render", "scene.json", "--planes", "all", "--quiet"};
     const Outcome whole = shell.run(joined(render, {"-o", "whole.{plane}.exr"}));
     REQUIRE_MESSAGE(whole.code == 0, whole.err);
-    REQUIRE(shell.run(joined(render, {"-o", "a.part", "--samples", "0:3"})).code == 0);
-    REQUIRE(shell.run(joined(render, {"-o", "b.part", "--samples", "3:4"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"-o", "a.part", "--sample-range", "0:3"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"-o", "b.part", "--sample-range", "3:4"})).code == 0);
     const Outcome merged = shell.run({"merge", "a.part", "b.part", "-o", "merged.{plane}.exr"});
     REQUIRE_MESSAGE(merged.code == 0, merged.err);
-    CHECK(merged.err.find("merged.{plane}.exr (28x21, 4 samples a pixel, of 2 parts)") != std::string::npos);
+    CHECK(merged.err.find("merged.{plane}.exr (28x21, 4 samples per pixel, 2 parts)") != std::string::npos);
     const auto files = files_of(shell, "whole");
     const bool same = files == files_of(shell, "merged");
     CHECK(same);
@@ -58,6 +58,32 @@ TEST_CASE("a farm passes the name on as it is") {
     write_text(shell.directory / "farm.sh", "set -e\n" + o.out);
     REQUIRE(std::system(("cd '" + shell.directory.path().string() + "' && bash farm.sh 2>/dev/null").c_str()) == 0);
     CHECK(files_of(shell, "f").size() == 3);
+}
+
+TEST_CASE("the file of every plane is checked before any work") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(9));
+    const std::vector<std::string> planes{"--planes", "depth,crypto_phase", "--quiet"};
+    REQUIRE(shell.run(joined({"render", "scene.json", "-o", "whole.part"}, planes)).code == 0);
+    const auto check_rejected = [&](const std::vector<std::string>& words, const std::string& file) {
+        CAPTURE(file);
+        fs::create_directory(shell.directory / file);
+        const auto files = shell.directory.size();
+        const Outcome o = shell.run(words);
+        CHECK(o.code == 1);
+        CHECK(o.out == "");
+        CHECK(o.err == "phasetree: cannot write \"" + file + "\": it is a directory\n");
+        CHECK(shell.directory.size() == files);
+        fs::remove(shell.directory / file);
+    };
+    const std::vector<std::string> render = joined({"render", "scene.json", "-o", "a.{plane}.exr"}, planes);
+    check_rejected(render, "a.beauty.exr");
+    check_rejected(render, "a.depth.exr");
+    check_rejected(render, "a.CryptoPhase.exr");
+    check_rejected(joined(render, {"--denoise=regression"}), "a.noisy.exr");
+    check_rejected({"merge", "whole.part", "-o", "a.{plane}.exr"}, "a.depth.exr");
+    check_rejected(joined({"farm", "list", "scene.json", "--shares", "2", "-o", "a.{plane}.exr", "--"}, planes),
+                   "a.CryptoPhase.exr");
 }
 
 TEST_CASE("a name that asks for what cannot be is rejected before any work") {

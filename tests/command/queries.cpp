@@ -89,7 +89,7 @@ TEST_CASE("an object so far from the origin that few digits are left is warned o
         CHECK(near.code == 0);
         CHECK(near.err.find("warning") == std::string::npos);
         CHECK(far.code == 0);
-        CHECK(far.err.find("far.json: warning: the object is 3.46 large and lies up to 1e+06 from the origin") !=
+        CHECK(far.err.find("far.json: warning: the object has size 3.46 and extends up to 1e+06 from the origin") !=
               std::string::npos);
         CHECK(lost.code == (call[0] == "info" ? 0 : 2));
         CHECK(lost.err.find("move it to the origin") != std::string::npos);

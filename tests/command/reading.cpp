@@ -54,7 +54,7 @@ TEST_CASE("a signal while the scene is read ends the command at once, with the c
         CHECK(signal.is_sent);
         CHECK(o.code == c.code);
         CHECK(o.signal == 0);
-        CHECK(o.err == "phasetree: interrupted while the scene was being read; nothing is written\n");
+        CHECK(o.err == "phasetree: interrupted while the scene was being read; no file was written\n");
         CHECK(o.processor_seconds < 2);
         CHECK(shell.directory.size() == 2);
     }
@@ -79,7 +79,7 @@ TEST_CASE("so does one while the scene is waited for on standard input") {
     Signal signal{SIGTERM};
     const Outcome o = waiting.run({"render", "-", "-o", "a.exr", "--quiet"}, "", std::ref(signal));
     CHECK(o.code == 1);
-    CHECK(o.err == "phasetree: interrupted while the scene was being read; nothing is written\n");
+    CHECK(o.err == "phasetree: interrupted while the scene was being read; no file was written\n");
 }
 
 TEST_CASE("reading that takes long shows how far it is, also where there is no terminal") {

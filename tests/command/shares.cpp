@@ -43,8 +43,9 @@ TEST_CASE("any partition of the samples, rendered with any threads and merged in
             const std::string range = std::to_string(cuts[i - 1]) + ":" + std::to_string(cuts[i]);
             parts.push_back(range + ".part");
             const std::string threads = std::to_string(1 + below(random, 4));
-            REQUIRE(shell.run(joined(render, {"--samples", range, "-o", parts.back(), "--threads", threads})).code ==
-                    0);
+            REQUIRE(
+                shell.run(joined(render, {"--sample-range", range, "-o", parts.back(), "--threads", threads})).code ==
+                0);
         }
         CAPTURE(parts);
         // The first two become one, which is merged with the others.
@@ -68,16 +69,33 @@ TEST_CASE("a crop and a picture as people see it are merged, too") {
     write_text(shell.directory / "scene.json", cut_scene(4));
     const std::vector<std::string> render{"render", "scene.json", "--crop", "3,2,20,19", "--quiet", "--exposure", "1"};
     REQUIRE(shell.run(joined(render, {"-o", "whole.exr", "-o", "whole.png"})).code == 0);
-    REQUIRE(shell.run(joined(render, {"-o", "a.part", "--samples", "0:3"})).code == 0);
-    REQUIRE(shell.run(joined(render, {"-o", "b.part", "--samples", "3:4"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"-o", "a.part", "--sample-range", "0:3"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"-o", "b.part", "--sample-range", "3:4"})).code == 0);
     const Outcome o = shell.run({"merge", "a.part", "b.part", "-o", "a.exr", "-o", "a.png", "--exposure", "1"});
     CHECK(o.code == 0);
-    CHECK(o.err.find("a.exr (17x17, 4 samples a pixel, of 2 parts)") != std::string::npos);
+    CHECK(o.err.find("a.exr (17x17, 4 samples per pixel, 2 parts)") != std::string::npos);
     for (const char* kind : {".exr", ".png"}) {
         const bool same = bytes_of(shell.directory / (std::string("a") + kind)) ==
                           bytes_of(shell.directory / (std::string("whole") + kind));
         CHECK(same);
     }
+}
+
+TEST_CASE("--samples, the old name of --sample-range, still works and prints one warning") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", cut_scene(4));
+    const auto part = [&](const std::string& option, const std::string& file) {
+        return shell.run({"render", "scene.json", "--quiet", option, "1:3", "-o", file});
+    };
+    const Outcome now = part("--sample-range", "now.part"), before = part("--samples", "before.part");
+    CHECK(now.code == 0);
+    CHECK(now.err == "");
+    CHECK(before.code == 0);
+    CHECK(before.err == "phasetree: warning: --samples is deprecated; use --sample-range instead\n");
+    const bool same = bytes_of(shell.directory / "now.part") == bytes_of(shell.directory / "before.part");
+    CHECK(same);
+    CHECK(shell.run({"render", "scene.json", "--samples", "1:3", "--sample-range", "1:3", "-o", "a.part"}).code == 2);
+    CHECK(shell.run({"render", "--help"}).out.find("--samples") == std::string::npos);
 }
 
 TEST_CASE("what does not belong together is rejected by name") {
@@ -91,20 +109,20 @@ TEST_CASE("what does not belong together is rejected by name") {
         const Outcome o = shell.run(words);
         REQUIRE_MESSAGE(o.code == 0, o.err);
     };
-    part("first.part", "scene.json", {"--samples", "0:4"});
-    part("again.part", "scene.json", {"--samples", "3:8"});
-    part("last.part", "scene.json", {"--samples", "6:8"});
-    part("scene.part", "darker.json", {"--samples", "4:8"});
-    part("seed.part", "scene.json", {"--samples", "4:8", "--seed", "5"});
-    part("planes.part", "scene.json", {"--samples", "4:8", "--planes", "depth"});
-    part("size.part", "scene.json", {"--samples", "4:8", "--size", "20x20"});
-    part("crop.part", "scene.json", {"--samples", "4:8", "--crop", "0,0,8,8"});
-    part("spp.part", "scene.json", {"--samples", "4:8", "--spp", "9"});
-    part("quality.part", "scene.json", {"--samples", "4:8", "--build-quality", "low"});
-    part("detail.part", "scene.json", {"--samples", "4:8", "--detail", "2"});
+    part("first.part", "scene.json", {"--sample-range", "0:4"});
+    part("again.part", "scene.json", {"--sample-range", "3:8"});
+    part("last.part", "scene.json", {"--sample-range", "6:8"});
+    part("scene.part", "darker.json", {"--sample-range", "4:8"});
+    part("seed.part", "scene.json", {"--sample-range", "4:8", "--seed", "5"});
+    part("planes.part", "scene.json", {"--sample-range", "4:8", "--planes", "depth"});
+    part("size.part", "scene.json", {"--sample-range", "4:8", "--size", "20x20"});
+    part("crop.part", "scene.json", {"--sample-range", "4:8", "--crop", "0,0,8,8"});
+    part("spp.part", "scene.json", {"--sample-range", "4:8", "--spp", "9"});
+    part("quality.part", "scene.json", {"--sample-range", "4:8", "--build-quality", "low"});
+    part("detail.part", "scene.json", {"--sample-range", "4:8", "--detail", "2"});
     write_text(shell.directory / "picture.part", "\x89PNG and so on, for some more bytes");
     write_text(shell.directory / "empty.part", "");
-    part("second.part", "scene.json", {"--samples", "4:8"});
+    part("second.part", "scene.json", {"--sample-range", "4:8"});
     const std::string second = bytes_of(shell.directory / "second.part");
     write_text(shell.directory / "short.part", second.substr(0, second.size() / 2));
     std::string changed = second;
@@ -124,20 +142,20 @@ TEST_CASE("what does not belong together is rejected by name") {
     };
     refused("again.part", "its samples 3:8 are also in \"first.part\"");
     refused("last.part", "samples 4:6 are missing between \"first.part\" and it");
-    refused("scene.part", "it is of another scene");
+    refused("scene.part", "it belongs to another scene");
     refused("seed.part", "it has seed 5, not 0");
     refused("planes.part", "planes");
     refused("size.part", "it has size 20x20, not 28x21");
     refused("crop.part", "it has crop 0,0,8,8, not 0,0,28,21");
-    refused("spp.part", "it is a share of 9 samples a pixel");
+    refused("spp.part", "it belongs to a render with 9 samples per pixel");
     refused("quality.part", "it has build quality low, not medium");
     refused("detail.part", "it has detail 2 pixels, not the finest");
-    refused("picture.part", "it is no part and no checkpoint");
-    refused("empty.part", "it is no part and no checkpoint");
+    refused("picture.part", "it is neither a part nor a checkpoint");
+    refused("empty.part", "it is neither a part nor a checkpoint");
     refused("short.part", "it is truncated");
     refused("changed.part", "it is damaged");
     refused("folder.part", "it is not a regular file");
-    refused("absent.part", "there is no such file");
+    refused("absent.part", "no such file");
     // What is missing at the end belongs to no part.
     const Outcome o = shell.run({"merge", "first.part", "-o", "a.exr"});
     CHECK(o.code == 2);
@@ -167,7 +185,7 @@ TEST_CASE("the memory of a merge does not grow with the number of the parts" * d
     for (int i = 0; i < 10; ++i) {
         merge.push_back(std::to_string(i) + ".part");
         const std::string range = std::to_string(i) + ":" + std::to_string(i + 1);
-        REQUIRE(shell.run({"render", "scene.json", "--samples", range, "-o", merge.back(), "--quiet"}).code == 0);
+        REQUIRE(shell.run({"render", "scene.json", "--sample-range", range, "-o", merge.back(), "--quiet"}).code == 0);
         if (i == 1) of_two = megabytes();
     }
     const double of_part = static_cast<double>(bytes_of(shell.directory / "0.part").size()) / 1e6;

@@ -50,7 +50,7 @@ TEST_CASE("standard output that cannot be written is an error, and the reader wh
             const Outcome o = shell.run(words, words[0] == "eval" ? "0 0 0\n" : "0 0 0 1 0 0\n");
             CHECK(o.signal == 0);
             CHECK(o.code == 1);
-            const bool is_said = o.err.find("standard output cannot be written") != std::string::npos;
+            const bool is_said = o.err.find("cannot write standard output") != std::string::npos;
             CHECK(is_said == (place != Place::broken_pipe));
         }
     }
@@ -96,7 +96,7 @@ TEST_CASE("a render is not lost with standard error, and no message gets into a 
             CHECK(same);
         }
         CHECK(shell.directory.size() == 3);
-        // An error is one all the same.
+        // Errors still have their exit code.
         CHECK(shell.run({"render", "nowhere.json"}).code == 2);
     }
 }
@@ -131,7 +131,7 @@ TEST_CASE("a scene from standard input") {
         for (const char* const command : {"eval", "trace"}) {
             const Outcome o = shell.run({command, name}, text);
             CHECK(o.code == 2);
-            CHECK(o.err.find("<stdin>: the scene cannot come from standard input") == 0);
+            CHECK(o.err.find("<stdin>: the scene must be a file") == 0);
         }
     }
     CHECK(shell.run({"render", "-", "--quiet"}, text).code == 0);
@@ -165,9 +165,9 @@ TEST_CASE("eval reads what it writes, and any CSV with the columns it needs") {
         const char *command, *text, *error;
     };
     for (const Wrong& w :
-         {Wrong{"eval", "x,y\n1,2\n", "<stdin>:1:1: the header has no column \"z\"; it must name x, y, z\n"},
+         {Wrong{"eval", "x,y\n1,2\n", "<stdin>:1:1: the header lacks the column \"z\"; it must name x, y, z\n"},
           Wrong{"trace", "x,y,z\n",
-                "<stdin>:1:1: the header has no column \"ox\"; it must name ox, oy, oz, dx, dy, dz\n"},
+                "<stdin>:1:1: the header lacks the column \"ox\"; it must name ox, oy, oz, dx, dy, dz\n"},
           Wrong{"eval", "\nx,y,z\n1,2\n", "<stdin>:3:4: the row has no z\n"},
           Wrong{"eval", "x,y,z\n1,2x,3\n", "<stdin>:2:3: y must be a finite number, but is \"2x\"\n"},
           Wrong{"eval", "0 0 0\nx,y,z\n", "<stdin>:2:1: expected 3 finite numbers"},

@@ -129,16 +129,15 @@ const std::vector<Mistake> mistakes{
     {"an empty cell", [](const User& u) { return with_first_cell(u, " "); }, 2, 2, "the row has no "},
     {"a row that is too long", [](const User& u) { return table(u, ",") + joined(u.rows[0], ",") + ",7\n"; }, 4, 0,
      "cells, but the header has"},
-    {"a column twice", [](const User& u) { return u.columns[0] + "," + joined(u.columns, ","); }, 1, 0,
-     "there are two columns"},
+    {"a column twice", [](const User& u) { return u.columns[0] + "," + joined(u.columns, ","); }, 1, 0, "occurs twice"},
     {"a column too few", [](const User& u) { return "# c\r" + u.columns[0] + "," + u.columns[1] + "\n1,2\n"; }, 2, 1,
-     "the header has no column"},
+     "the header lacks the column"},
     {"a quote that stays open",
      [](const User& u) { return joined(u.columns, ",") + ",n\n" + joined(u.rows[0], ",") + ",\"a\n"; }, 2, 0,
      "no closing quote"},
     {"a word behind a quote", [](const User& u) { return with_first_cell(u, "\"0\"1"); }, 2, 4,
      "only a separator may follow"},
-    {"a decimal comma", [](const User& u) { return with_first_cell(u, "0,5", ";"); }, 2, 1, "write a decimal point"}};
+    {"a decimal comma", [](const User& u) { return with_first_cell(u, "0,5", ";"); }, 2, 1, "use a decimal point"}};
 
 }  // namespace
 
@@ -186,10 +185,10 @@ TEST_CASE("rows without a header must have all numbers, with one separator betwe
         CHECK(o.err == "");
         CHECK(o.out.find("\n0.5,1,2,vacuum,") != std::string::npos);
     }
-    // Four numbers with decimal commas might be six, and nothing would say so.
+    // Four numbers with decimal commas could be taken for six.
     const Outcome commas = shell.run({"trace", "scene.json"}, "0,5 1 2,5 3 4\n");
     CHECK(commas.code == 2);
-    CHECK(commas.err.find("<stdin>:1:4: numbers must have a decimal point") == 0);
+    CHECK(commas.err.find("<stdin>:1:4: numbers must use a decimal point") == 0);
 }
 
 }  // namespace test_tables

@@ -73,8 +73,8 @@ TEST_CASE("parts of different builds are not merged, and a checkpoint of another
     const Shell shell;
     write_text(shell.directory / "scene.json", cut_scene(4));
     const std::vector<std::string> render{"render", "scene.json", "--quiet"};
-    REQUIRE(shell.run(joined(render, {"--samples", "0:2", "-o", "a.part"})).code == 0);
-    REQUIRE(shell.run(joined(render, {"--samples", "2:4", "-o", "b.part"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"--sample-range", "0:2", "-o", "a.part"})).code == 0);
+    REQUIRE(shell.run(joined(render, {"--sample-range", "2:4", "-o", "b.part"})).code == 0);
     rewrite_as_of_other_build(shell.directory / "b.part");
     const auto mine = [] {
         const std::string commit = source_commit();
@@ -88,7 +88,7 @@ TEST_CASE("parts of different builds are not merged, and a checkpoint of another
     CHECK(merged.err == "phasetree: cannot use \"b.part\": it was rendered by " + other + ", not by " + mine + advice);
     CHECK_FALSE(std::filesystem::exists(shell.directory / "a.exr"));
 
-    const Outcome resumed = shell.run(joined(render, {"--samples", "2:4", "--resume", "b.part", "-o", "c.part"}));
+    const Outcome resumed = shell.run(joined(render, {"--sample-range", "2:4", "--resume", "b.part", "-o", "c.part"}));
     CHECK(resumed.code == 2);
     CHECK(resumed.err == "phasetree: cannot use \"b.part\": it was rendered by " + other + ", not by " + mine + advice);
     CHECK_FALSE(std::filesystem::exists(shell.directory / "c.part"));
@@ -97,8 +97,8 @@ TEST_CASE("parts of different builds are not merged, and a checkpoint of another
     rewrite_as_of_other_build(shell.directory / "a.part");
     const Outcome joined_parts = shell.run({"merge", "a.part", "b.part", "-o", "a.exr"});
     CHECK(joined_parts.code == 0);
-    CHECK(joined_parts.err.starts_with(std::string("phasetree: the parts were rendered by phasetree ") + other_build +
-                                       ", and are joined by " + build_id() + "\n"));
+    CHECK(joined_parts.err.starts_with(std::string("phasetree: note: the parts were rendered by build ") + other_build +
+                                       " and are merged by build " + build_id() + "\n"));
     CHECK(bytes_of(shell.directory / "a.exr").find(std::string("phasetree ") + other_build) != std::string::npos);
 }
 

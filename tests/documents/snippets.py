@@ -325,6 +325,16 @@ class CommandLine(unittest.TestCase):
                 with self.subTest(f"{command} {option}"):
                     self.assertRegex(section.group(1) + common, rf"`[^`]*{option}\b(?!-)")
 
+    def test_exit_codes(self):
+        """The table of exit codes is that of --help."""
+        page = (ROOT / "tracer/manual/reference/command-line.md").read_text(encoding="utf-8")
+        table = re.search(r"^\| exit code \|.*?\n\n|^\| exit code \|.*\Z", page + "\n", re.M | re.S).group(0)
+        described = {code: meaning.replace("`", "") for code, meaning in re.findall(r"^\| (\d+) \| (.*) \|$", table, re.M)}
+        overview = subprocess.run([COMMAND, "--help"], capture_output=True, text=True, check=True).stdout
+        listed = overview[overview.index("Exit codes:") :]
+        self.assertEqual(described, dict(re.findall(r"^  (\d+) +(.*)$", listed, re.M)))
+        self.assertGreater(len(described), 5)
+
 
 if __name__ == "__main__":
     unittest.main()

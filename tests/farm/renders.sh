@@ -52,7 +52,7 @@ process_of() {
     local process
     for process in /proc/[0-9]*; do
         case $({ tr '\0' ' ' <"$process/cmdline"; } 2>/dev/null) in
-            "$phasetree render $scene --samples $1 "*) echo "${process#/proc/}" ;;
+            "$phasetree render $scene --sample-range $1 "*) echo "${process#/proc/}" ;;
         esac
     done
 }

@@ -4,7 +4,7 @@
 #     bash tests/farm/slurm.sh COMMAND [ARGUMENT…]
 #
 # Starts munged, slurmctld and slurmd (Debian: slurm-wlm, munge) as the user who calls it, without systemd, in a folder of
-# their own, on ports that are free. The command finds them by $SLURM_CONF. In the end, whatever it is, they are stopped. The
+# their own, on ports that are free. The command finds them by $SLURM_CONF. They are stopped on exit, whatever the cause. The
 # exit code is the command's; it is 77 where there is no Slurm or it does not come up, and the last line says why.
 # KEEP_LOGS=FOLDER keeps the daemons' logs there. SLURM_CPUS and SLURM_MAX_ARRAY_SIZE replace what it has: 2 processors, and
 # arrays of at most 1001 tasks, Slurm's default.

@@ -110,7 +110,7 @@ TEST_CASE("calls return an error code") {
 }
 
 TEST_CASE("a thread that traces for the first time has no memory") {
-    // So many bumps meet in a cell that its program is long.
+    // Many bumps meet in a cell, so its program is long.
     std::string bumps;
     for (int i = 0; i < 80; ++i)
         bumps += std::string(i == 0 ? "" : ",") + R"({"translate": {"by": [)" + std::to_string(0.001 * i) +
@@ -158,7 +158,7 @@ TEST_CASE("a thread that traces for the first time has no memory") {
         far = ray.ray.tfar;
         hit = ray.hit.geomID;
     }).join();
-    // A ray cannot fail, for nobody can be told: it hits what it should, or nothing.
+    // A ray cannot report failure: it hits what it should, or nothing.
     CHECK(asked > 0);
     CHECK((hit == RTC_INVALID_GEOMETRY_ID ? far > 1e30f : far < 5));
     MESSAGE(asked << " allocations by a ray");

@@ -1,4 +1,4 @@
-// Every way a JSON text can be wrong, with the exact place and words a person is told.
+// Every kind of mistake in a JSON text, with the exact position and message.
 
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ std::vector<Bad> structure() {
         {"", 1, 1, "the file is empty"},
         {" \n\t\r\n", 1, 1, "the file is empty"},
         {"\xEF\xBB\xBF", 1, 1, "the file is empty"},
-        {"// nothing\n", 1, 11, "the file holds comments and nothing else"},
+        {"// nothing\n", 1, 11, "the file contains only comments"},
         {"{", 1, 2, "the file ends inside an object that was opened at line 1"},
         {"\n\n{ \"a\": 1\n\n", 3, 9, "the file ends inside an object that was opened at line 3"},
         {"{\"a\"", 1, 5, "the file ends inside an object that was opened at line 1"},
@@ -37,7 +37,7 @@ std::vector<Bad> structure() {
         {"{\r\n\"a\":\r\n[1,\r\n2", 4, 2, "the file ends inside an array that was opened at line 3"},
         {"{\r\"a\":\r[1,\r2", 4, 2, "the file ends inside an array that was opened at line 3"},
         {"[1, [2], ", 1, 9, "the file ends inside an array that was opened at line 1"},
-        // Where the indentation tells more than the end does.
+        // The indentation is more informative than the end.
         {"{\n  \"a\": {\"b\": {\"c\": 1},\n  \"d\": 2\n}\n", 4, 2,
          "the file ends inside an object that was opened at line 1; by the indentation, line 2 lacks a '}'"},
         {"{\n  \"a\": {\n    \"b\": 1,\n    \"c\": [2, 3],\n  \"d\": {\"e\": 4}\n}", 6, 2,
@@ -73,8 +73,8 @@ std::vector<Bad> structure() {
         {"[1 : 2]", 1, 4, "expected ',' or ']', found ':'"},
         {"{\"a\": 1]", 1, 8, "expected ',' or '}', found ']'"},
         {"{\"a\": 1\n \"b\": 2}", 2, 2, "expected ',' or '}', found \"b\""},
-        {"[1,\n2, // two\n]", 2, 2, "a comma must not stand before ']'"},
-        {"{\"a\": 1,}", 1, 8, "a comma must not stand before '}'"},
+        {"[1,\n2, // two\n]", 2, 2, "remove the comma before ']'"},
+        {"{\"a\": 1,}", 1, 8, "remove the comma before '}'"},
         {"{,}", 1, 2, "expected a key in double quotes, found ','"},
         {"{\"a\": 1,,}", 1, 9, "expected a key in double quotes, found ','"},
         {"{1: 2}", 1, 2, "expected a key in double quotes, found '1'"},
@@ -107,8 +107,8 @@ std::vector<Bad> words_and_numbers() {
         {"[@]", 1, 2, "expected a value, found '@'"},
         {"[\x1b[31m]", 1, 2, "expected a value, found '␛'"},
         {"[\xff\xfe]", 1, 2, "expected a value, found '��'"},
-        {"{'a': 1}", 1, 2, "text stands in \"double quotes\", not in 'single quotes'"},
-        {"['a']", 1, 2, "text stands in \"double quotes\", not in 'single quotes'"},
+        {"{'a': 1}", 1, 2, "strings must be in \"double quotes\", not in 'single quotes'"},
+        {"['a']", 1, 2, "strings must be in \"double quotes\", not in 'single quotes'"},
         // Numbers.
         {"[NaN]", 1, 2, "'NaN' is not a finite number"},
         {"[-nan]", 1, 2, "'-nan' is not a finite number"},
@@ -118,21 +118,21 @@ std::vector<Bad> words_and_numbers() {
         {"[0, 1e999]", 1, 5, "'1e999' is not a finite number"},
         {"-1e999", 1, 1, "'-1e999' is not a finite number"},
         {"[" + std::string(400, '9') + "]", 1, 2, "'" + std::string(39, '9') + "…' is not a finite number"},
-        {"[01]", 1, 2, "'01' is not a number as JSON writes it", "1"},
-        {"01", 1, 1, "'01' is not a number as JSON writes it", "1"},
-        {"[-007.5]", 1, 2, "'-007.5' is not a number as JSON writes it", "-7.5"},
-        {"[.5]", 1, 2, "'.5' is not a number as JSON writes it", "0.5"},
-        {"[-.5]", 1, 2, "'-.5' is not a number as JSON writes it", "-0.5"},
-        {"[1.]", 1, 2, "'1.' is not a number as JSON writes it", "1"},
-        {"[2.e3]", 1, 2, "'2.e3' is not a number as JSON writes it", "2e3"},
-        {"[+1]", 1, 2, "'+1' is not a number as JSON writes it", "1"},
-        {"[-]", 1, 2, "'-' is not a number as JSON writes it"},
-        {"[1e]", 1, 2, "'1e' is not a number as JSON writes it"},
-        {"[1e+]", 1, 2, "'1e+' is not a number as JSON writes it"},
-        {"[0x10]", 1, 2, "'0x10' is not a number as JSON writes it"},
-        {"[1_000]", 1, 2, "'1_000' is not a number as JSON writes it"},
-        {"[1.5f]", 1, 2, "'1.5f' is not a number as JSON writes it"},
-        {"[1.2.3]", 1, 2, "'1.2.3' is not a number as JSON writes it"},
+        {"[01]", 1, 2, "'01' is not a valid JSON number", "1"},
+        {"01", 1, 1, "'01' is not a valid JSON number", "1"},
+        {"[-007.5]", 1, 2, "'-007.5' is not a valid JSON number", "-7.5"},
+        {"[.5]", 1, 2, "'.5' is not a valid JSON number", "0.5"},
+        {"[-.5]", 1, 2, "'-.5' is not a valid JSON number", "-0.5"},
+        {"[1.]", 1, 2, "'1.' is not a valid JSON number", "1"},
+        {"[2.e3]", 1, 2, "'2.e3' is not a valid JSON number", "2e3"},
+        {"[+1]", 1, 2, "'+1' is not a valid JSON number", "1"},
+        {"[-]", 1, 2, "'-' is not a valid JSON number"},
+        {"[1e]", 1, 2, "'1e' is not a valid JSON number"},
+        {"[1e+]", 1, 2, "'1e+' is not a valid JSON number"},
+        {"[0x10]", 1, 2, "'0x10' is not a valid JSON number"},
+        {"[1_000]", 1, 2, "'1_000' is not a valid JSON number"},
+        {"[1.5f]", 1, 2, "'1.5f' is not a valid JSON number"},
+        {"[1.2.3]", 1, 2, "'1.2.3' is not a valid JSON number"},
         {"[truest]", 1, 2, "expected a value, found 'truest'", "true"},
     };
 }
@@ -145,25 +145,25 @@ std::vector<Bad> strings_and_bytes() {
         {"{\"abc\r\n: 1}", 1, 2, "unterminated string: no closing quote on this line"},
         {"[\"abc\\", 1, 2, "unterminated string: no closing quote on this line"},
         {"[\"abc\\u12", 1, 2, "unterminated string: no closing quote on this line"},
-        {"[\"a\tb\"]", 1, 4, "a tab inside a string is written \\t"},
-        {"[\"a\x01z\"]", 1, 4, "a control character inside a string is written \\u0001"},
-        {"[\"C:\\dir\"]", 1, 5, "'\\d' is no escape sequence; a backslash is written \\\\"},
+        {"[\"a\tb\"]", 1, 4, "write a tab inside a string as \\t"},
+        {"[\"a\x01z\"]", 1, 4, "write a control character inside a string as \\u0001"},
+        {"[\"C:\\dir\"]", 1, 5, "'\\d' is not an escape sequence; write a backslash as \\\\"},
         {"[\"\\u12x4\"]", 1, 3, "\\u must be followed by four hexadecimal digits"},
-        {"[\"é\\ud83d\"]", 1, 4, "half of a surrogate pair: \\ud800 to \\udbff and \\udc00 to \\udfff go together"},
-        {"[\"\\udc00\"]", 1, 3, "half of a surrogate pair: \\ud800 to \\udbff and \\udc00 to \\udfff go together"},
-        {"[\"a\\u0000b\"]", 1, 4, "a string must not hold the zero character"},
-        {"{\"a\\u0000b\": 1}", 1, 4, "a string must not hold the zero character"},
-        {"[\"ab\xff\"]", 1, 5, "this byte is not UTF-8 text: save the file as UTF-8"},
-        {"[\"\xc0\xaf\"]", 1, 3, "this byte is not UTF-8 text: save the file as UTF-8"},
-        {"[\"\xed\xa0\x80\"]", 1, 3, "this byte is not UTF-8 text: save the file as UTF-8"},
-        {"[\"\xe2\x82\"]", 1, 3, "this byte is not UTF-8 text: save the file as UTF-8"},
+        {"[\"é\\ud83d\"]", 1, 4, "unpaired surrogate: \\ud800 to \\udbff must be followed by \\udc00 to \\udfff"},
+        {"[\"\\udc00\"]", 1, 3, "unpaired surrogate: \\ud800 to \\udbff must be followed by \\udc00 to \\udfff"},
+        {"[\"a\\u0000b\"]", 1, 4, "a string must not contain the null character"},
+        {"{\"a\\u0000b\": 1}", 1, 4, "a string must not contain the null character"},
+        {"[\"ab\xff\"]", 1, 5, "this byte is not valid UTF-8; save the file as UTF-8"},
+        {"[\"\xc0\xaf\"]", 1, 3, "this byte is not valid UTF-8; save the file as UTF-8"},
+        {"[\"\xed\xa0\x80\"]", 1, 3, "this byte is not valid UTF-8; save the file as UTF-8"},
+        {"[\"\xe2\x82\"]", 1, 3, "this byte is not valid UTF-8; save the file as UTF-8"},
         // Keys.
         {"{\"a\": 1,\n \"b\": 2, \"a\": 3}", 2, 10, "the key \"a\" is already used at line 1"},
         {"{\"a\": 1, \"\\u0061\": 3}", 1, 10, "the key \"a\" is already used at line 1"},
         {"{\"\": 1, \"\": {}}", 1, 9, "the key \"\" is already used at line 1"},
         // Bytes.
-        {std::string("{\"a\": 1}\n\0", 10), 2, 1, "a zero byte: this is not UTF-8 text"},
-        {std::string("// a\0b\n{}", 9), 1, 5, "a zero byte: this is not UTF-8 text"},
+        {std::string("{\"a\": 1}\n\0", 10), 2, 1, "a null byte: this is not UTF-8 text"},
+        {std::string("// a\0b\n{}", 9), 1, 5, "a null byte: this is not UTF-8 text"},
         {"\xEF\xBB{}", 1, 1, "expected a value, found '��'"},
         // Columns count code points, and neither the byte order mark nor a tab's width.
         {"\xEF\xBB\xBF[x]", 1, 2, "expected a value, found 'x'"},
@@ -200,8 +200,7 @@ TEST_CASE("a wrong text is told with its place and plain words") {
 
 TEST_CASE("UTF-16 is recognised") {
     for (const std::string& text : {std::string("\xFF\xFE{\0}\0", 6), std::string("\xFE\xFF\0{\0}", 6)}) {
-        CHECK_THROWS_WITH_AS(Document::from_text(text), "<text>: the file is UTF-16 text: save it as UTF-8",
-                             SceneError);
+        CHECK_THROWS_WITH_AS(Document::from_text(text), "<text>: the file is UTF-16; save it as UTF-8", SceneError);
     }
 }
 

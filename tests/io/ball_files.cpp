@@ -65,9 +65,9 @@ TEST_CASE("balls are read from PLY, of words and of numbers in either order of b
         const std::string format = is_big ? "binary_big_endian" : "binary_little_endian";
         const std::string start = "ply\nformat " + format + " 1.0\nelement vertex ";
         check_two(files.read("two.ply", start + "2\n" + header + rows));
-        CHECK(said_of(files, "short.ply", start + "3\n" + header + rows) == "is shorter than its header says");
+        CHECK(said_of(files, "short.ply", start + "3\n" + header + rows) == "is shorter than its header declares");
         CHECK(said_of(files, "huge.ply", start + "4000000000000\n" + header + rows) ==
-              "is shorter than its header says");
+              "is shorter than its header declares");
     }
 }
 
@@ -80,22 +80,22 @@ TEST_CASE("files that hold no balls are rejected, with the place or the row") {
         REQUIRE(said.starts_with(start));
         return said.substr(start.size());
     };
-    CHECK(said_of_csv("x,y\n1,2\n") == "1:1: the header has no column \"z\"; it must name x, y, z");
-    CHECK(said_of_csv("1,2,3\n") == "1:1: the header has no column \"x\"; it must name x, y, z");
-    CHECK(said_of_csv("x,y,z,x\n") == "1:7: there are two columns \"x\"");
+    CHECK(said_of_csv("x,y\n1,2\n") == "1:1: the header lacks the column \"z\"; it must name x, y, z");
+    CHECK(said_of_csv("1,2,3\n") == "1:1: the header lacks the column \"x\"; it must name x, y, z");
+    CHECK(said_of_csv("x,y,z,x\n") == "1:7: the column \"x\" occurs twice");
     CHECK(said_of_csv("x,y,z\n1,2,3\n1,2\n") == "3:4: the row has no z");
     CHECK(said_of_csv("x,y,z\n1,2,three\n") == "2:5: z must be a finite number, but is \"three\"");
     CHECK(said_of_csv("x,y,z,radius\n1,2,3,-1\n") == "2:7: a radius is not positive");
     CHECK(said_of_csv("x,y,z,radius\n1,2,3,nan\n") == "2:7: radius must be a finite number, but is \"nan\"");
     CHECK(said_of_csv("phase,x,y,z\n1.5,2,3,1\n") == "2:1: a phase is not a whole number from 0 to 255");
-    CHECK(said_of_csv("x,y,z\n0,1e300,0\n") == "2:3: a coordinate is no number, or too large");
+    CHECK(said_of_csv("x,y,z\n0,1e300,0\n") == "2:3: a coordinate is not a number, or too large");
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n") ==
           "its vertices have no column \"y\"; they need x, y and z");
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + header + "1 2 3 0 0\n") ==
           "a radius is not positive (row 1 of its vertices)");
     CHECK(said_of(files, "a.ply", "ply\nformat ascii 1.0\nend_header\n") ==
-          "has no vertices, which would be the balls");
-    CHECK(said_of(files, "a.obj", "v 1 2 3\n") == "has no balls: its name must end with .ply or .csv");
+          "has no element \"vertex\", which should contain the balls");
+    CHECK(said_of(files, "a.obj", "v 1 2 3\n") == "is not a file of balls: its name must end in .ply or .csv");
 }
 
 }  // namespace test_ball_files

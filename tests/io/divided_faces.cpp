@@ -80,7 +80,7 @@ TEST_CASE("faces that are not convex become triangles within them") {
                     CHECK(sum == doctest::Approx(area).epsilon(1e-4));
                     CHECK_FALSE(1.01f * sum == doctest::Approx(area).epsilon(1e-4));
                 }
-    // A face that crosses itself, and one all of whose corners are on a line, have as many triangles all the same.
+    // Faces that cross themselves, or whose corners all lie on a line, still have as many triangles.
     CHECK(files.read("a.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n").triangles.size() == 2);
     CHECK(files.read("a.obj", "v 0 0 0\nv 1 0 0\nv 3 0 0\nv 2 0 0\nf 1 2 3 4\n").triangles.size() == 2);
 }
@@ -104,7 +104,7 @@ TEST_CASE("faces of very many corners take little time, and are whole") {
     CHECK_THROWS_WITH_AS((void)read_mesh_file("a.obj", endless, 10'000'000),
                          "a.obj: a face has more than a million corners (line 2)", SceneError);
     CHECK_THROWS_WITH_AS((void)read_mesh_file("a.obj", round + of_round, 0),
-                         "a.obj: there are more triangles than 0 million", SceneError);
+                         "a.obj: there are more than 0 million triangles", SceneError);
 }
 
 TEST_CASE("faces that are slow to divide cost a file what is left for it, and ordinary ones nothing") {
@@ -126,9 +126,8 @@ TEST_CASE("a file of very many faces that are slow to divide is given up" * doct
     } catch (const SceneError& e) {
         said = e.what();
     }
-    CHECK(
-        said.starts_with("a.obj: its faces of many corners take too long to divide into triangles; divide them in "
-                         "the program that made the file (line "));
+    CHECK(said.starts_with(
+        "a.obj: its faces with many corners take too long to triangulate; triangulate them before exporting (line "));
 }
 
 }  // namespace test_divided_faces

@@ -95,9 +95,9 @@ TEST_CASE("missing, directory, pipe, device") {
 
     const std::string pipe = (folder / "pipe").string();
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-    CHECK(told(pipe) == pipe + ": is no regular file but a pipe, a socket or a device");
-    CHECK(told("/dev/zero") == "/dev/zero: is no regular file but a pipe, a socket or a device");
-    CHECK(told("/dev/tty") == "/dev/tty: is no regular file but a pipe, a socket or a device");
+    CHECK(told(pipe) == pipe + ": is not a regular file but a pipe, a socket or a device");
+    CHECK(told("/dev/zero") == "/dev/zero: is not a regular file but a pipe, a socket or a device");
+    CHECK(told("/dev/tty") == "/dev/tty: is not a regular file but a pipe, a socket or a device");
 
     const fs::path loop = folder / "loop";
     fs::create_symlink(loop, loop);

@@ -1,5 +1,4 @@
-// Numbers, vectors and colours that change with time: what they are at a time, and what a person is told who wrote
-// their keys wrong.
+// Animated numbers, vectors and colours: their values at a time, and messages about wrong keys.
 
 #include "phasetree/io/keys.hpp"
 
@@ -90,10 +89,10 @@ TEST_CASE("what is wrong with keys is told with its place") {
         {R"({"keys": [[0, 1], [1e999, 2]]})", 20, ""},
         {R"({"keys": [[0, 1], [1, -2]]})", 23, "\"x\" must be positive, but is -2"},
         {R"({"keys": [[0, 1], [1, [2]]]})", 23, "\"x\" must be a number, but is an array"},
-        {R"({"keys": [[0, 1], [1, {"keys": []}]]})", 23, "the value of a key cannot have keys itself"},
+        {R"({"keys": [[0, 1], [1, {"keys": []}]]})", 23, "the value of a key must not have keys"},
         {R"({"keys": [[0, 1], [1, 2]], "between": "smoth"})", 39,
          "\"between\" must be \"linear\" or \"smooth\", but is \"smoth\""},
-        {R"({"keys": [[0, 1], [1, 2]], "ease": 1})", 28, "unknown key \"ease\" in what changes with time"},
+        {R"({"keys": [[0, 1], [1, 2]], "ease": 1})", 28, "unknown key \"ease\" in the animated value"},
         {R"({"key": [[0, 1], [1, 2]]})", 1, "\"x\" must be a number, but is an object"}};
     for (const Bad& bad : table) {
         CAPTURE(bad.text);
@@ -110,7 +109,7 @@ TEST_CASE("what is wrong with keys is told with its place") {
     std::string many = "[-1, 0]";
     for (std::size_t i = 0; i < Keys::most; ++i) many += ",[" + std::to_string(i) + ",0]";
     CHECK_THROWS_WITH_AS((void)at<float>("{\"keys\":[" + many + "]}", 0),
-                         doctest::Contains("\"keys\" has 100001 keys; at most 100000 can be"), SceneError);
+                         doctest::Contains("\"keys\" has 100001 keys; the limit is 100000"), SceneError);
 }
 
 }  // namespace test_keys

@@ -96,18 +96,18 @@ TEST_CASE("what files say of the corners of triangles") {
 
 TEST_CASE("what is wrong in a file is said with its place, and nothing of it is quoted") {
     const WrittenFiles files(read_mesh);
-    CHECK(files.said("a.txt", obj) == "a.txt: is no mesh: its name must end with .obj, .ply or .stl");
+    CHECK(files.said("a.txt", obj) == "a.txt: is not a mesh: its name must end in .obj, .ply or .stl");
     CHECK(files.said("a.obj", "v 0 0\n") == "a.obj: a vertex needs three numbers (line 1)");
     CHECK(files.said("a.obj", "v 0 0 secret\n") == "a.obj: a vertex needs three numbers (line 1)");
-    CHECK(files.said("a.obj", "v 0 0 0\nf 1 1 2\n") == "a.obj: a face names a vertex that does not exist (line 2)");
-    CHECK(files.said("a.ply", "plx\n") == "a.ply: is no PLY file: it does not begin with \"ply\" (line 1)");
+    CHECK(files.said("a.obj", "v 0 0 0\nf 1 1 2\n") == "a.obj: a face refers to a vertex that does not exist (line 2)");
+    CHECK(files.said("a.ply", "plx\n") == "a.ply: is not a PLY file: it does not begin with \"ply\" (line 1)");
     CHECK(files.said("a.ply", "ply\nformat ascii 1.0\n") == "a.ply: the header has no end (line 3)");
     // Billions of rows are not believed.
     CHECK(files.said("a.ply", ply_header("binary_little_endian", 2'000'000'000)) ==
-          "a.ply: is shorter than its header says");
+          "a.ply: is shorter than its header declares");
     std::string text = word_ply;
     CHECK(files.said("a.ply", text.replace(text.size() - 2, 1, "9")) ==
-          "a.ply: a face names a vertex that does not exist (row 4 of its faces)");
+          "a.ply: a face refers to a vertex that does not exist (row 4 of its faces)");
     text = binary_ply(false);
     text.pop_back();
     CHECK(files.said("a.ply", text) == "a.ply: the file ends too early (row 4 of its faces)");
@@ -118,7 +118,7 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
                      "x\nproperty float y\nproperty float z\nend_header\n0 0 0 0 0 1\n1 0 0\n0 1 0\n") ==
           "a.ply: its header has two elements \"vertex\"");
     CHECK(files.said("a.stl", "no solid") ==
-          "a.stl: is no STL file: it is neither as long as its number of triangles says nor a text that begins with "
+          "a.stl: is not an STL file: its length does not match its number of triangles, and it does not begin with "
           "\"solid\"");
     CHECK(files.said("a.stl", "solid\nvertex 1 2\n") == "a.stl: a vertex needs three numbers (line 2)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2 3\nendfacet\n") ==
@@ -128,7 +128,7 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
     CHECK(files.said("a.stl", "solid\nvertex 1 2 3 vertex 1 2 3 vertex 1 2 3\nVERTEX 1 2 3 endfacet\n") ==
           "a.stl: a facet has more than three vertices (line 3)");
     CHECK(files.said("a.stl", "solid\nvertex 1 2 1e39\n") ==
-          "a.stl: a vertex has a coordinate that is no number, or is too large (line 2)");
+          "a.stl: a vertex has a coordinate that is not a number, or too large (line 2)");
     // A line of vn costs 12 bytes of memory.
     CHECK(files.said("a.obj", "v 0 0 0\nvn\n") == "a.obj: a vn line needs three numbers (line 2)");
     CHECK(files.said("a.obj", "v 0 0 0\nvn nan 0 # none\n") == "a.obj: a vn line needs three numbers (line 2)");
@@ -152,7 +152,7 @@ TEST_CASE("a byte order mark hides nothing, and lines may end with a carriage re
 
 TEST_CASE("loose edges are no faces, and vertices that no face has may be anything") {
     const WrittenFiles files(read_mesh);
-    const std::string absent = "a face has a vertex of which a coordinate is no number, or is too large";
+    const std::string absent = "a face has a vertex with a coordinate that is not a number, or too large";
     for (const std::string none : {"nan 0 0", "5 -nan(ind) 0", "5 0 1e39", "1e999 0 0", "5 -1.#IND 0", "-inf 5 5"}) {
         const std::string text = "v 2 2 2\nv " + none + "\nv 3 2 2\nv 2 3 2\nf 1 2\nf 2\nf\nf 1 3 4\n";
         const MeshFile file = read_mesh_file("a.obj", text, 100);
@@ -179,7 +179,7 @@ TEST_CASE("loose edges are no faces, and vertices that no face has may be anythi
     const float infinite = std::numeric_limits<float>::infinity();
     std::memcpy(stl.data() + 84 + 50 + 12, &infinite, 4);
     CHECK(files.said("a.stl", stl) ==
-          "a.stl: a vertex has a coordinate that is no number, or is too large (triangle 2)");
+          "a.stl: a vertex has a coordinate that is not a number, or too large (triangle 2)");
 }
 
 TEST_CASE("colours and texture coordinates are there if all triangles have them") {

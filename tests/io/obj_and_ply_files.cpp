@@ -76,8 +76,9 @@ TEST_CASE("lines of OBJ files go on behind a backslash, whatever they are and ho
     // A line's number is that of the line in which its last word is.
     const WrittenFiles files(read_mesh);
     CHECK(files.said("a.obj", "v 0 0 0\r\n\r\nf 1 1 \\\r\n2\r\n") ==
-          "a.obj: a face names a vertex that does not exist (line 4)");
-    CHECK(files.said("a.obj", "v 0 0 0\r\rf 1 1 2\r") == "a.obj: a face names a vertex that does not exist (line 3)");
+          "a.obj: a face refers to a vertex that does not exist (line 4)");
+    CHECK(files.said("a.obj", "v 0 0 0\r\rf 1 1 2\r") ==
+          "a.obj: a face refers to a vertex that does not exist (line 3)");
     CHECK(files.said("a.obj", "v 0 0 \\") == "a.obj: a vertex needs three numbers (line 1)");
 }
 
@@ -94,9 +95,8 @@ TEST_CASE("numbers of PLY files that are none matter only where they are wanted"
     CHECK(mesh.normals.values[1] == glm::vec3(0, 0, 1));
     const WrittenFiles files(read_mesh);
     CHECK(files.said("a.ply", with("0 nan 0 0 0 0 1")) ==
-          "a.ply: a face has a vertex of which a coordinate is no number, or is too large (row 1 of its faces)");
-    CHECK(files.said("a.ply", with("0 x 0 0 0 0 1")) ==
-          "a.ply: there is something other than a number (row 1 of its vertices)");
+          "a.ply: a face has a vertex with a coordinate that is not a number, or too large (row 1 of its faces)");
+    CHECK(files.said("a.ply", with("0 x 0 0 0 0 1")) == "a.ply: expected a number (row 1 of its vertices)");
 }
 
 TEST_CASE("elements of PLY files may come in any order") {
@@ -108,7 +108,7 @@ TEST_CASE("elements of PLY files may come in any order") {
         const WrittenFiles files(read_mesh);
         for (const bool vertices_first : {true, false}) {
             CHECK(files.said("a.ply", lists_ply(format, "face", {{0, 1, 2}, {0, 1, 4}}, vertices_first)) ==
-                  "a.ply: a face names a vertex that does not exist (row 2 of its faces)");
+                  "a.ply: a face refers to a vertex that does not exist (row 2 of its faces)");
             std::string cut = lists_ply(format, "face", rows, vertices_first);
             cut.resize(cut.size() - (format == "ascii" ? 12 : 1));
             CHECK(files.said("a.ply", cut) != "read");
@@ -150,12 +150,12 @@ TEST_CASE("triangle strips of PLY files turn every other triangle, and begin aga
             // A repeated corner turns the strip elsewhere.
             CHECK(read({{0, 2, 1, 1, 0, 3}}) == std::vector<glm::uvec3>{{0, 2, 1}, {0, 1, 3}});
             CHECK(files.said("a.ply", lists_ply(format, "tristrips", {{0, 1, 2}, {0, 1, 4}}, vertices_first)) ==
-                  "a.ply: a triangle strip names a vertex that does not exist (row 2 of its triangle strips)");
+                  "a.ply: a triangle strip refers to a vertex that does not exist (row 2 of its triangle strips)");
             CHECK(files.said("a.ply", lists_ply(format, "tristrips", {{0, 1, -2}}, vertices_first)) ==
-                  "a.ply: a triangle strip names a vertex that does not exist (row 1 of its triangle strips)");
+                  "a.ply: a triangle strip refers to a vertex that does not exist (row 1 of its triangle strips)");
         }
     CHECK_THROWS_WITH_AS((void)read_mesh_file("a.ply", lists_ply("ascii", "tristrips", {{0, 1, 2, 3}}, true), 1),
-                         "a.ply: there are more triangles than 0 million", SceneError);
+                         "a.ply: there are more than 0 million triangles", SceneError);
 }
 
 TEST_CASE("faces of OBJ files may precede what they name") {
@@ -178,14 +178,14 @@ TEST_CASE("faces of OBJ files may precede what they name") {
 
     const WrittenFiles files(read_mesh);
     const auto missing = [](int line) {
-        return "a.obj: a face names a vertex that does not exist (line " + std::to_string(line) + ")";
+        return "a.obj: a face refers to a vertex that does not exist (line " + std::to_string(line) + ")";
     };
     CHECK(files.said("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\n") == missing(1));
     CHECK(files.said("a.obj", "f 1 2 3\nf 4 4 4\n" + values + "f 1 2 5\n") == missing(7));
     CHECK(files.said("a.obj", "v 0 0 0\nf 1 -2 3\n" + values) == missing(2));
     CHECK(files.said("a.obj", "f 0 1 2\n" + values) == missing(1));
     CHECK(files.said("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv nan 0 0\n") ==
-          "a.obj: a face has a vertex of which a coordinate is no number, or is too large (line 1)");
+          "a.obj: a face has a vertex with a coordinate that is not a number, or too large (line 1)");
     CHECK(files.said("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0\n") == "a.obj: a vertex needs three numbers (line 3)");
 }
 

@@ -1,4 +1,4 @@
-// Typed access to the members of an object: what is read, and what a person is told who wrote it wrong.
+// Typed access to the members of an object: the values, and messages about mistakes.
 
 #include "phasetree/io/object_reader.hpp"
 
@@ -41,7 +41,8 @@ auto colour(Range range = Range::not_negative()) {
 
 void finish_sphere(ObjectReader& reader) {
     reader.optional<float>("radius", 1.0f);
-    reader.allow({"center", "material"});
+    (void)reader.value("center");
+    reader.allow({"material"});
     reader.finish();
 }
 
@@ -53,10 +54,12 @@ const std::vector<Bad>& bad_objects() {
         {"{\n \"raduis\": 1}", required<float>("radius"), 2, 2, "the sphere needs \"radius\", but has \"raduis\"",
          "radius"},
         {"{\n \"raduis\": 1}", finish_sphere, 2, 2, "unknown key \"raduis\" in the sphere", "radius"},
-        {"{\"colour\": 1}", finish_sphere, 1, 2,
-         "unknown key \"colour\" in the sphere; it may have \"radius\", \"center\", \"material\""},
+        {"{\"color\": 1}", finish_sphere, 1, 2,
+         "unknown key \"color\" in the sphere; the keys are \"radius\", \"center\", \"material\""},
         {"{\"radius\": 2, \"Center\": 1, \"x\": 2}", finish_sphere, 1, 15, "unknown key \"Center\" in the sphere",
          "center"},
+        {"{\"center\": 1, \"centre\": 1}", finish_sphere, 1, 15,
+         "the sphere has both \"center\" and \"centre\"; remove one of them"},
         {"{\"x\": 1}", [](ObjectReader& reader) { reader.finish(); }, 1, 2, "unknown key \"x\" in the sphere"},
         // Kinds.
         {"{\"r\": \"1\"}", required<float>("r"), 1, 7, "\"r\" must be a number, but is a string"},

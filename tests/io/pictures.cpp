@@ -37,13 +37,11 @@ Phased read_example(const std::filesystem::path& example) {
     std::string scene = content(folder() / "studio.json");
     scene.replace(scene.find(mark), mark.size(), content(example));
     const FileReaders readers{[](const std::filesystem::path& image) {
-                                  if (!std::filesystem::exists(image))
-                                      throw std::runtime_error("there is no such file");
+                                  if (!std::filesystem::exists(image)) throw std::runtime_error("no such file");
                                   return HeightGrid{2, 2, {0.f, 0.2f, 0.4f, 1.f}};  // this library knows no images
                               },
                               [](const std::filesystem::path& volume, const std::string&) {
-                                  if (!std::filesystem::exists(volume))
-                                      throw std::runtime_error("there is no such file");
+                                  if (!std::filesystem::exists(volume)) throw std::runtime_error("no such file");
                                   return VoxelGrid::of_voxels("volume", {{1, 1, 1}, glm::dvec3(0), glm::dvec3(1)},
                                                               [](int, int, int) { return -1; });
                               },
@@ -56,7 +54,7 @@ Phased read_example(const std::filesystem::path& example) {
                               },
                               nullptr,
                               [](const std::filesystem::path& font, const std::string&) {
-                                  if (!std::filesystem::exists(font)) throw std::runtime_error("there is no such file");
+                                  if (!std::filesystem::exists(font)) throw std::runtime_error("no such file");
                                   return TextOutlines{{{1, 1, {{0, 0, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}}}};
                               }};
     return read_tree(Document::from_text(scene, (folder() / "studio.json").string()), readers).object;

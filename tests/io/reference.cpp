@@ -69,7 +69,7 @@ TEST_CASE("every node describes itself and all its parameters, in the page and i
             REQUIRE(count < page->parameters.size());
             CHECK(page->parameters[count++].name == p.name);
         });
-        // A warp has one page, that of what warps objects, which may be told which phases to warp.
+        // A warp has one page, that of objects, where the phases to warp can be chosen.
         const bool has_own_page = !has_node<Warps>(N::info.name) || &among == &objects;
         if (has_own_page) CHECK(count == page->parameters.size());
         CHECK(object.find("properties")->size() == count);

@@ -58,7 +58,7 @@ TEST_CASE("binary STL files may have bytes behind their triangles, and any heade
                "vertex 0 1 0\nendfacet\n")
               .vertices[1] == glm::vec3(1, 0, 0));
     const std::string no_stl =
-        "a.stl: is no STL file: it is neither as long as its number of triangles says nor a text that begins with "
+        "a.stl: is not an STL file: its length does not match its number of triangles, and it does not begin with "
         "\"solid\"";
     const WrittenFiles files(read_mesh);
     CHECK(files.said("a.stl", with_header("solid").substr(0, 283)) == no_stl);

@@ -109,6 +109,14 @@ TEST_CASE("one number stands for all where the reference says so, and nowhere el
           "\"thicknesses\" must be a list, but is a number");
 }
 
+TEST_CASE("the parameters of nodes may be spelt in British or American English") {
+    const auto balls = [](const std::string& key) {
+        return R"({"set": {"phase": "a", "of": {"balls": {")" + key + R"(": [[0.5, 0, 0]], "radii": 0.25}}}})";
+    };
+    CHECK(distances(read(balls("centers")), glm::vec3(0))[1] == distances(read(balls("centres")), glm::vec3(0))[1]);
+    CHECK(error_of(balls("centeres")) == "unknown key \"centeres\" in \"balls\"");
+}
+
 TEST_CASE("the reference says what the program does") {
     // intersect_shape and subtract_shape leave another vacuum when all phases are cut than when some are.
     const auto vacuum_of = [](const std::string& cut) {

@@ -49,7 +49,7 @@ TEST_CASE("a scatter over what stands for billions is rejected at its place") {
     const std::string said =
         said_of(scene(two_copies, "{\"scatter\": {\"on\": \"s40\", \"of\": \"s0\", \"count\": 10}}"));
     CAPTURE(said);
-    CHECK(said.find(":43:2: scatter: the object takes more than 500000 instructions") != std::string::npos);
+    CHECK(said.find(":43:2: scatter: the object needs more than 500000 instructions") != std::string::npos);
 }
 
 TEST_CASE("blobs of blobs, forty levels, are few instructions") {
@@ -64,11 +64,11 @@ TEST_CASE("more work than a node may do is rejected at its place") {
     const std::string strewn = said_of(
         scene("", "{\"scatter\": {\"on\": " + fine + ", \"of\": " + ball + ", \"count\": 100000, \"spacing\": 100}}"));
     CAPTURE(strewn);
-    CHECK(strewn.find(":3:2: scatter: it takes more work to prepare than a node may") != std::string::npos);
+    CHECK(strewn.find(":3:2: scatter: preparing this node exceeds the limit") != std::string::npos);
     const std::string file = source_directory() + "/scenes/assets/bunny.siren.json";
     const std::string sampled = said_of(scene("", "{\"siren\": {\"file\": \"" + file + "\", \"samples\": 10000000}}"));
     CAPTURE(sampled);
-    CHECK(sampled.find(":3:2: siren: it takes more work to prepare than a node may") != std::string::npos);
+    CHECK(sampled.find(":3:2: siren: preparing this node exceeds the limit") != std::string::npos);
 }
 
 }  // namespace test_work

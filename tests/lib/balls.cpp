@@ -162,12 +162,12 @@ TEST_CASE("objects of listed balls have the phases that set algebra says, and on
 TEST_CASE("what are no balls is rejected, with the place") {
     const std::vector<glm::vec3> two{{0, 0, 0}, {1, 0, 0}};
     CHECK(said_of(Balls{.centres = two, .radii = {1}}) == "balls");
-    CHECK(said_of(Balls{}) == "balls: it needs either \"centres\" or a \"file\"");
+    CHECK(said_of(Balls{}) == "balls: either \"centres\" or \"file\" is required");
     CHECK(said_of(Balls{.centres = two, .radii = {1}, .file = held({two, {1, 1}, {}})}) ==
-          "balls: it needs either \"centres\" or a \"file\"");
+          "balls: either \"centres\" or \"file\" is required");
     CHECK(said_of(Balls{.centres = two}) == "balls: \"radii\" is missing");
     CHECK(said_of(Balls{.centres = two, .radii = {1, 2, 3}}) ==
-          "balls: \"radii\" needs an entry for each ball, or one for all");
+          "balls: \"radii\" needs one entry per ball, or one for all");
     CHECK(said_of(Balls{.radii = {1}, .file = held({})}) == "balls: there are no balls");
     CHECK(said_of(Balls{.file = held({two, {1, -1}, {}})}) == "balls: the radius of ball 2 of balls is not positive");
     CHECK(said_of(Balls{.file = held({two, {1, std::numeric_limits<float>::quiet_NaN()}, {}})}) ==
@@ -175,11 +175,11 @@ TEST_CASE("what are no balls is rejected, with the place") {
     CHECK(said_of(Balls{.file = held({{{0, 0, 2e9f}}, {1}, {}})}) ==
           "balls: ball 1 of balls is smaller than 1e-9 m, or farther or larger than 1e9 m");
     CHECK(said_of(Particles{.of_phases = {Phase{1}, Phase{2}, Phase{3}}, .centres = two, .radii = {1}}) ==
-          "particles: \"phases\" needs an entry for each centre, or one for all");
+          "particles: \"phases\" needs one entry per centre, or one for all");
     CHECK(said_of(Particles{.of_phases = {Phase{1}, Phase{2}}, .file = held({two, {1, 1}, {0, 2}})}) ==
-          "particles: ball 2 of balls has the phase 2, but \"phases\" has only 2, counted from 0");
+          "particles: ball 2 of balls has phase 2, counted from 0, but \"phases\" has only 2");
     CHECK(said_of(Particles{.of_phases = {Phase{1}, Phase{2}}, .file = held({two, {1, 1}, {}})}) ==
-          "particles: balls has no column \"phase\", so \"phases\" must be one for all balls");
+          "particles: balls has no column \"phase\", so \"phases\" must have a single entry");
 }
 
 TEST_CASE("what balls and particles derive is counted, of a list in the scene and of one in a file") {

@@ -74,12 +74,12 @@ TEST_CASE("a blob's mistakes are told") {
         return {};
     };
     CHECK(error(Blob{.points = {}, .polyline = {}, .of = {}, .radii = {1}, .weights = {}}) ==
-          "blob: it needs skeletons: \"points\", a \"polyline\" or fields in \"of\"");
+          "blob: skeletons are required: \"points\", a \"polyline\" or fields in \"of\"");
     CHECK(
         error(Blob{.points = {{0, 0, 0}}, .polyline = {}, .of = {}, .radii = {1}, .weights = {}, .threshold = 1.5f}) ==
-        "blob: the threshold is more than all skeletons together give, so it is empty");
+        "blob: the threshold exceeds the sum of all skeletons, so the solid is empty");
     CHECK(error(Blob{.points = {{0, 0, 0}}, .polyline = {}, .of = {}, .radii = {1, 2}, .weights = {}}) ==
-          "blob: \"radii\" and \"weights\" need an entry for each skeleton, or one for all");
+          "blob: \"radii\" and \"weights\" need one entry per skeleton, or one for all");
 }
 
 }  // namespace test_blob

@@ -200,8 +200,8 @@ TEST_CASE("numbers are given to phases and to the vacuum") {
     CHECK(at(0.15f) == 1);
     node.values = {40, 65535, 0};
     CHECK(said_of(node) ==
-          "labels: the voxel (2, 0, 0), counted from 0, has the number -7, which is that of no phase; \"values\" gives "
-          "numbers to phases, \"empty\" to the vacuum");
+          "labels: the voxel (2, 0, 0), counted from 0, has the number -7, which belongs to no phase; add it to "
+          "\"values\", or to \"empty\" for the vacuum");
     node.empty = {-7};
     CHECK(said_of(node) == "an object");
     node.values = {40, 65535, -7};
@@ -212,21 +212,21 @@ TEST_CASE("what is no object is rejected") {
     const LabelGrid grid = labelled({2, 2, 2}, 2, [](const glm::ivec3& p) { return p.x; });
     Labels node = node_of(grid);
     node.values = {1, 2};
-    CHECK(said_of(node) == "labels: 1 phases need as many \"values\", but there are 2");
+    CHECK(said_of(node) == "labels: \"values\" needs one entry for each of the 1 phases, but has 2");
     node = node_of(grid);
     node.of_phases = {Phase{1}, Phase{2}};
     node.values = {1, 1};
-    CHECK(said_of(node) == "labels: \"values\" must be whole numbers, each of one phase");
+    CHECK(said_of(node) == "labels: \"values\" must be different whole numbers");
     node.values = {1, 1.5f};
-    CHECK(said_of(node) == "labels: \"values\" must be whole numbers, each of one phase");
+    CHECK(said_of(node) == "labels: \"values\" must be different whole numbers");
     node = node_of(grid, 1, glm::vec3(0));
     CHECK(said_of(node).find("\"spacing\" must be [x, y, z], each positive") != std::string::npos);
     LabelGrid placed = grid;
     placed.has_spacing = true;
-    CHECK(said_of(node_of(placed)) == "labels: the grid has a spacing of its own; leave out \"spacing\"");
+    CHECK(said_of(node_of(placed)) == "labels: the grid has its own spacing; remove \"spacing\"");
     LabelGrid few = grid;
     few.voxels.pop_back();
-    CHECK(said_of(node_of(few)) == "labels: the grid has not all its voxels");
+    CHECK(said_of(node_of(few)) == "labels: the grid lacks some of its voxels");
     LabelGrid huge = grid;
     huge.lattice.size = {8192, 8192, 8};
     CHECK(said_of(node_of(huge)) == "labels: the grid has more than 134217728 voxels");

@@ -172,17 +172,16 @@ TEST_CASE("what is no closed surface is rejected, with the place") {
     CHECK(said_of(solid) == "a solid");
     TriangleMesh mesh = solid;
     mesh.triangles.pop_back();
-    CHECK(
-        said_of(mesh) ==
-        "mesh: it is not closed: the edge from [0, -1, 0] to [0, 0, -1] has a triangle (7) on one side only, as have 2 "
-        "more");
+    CHECK(said_of(mesh) ==
+          "mesh: it is not closed: the edge from [0, -1, 0] to [0, 0, -1] has a triangle (7) on one side only, and so "
+          "do 2 more edges");
     mesh = solid;
     std::swap(mesh.triangles[7].y, mesh.triangles[7].z);
-    begins(said_of(mesh), "mesh: it has triangles that are turned opposite ways: ");
+    begins(said_of(mesh), "mesh: it has triangles of opposite orientation: ");
     CHECK(said_of(turned(solid)) == "mesh: it is inside out: its triangles are clockwise seen from outside");
     mesh = solid;
     append(mesh, solid, {0.25f, 0.1f, 0.3f});
-    begins(said_of(mesh), "mesh: it crosses or touches itself: its triangles ");
+    begins(said_of(mesh), "mesh: it crosses or touches itself: triangles ");
     // Another solid stands on one of its sides, mirrored about that and a little moved within it.
     mesh = {};
     for (const float up : {1.f, -1.f}) {
@@ -190,7 +189,7 @@ TEST_CASE("what is no closed surface is rejected, with the place") {
                                 {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
         append(mesh, up > 0 ? part : turned(part), {up > 0 ? 0.f : 0.125f, 0.0625f, 0});
     }
-    begins(said_of(mesh), "mesh: it crosses or touches itself: its triangles 1 and 7, near [0.125, 0.5625, 0]");
+    begins(said_of(mesh), "mesh: it crosses or touches itself: triangles 1 and 7, near [0.125, 0.5625, 0]");
     mesh = solid;
     append(mesh, solid, {2, 0, 0});
     begins(said_of(mesh), "mesh: it touches itself at [1, 0, 0], a corner of its triangles ");
@@ -206,13 +205,13 @@ TEST_CASE("what is no closed surface is rejected, with the place") {
               .starts_with("mesh: it is folded onto itself"));
     // Four corners on a line.
     begins(said_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}}),
-           "mesh: it has a triangle of no area: ");
+           "mesh: it has a triangle without area: ");
     mesh = solid;
     mesh.triangles[0].x = 99;
     CHECK(said_of(mesh) == "mesh: it has a triangle (1) with a vertex that does not exist");
     mesh = solid;
     mesh.vertices[2].y = std::numeric_limits<float>::quiet_NaN();
-    begins(said_of(mesh), "mesh: it has a vertex (3) that is farther than 1e9 m from the origin, or no number");
+    begins(said_of(mesh), "mesh: it has a vertex (3) that is farther than 1e9 m from the origin, or not a number");
 }
 
 TEST_CASE("corners at the same place are one, and triangles with two equal corners are ignored") {

@@ -135,7 +135,7 @@ TEST_CASE("the mesh of a ball comes nearer with the square of the spacing") {
         }
         CAPTURE(spacing);
         CHECK(farthest < 0.4 * square);
-        // Where faces are told from a bend, vertices are on the surface.
+        // Where faces are distinguished from a bend, vertices are on the surface.
         if (spacing <= 0.1f) CHECK(std::abs(mean) < 0.001 * square);
         CHECK(std::abs(volume_of(mesh, one) / (4 * std::numbers::pi / 3) - 1) < 0.5 * square);
     }
@@ -311,7 +311,7 @@ TEST_CASE("far from the origin vertices keep apart, and a spacing that is too fi
     CHECK(faults_of(mesh, PhaseSet::of(one)) == 0);
     CHECK(volume_of(mesh, one) == doctest::Approx(1).epsilon(0.01));
     const Phased farther = of(one, warped(Translate{{10'000, 7000, -3000}}, box));
-    CHECK_THROWS_WITH_AS(meshed(farther, 0.006f), doctest::Contains("finer than 32-bit numbers are"), ModelError);
+    CHECK_THROWS_WITH_AS(meshed(farther, 0.006f), doctest::Contains("finer than 32-bit coordinates allow"), ModelError);
     CHECK(meshed(farther, 0).spacing > 0.015f);
 }
 

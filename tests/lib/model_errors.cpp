@@ -54,7 +54,7 @@ TEST_CASE("errors name the node, the parameter and what is wrong") {
     CHECK(error(RoundedBox{.size = {1, 1, 1}, .radius = -0.1f}) ==
           "rounded_box: \"radius\" must be zero or more, but is -0.1");
     CHECK(error(CappedCone{.radius_bottom = 0, .radius_top = 0, .height = 1}) == "capped_cone: both radii are zero");
-    CHECK(error(Plane{.normal = {0, 0, 0}}) == "plane: the normal has no direction");
+    CHECK(error(Plane{.normal = {0, 0, 0}}) == "plane: the normal must not be zero");
     CHECK(error(Union{}) == "union: \"of\" must not be empty");
     CHECK(error(Union{.of = {ball, Field()}}) == "union: \"of\" has an empty entry");
     CHECK(error(Offset{}) == "offset: \"of\" is missing");
@@ -62,16 +62,16 @@ TEST_CASE("errors name the node, the parameter and what is wrong") {
     CHECK(error(Set{.phase = vacuum, .of = ball}) == "set: \"phase\" must be a phase other than the vacuum");
     CHECK(error(Set{.phase = Phase{64}, .of = ball}) == "set: \"phase\" must be a phase other than the vacuum");
     CHECK(error(ThinShell{.of = ball, .shell = Phase{2}, .inside = Phase{2}}) ==
-          "thin_shell: the wall and what it encloses are the same phase");
+          "thin_shell: the wall and the interior must be different phases");
     CHECK(error(Change{.of = object, .from = Phase{1}, .to = Phase{1}, .shape = {}}) ==
-          "change: a phase is turned into itself");
+          "change: a phase cannot be changed into itself");
     CHECK(error(Remove{.of = object, .gone = PhaseSet::of(vacuum)}) == "remove: the vacuum cannot be removed");
     CHECK(error(Merge{.of = object, .phases = PhaseSet::of(Phase{2})}) ==
           "merge: the object has none of the phases to merge");
     CHECK(error(WarpedField<Rotate>{{Rotate{.axis = {0, 0, 0}, .angle = 1}, ball, {}}}) ==
-          "rotate: the axis has no direction");
+          "rotate: the axis must not be zero");
     CHECK(error(WarpedField<Scale>{{Scale{.factor = 0}, ball, {}}}) == "scale: \"factor\" must be positive, but is 0");
-    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) == "twist: what is warped must be bounded");
+    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) == "twist: the child must be bounded");
     CHECK(error(WarpedField<Twist>{{Twist{.rate = 1e6f}, ball, {}}}) ==
           "twist: more than 800 turns from the origin to an end of the object");
     CHECK(error(WarpedField<Translate>{{Translate{.by = {0, infinity, 0}}, ball, {}}}) ==
@@ -304,9 +304,8 @@ TEST_CASE("an object that cannot be traced says so") {
     };
     CHECK(why(object) == "no error");
     CHECK(why(Set{.phase = Phase{1}, .of = Plane{}}) ==
-          "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
-    CHECK(why(Set{.phase = Phase{1}, .of = Offset{.of = ball, .amount = -2}}) ==
-          "the object is empty: nothing of it is left");
+          "the object is unbounded; cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    CHECK(why(Set{.phase = Phase{1}, .of = Offset{.of = ball, .amount = -2}}) == "the object is empty");
 }
 
 }  // namespace test_model_errors

@@ -218,7 +218,8 @@ TEST_CASE("what is no outline is rejected") {
             "polygon: the edges from its points 1 and 2 cross or touch");
     refused(Polygon{.points = {{0, 0}, {2, 0}, {2, 2}, {1, 0}}},
             "polygon: the edges from its points 1 and 3 cross or touch");
-    refused(Polygon{.points = {{0, 0}, {1, 0}, {1, 0}, {0, 0}}}, "polygon: it needs three different points");
+    refused(Polygon{.points = {{0, 0}, {1, 0}, {1, 0}, {0, 0}}},
+            "polygon: at least three different points are required");
     refused(Polygon{.points = {{0, 0}, {1, 0}, {2e9f, 1}}}, "polygon: its points must be within 1e9 m of the origin");
     refused(Bezier{.points = {{0, 0}, {1, 0}, {1, 1}}},
             "bezier: an odd number of points is an open curve, which needs a thickness");

@@ -314,20 +314,21 @@ TEST_CASE("all interfaces are the interfaces of all pairs") {
 TEST_CASE("what an operator cannot mean is rejected in words") {
     const Phased ball = Set{.phase = one, .of = Sphere{}}, other = Set{.phase = two, .of = Box{}};
     CHECK(error(Contact{.a = ball, .phase_a = one, .b = ball, .phase_b = one, .alpha = 0.5f}) ==
-          "contact: a phase does not make contact with itself");
+          "contact: a phase cannot be in contact with itself");
     CHECK(error(Contact{.a = ball, .phase_a = three, .b = other, .phase_b = two, .alpha = 0.5f}) ==
-          "contact: \"a\" has nothing of \"phase_a\"");
+          "contact: \"a\" does not contain \"phase_a\"");
     CHECK(error(Contact{.a = ball, .phase_a = one, .b = other, .phase_b = three, .alpha = 0.5f}) ==
-          "contact: \"b\" has nothing of \"phase_b\"");
+          "contact: \"b\" does not contain \"phase_b\"");
     CHECK(error(Contact{.a = ball, .phase_a = one, .b = other, .phase_b = two, .alpha = 1.5f}) ==
           "contact: \"alpha\" must be at least 0 and at most 1, but is 1.5");
     CHECK(error(Contacts{.a = ball, .phases_a = PhaseSet::of(two), .b = other, .phases_b = {}, .alpha = 0.5f}) ==
-          "contacts: \"a\" has nothing of \"phases_a\"");
+          "contacts: \"a\" contains none of \"phases_a\"");
     CHECK(error(Interface{.of = ball, .phase_a = one, .phase_b = one, .half_thickness = 0.1f}) ==
           "interface: a phase has no interface with itself");
     CHECK(error(Interface{.of = ball, .phase_a = one, .phase_b = two, .half_thickness = 0.1f}) ==
-          "interface: the object has nothing of \"phase_b\"");
-    CHECK(error(Interfaces{.of = ball, .half_thickness = 0.1f}) == "interfaces: the object has fewer than two phases");
+          "interface: the object does not contain \"phase_b\"");
+    CHECK(error(Interfaces{.of = ball, .half_thickness = 0.1f}) ==
+          "interfaces: the object must have at least two phases");
     CHECK(error(LayeredSequence{.of = ball, .layers = {two, three}, .thicknesses = {0.1f}}) ==
           "layered_sequence: 2 phases, but 1 thicknesses");
     CHECK(error(LayeredSequence{.of = ball, .layers = {two}, .thicknesses = {0.f}}) ==

@@ -57,13 +57,13 @@ TEST_CASE("networks that do not fit together are rejected") {
     CHECK(mistake(diagonal(1, 1, 1)) == "");
     SirenNetwork n = diagonal(1, 1, 1);
     n.layers.pop_back();
-    CHECK(mistake(n) == "the last layer must give one number, the distance");
+    CHECK(mistake(n) == "the last layer must have one output, the distance");
     n = diagonal(1, 1, 1);
     n.layers[1].inputs = 2;
-    CHECK(mistake(n) == "a layer takes another number of inputs than the one before gives");
+    CHECK(mistake(n) == "the number of inputs of a layer differs from the number of outputs of the one before");
     n = diagonal(1, 1, 1);
     n.layers[0].bias.pop_back();
-    CHECK(mistake(n) == "a layer's weights and biases do not fit its inputs and outputs");
+    CHECK(mistake(n) == "the weights and biases of a layer do not match its inputs and outputs");
     n = diagonal(1e5f, 1, 1);
     CHECK(mistake(n) == "a layer's weights are too large");
     CHECK(mistake(SirenNetwork{}) == "the network has no layers");

@@ -130,11 +130,12 @@ TEST_CASE("what is no grid is rejected") {
     };
     CHECK_THROWS_WITH(made({{0, 1, 1}, {}, glm::dvec3(1)}, 0), "volume: the grid is empty");
     CHECK_THROWS_WITH(made({{1, 9000, 1}, {}, glm::dvec3(1)}, 0),
-                      "volume: the grid has 9000 voxels along an axis; at most 8192 can be");
-    CHECK_THROWS_WITH(made({{1, 1, 1}, {}, glm::dvec3(0, 1, 1)}, 0),
-                      "volume: voxels must be 1e-9 to 1e6 m apart, at most 1e9 m from the origin");
+                      "volume: the grid has 9000 voxels along an axis; the limit is 8192");
+    CHECK_THROWS_WITH(
+        made({{1, 1, 1}, {}, glm::dvec3(0, 1, 1)}, 0),
+        "volume: the spacing of voxels must be from 1e-9 to 1e6 m, and their distance from the origin at most 1e9 m");
     CHECK_THROWS_WITH(made({{1, 1, 1}, {}, glm::dvec3(1)}, std::numeric_limits<double>::quiet_NaN()),
-                      "volume: the value at the voxel (0, 0, 0) is too large, or no number");
+                      "volume: the value at the voxel (0, 0, 0) is too large, or not a number");
     CHECK_THROWS_WITH(made({{8192, 8192, 8192}, {}, glm::dvec3(1)}, 0),
                       "volume: the grid has more than 120000000 values that differ from their neighbours");
 }

@@ -135,7 +135,7 @@ TEST_CASE("a grid that is made of all values at once is the one that is made vox
         CHECK(VoxelGrid::of_values("test", lattice, values).table == each.table);
         values[values.size() - 2] = std::nanf("");
         CHECK_THROWS_WITH((void)VoxelGrid::of_values("test", lattice, values),
-                          doctest::Contains("is too large, or no number"));
+                          doctest::Contains("is too large, or not a number"));
     }
 }
 

@@ -173,7 +173,7 @@ TEST_CASE("each pixel is treated by itself, in any number of threads") {
 TEST_CASE("unknown names list the known ones") {
     const OcioVariable none;
     const std::string display = message_of<DisplayError>([] { DisplayTransform("sRBG"); });
-    CHECK(contains(display, "there is no display \"sRBG\" (did you mean \"sRGB\"?); choose from \"sRGB\""));
+    CHECK(contains(display, "unknown display \"sRBG\" (did you mean \"sRGB\"?); choose from \"sRGB\""));
     const std::string slip = message_of<DisplayError>([] { view("Standart"); });
     CHECK(contains(slip, "there is no view of display \"sRGB\" \"Standart\" (did you mean \"Standard\"?)"));
     CHECK(contains(slip, "choose from \"Photographic\", \"ACES 1.0 SDR\", \"Standard\", \"Raw\""));
@@ -192,13 +192,13 @@ TEST_CASE("$OCIO is honoured, and a bad one is an error") {
         return message_of<DisplayError>([] { DisplayTransform(); });
     };
     CHECK(contains(failure((folder / "missing.ocio").string()),
-                   "OCIO is set to \"" + (folder / "missing.ocio").string()));
+                   "cannot read the OpenColorIO configuration \"" + (folder / "missing.ocio").string()));
     CHECK(contains(failure(folder.path().string()), "it is a directory"));
     write_text(folder / "broken.ocio", "ocio_profile_version: [\n");
-    CHECK(contains(failure((folder / "broken.ocio").string()), "cannot be read as an OpenColorIO configuration"));
+    CHECK(contains(failure((folder / "broken.ocio").string()), "cannot read the OpenColorIO configuration"));
     write_text(folder / "picture.ocio", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11));
     const std::string picture = failure((folder / "picture.ocio").string());
-    CHECK(contains(picture, "OCIO is set to"));
+    CHECK(contains(picture, "named by $OCIO"));
     CHECK_FALSE(contains(picture, "\n"));
 
     // Our own file by its name is what is built in.

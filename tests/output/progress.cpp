@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// A stream, and a clock that moves when it is told to.
+// A stream, and a clock that the test moves.
 struct Screen {
     std::ostringstream stream;
     ProgressOutput::Clock::time_point now{};

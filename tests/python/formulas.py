@@ -79,7 +79,7 @@ class Formulas(unittest.TestCase):
             ("divides by zero near", lambda: (1 / x).within(-1, 1).field()),
             ("is zero or negative near", lambda: pt.sqrt(x + y).within(-1, 1).field()),
             ('at "sqrt((x + y))"', lambda: (z - pt.sqrt(x + y)).within(-1, 1).field()),
-            ('there is no name "q"', lambda: pt.formula("x + q")),
+            ('unknown name "q"', lambda: pt.formula("x + q")),
             ("exponent must be a number", lambda: x**y),
             ("whole number from -64 to 64", lambda: (x**0.3).within(0.1, 1).field()),
             ("must be finite", lambda: x * float("nan")),

@@ -84,7 +84,7 @@ class ListOfNodes(unittest.TestCase):
         for chapter in _phasetree.chapters():
             for page in chapter["kinds"] if chapter["title"] in _parts.kinds else ():
                 # Where there is one kind only it is a function of the package.
-                alone = {"Image": pt.image, "Maps of normals": pt.normal_map, "Voxels": pt.voxels}
+                alone = {"Image": pt.image, "Normal maps": pt.normal_map, "Voxels": pt.voxels}
                 function = alone.get(chapter["title"]) or getattr(getattr(pt, chapter["title"].lower()), page["name"])
                 self.assertIn(page["summary"], function.__doc__)
                 for p in page["parameters"]:

@@ -299,7 +299,7 @@ class Meshes(unittest.TestCase):
         told = []
         mesh = self.object.mesh(0.05, progress=lambda *what: told.append(what))
         self.assertTrue(all(stage == "meshing" and 0 < share <= 1 for stage, share in told))
-        # Long work is told of, some times a second.
+        # Long work reports progress a few times per second.
         self.object.mesh(0.004, progress=lambda *what: told.append(what))
         self.assertGreater(len(told), 0)
         self.assertEqual(mesh.names, ("vacuum", "glass", "water"))

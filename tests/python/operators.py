@@ -120,7 +120,7 @@ class Objects(unittest.TestCase):
     def test_phases_by_name(self):
         both = self.glass(pt.sphere(2)).under(self.water(pt.sphere(1)))
         self.assertEqual(both.remove("water"), both.remove(self.water))
-        with self.assertRaisesRegex(pt.Error, 'there is no phase "watr" .did you mean "water"'):
+        with self.assertRaisesRegex(pt.Error, 'unknown phase "watr" .did you mean "water"'):
             both.remove("watr")
 
 
@@ -141,7 +141,7 @@ class Sentences(unittest.TestCase):
             ('box: "size" must be [x, y, z] as one list', lambda: pt.box(1, 2, 3)),
             ('capsule: "to" must be [x, y, z] as one list', lambda: pt.capsule((0, 0, 0), 1, 0.1)),
             ('translate: "of" must be', lambda: pt.translate(3, (1, 0, 0))),
-            ('"of" is an object of phases, but a plain field is needed here', lambda: pt.shell(glass(pt.sphere(1)), 0.1)),
+            ('"of" is an object of phases, but a plain field is required here', lambda: pt.shell(glass(pt.sphere(1)), 0.1)),
             ('"of[1]" is a plain field, but an object of phases is needed', lambda: glass(pt.sphere(1)).over(pt.sphere(1))),
             ('unknown key "over" in "translate"', lambda: pt.sphere(1).translate((1, 0, 0), over=glass)),
             ("a phase does not make contact with itself", lambda: glass(pt.sphere(1)).contact(glass(pt.sphere(1)), glass, glass, 0.5)),

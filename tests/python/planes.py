@@ -114,10 +114,10 @@ class Planes(unittest.TestCase):
     def test_what_cannot_be_is_refused(self):
         scene = ball_on_floor()
         for said, wishes in (
-            ('planes: there is no plane "dept"; the planes are .*depth.*, and "all"', {"planes": ["depth", "dept"]}),
-            ('planes: there is no plane "all"', {"planes": ["all", "depth"]}),
-            ('denoise: "regression" or "oidn", not "magic"', {"denoise": "magic"}),
-            ("denoise: it needs 8 samples a pixel at least, and the picture is to have 7", {"denoise": True, "samples": 7}),
+            ('planes: unknown plane "dept"; choose from .*depth.*, or "all"', {"planes": ["depth", "dept"]}),
+            ('planes: unknown plane "all"', {"planes": ["all", "depth"]}),
+            ('denoise: must be "regression" or "oidn", but is "magic"', {"denoise": "magic"}),
+            ("denoise: needs at least 8 samples per pixel, but the picture has 7", {"denoise": True, "samples": 7}),
             ("denoise must be True", {"denoise": 3}),
             ("time_limit must be seconds", {"time_limit": 0}),
             ("time_limit must be seconds", {"time_limit": float("nan")}),

@@ -164,15 +164,15 @@ TEST_CASE("photometric files: what is wrong is said with its line") {
     CHECK(says("", "no line TILT"));
     CHECK(says(std::string(100000, 'x'), "no line TILT"));
     CHECK(says(replaced(file, "TILT=NONE", "TILT=lamp.tlt"), "line 3: TILT should be NONE or INCLUDE"));
-    CHECK(says(replaced(file, "2.0", "two"), "line 4: the multiplier of candelas should be a number"));
+    CHECK(says(replaced(file, "2.0", "two"), "line 4: the candela multiplier must be a number"));
     CHECK(says(replaced(file, "3 3 1 2", "3 3 2 2"), "which is B"));
     CHECK(says(replaced(file, "3 3 1 2", "3 1e9 1 2"), "whole number from 1 to 1441"));
-    CHECK(says(replaced(file, "0 45 90", "0 45 45"), "should increase, but 45 follows 45"));
+    CHECK(says(replaced(file, "0 45 90", "0 45 45"), "must increase, but 45 follows 45"));
     CHECK(says(replaced(file, "0 90 180", "0 90 270"), "0, 90, 180 or 360"));
-    CHECK(says(replaced(file, "200, 155", "-200, 155"), "should not be negative"));
-    CHECK(says(replaced(file, "55\n200", "nan\n200"), "should be a number"));
-    CHECK(says(file.substr(0, file.size() - 20), "the file ends where the candelas should be"));
-    CHECK(says(replaced(file, "2.0 3", "0 3"), "should be positive"));
+    CHECK(says(replaced(file, "200, 155", "-200, 155"), "must not be negative"));
+    CHECK(says(replaced(file, "55\n200", "nan\n200"), "must be a number"));
+    CHECK(says(file.substr(0, file.size() - 20), "the file ends before the candelas"));
+    CHECK(says(replaced(file, "2.0 3", "0 3"), "must be positive"));
     CHECK(problem_of(file).empty());
     // Tilts of the lamp are read over.
     CHECK(problem_of(replaced(file, "TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9")).empty());
@@ -206,13 +206,13 @@ TEST_CASE("photometric files: the headings of all standards are read, however TI
                     CAPTURE(text);
                     CHECK(problem_of(text) == "");
                     CHECK((problem_of(text) != "" || IesProfile(text).greatest_candelas() == 200.0));
-                    // The line is told whatever lines end with.
+                    // The line number does not depend on the line endings.
                     const auto lines = std::ranges::count(heading + tilt, '\n');
                     CHECK(problem_of(replaced(text, "1 1000", "one 1000")) ==
-                          "line " + std::to_string(lines + 1) + ": the number of lamps should be a number");
+                          "line " + std::to_string(lines + 1) + ": the number of lamps must be a number");
                 }
-    CHECK(problem_of(replaced(file, "TILT=NONE", "TILT NONE")).starts_with("there is no line TILT="));
-    CHECK(problem_of(replaced(file, "TILT=NONE", "TILTED=NONE")).starts_with("there is no line TILT="));
+    CHECK(problem_of(replaced(file, "TILT=NONE", "TILT NONE")).starts_with("it has no line TILT="));
+    CHECK(problem_of(replaced(file, "TILT=NONE", "TILTED=NONE")).starts_with("it has no line TILT="));
     CHECK(problem_of(replaced(file, "TILT=NONE", "tilt = lamp.tlt")).starts_with("line 3: TILT should be NONE or"));
 }
 

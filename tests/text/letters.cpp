@@ -153,11 +153,11 @@ TEST_CASE("what no text can be made of is rejected in a sentence") {
     const support::TemporaryDirectory directory;
     const fs::path no_font = directory.path() / "a.ttf", folder = directory.path();
     std::ofstream(no_font) << "root:x:0:0";
-    CHECK(said_of(font("ttf"), "I Ö") == refusal(font("ttf"), "it has no letter \"Ö\""));
-    CHECK(said_of(font("otf"), "I\ti") == refusal(font("otf"), "it has no letter \"\t\""));
-    CHECK(said_of(no_font, "I") == refusal(no_font, "it is no TrueType or OpenType font (.ttf, .otf)"));
+    CHECK(said_of(font("ttf"), "I Ö") == refusal(font("ttf"), "it has no glyph for \"Ö\""));
+    CHECK(said_of(font("otf"), "I\ti") == refusal(font("otf"), "it has no glyph for \"\t\""));
+    CHECK(said_of(no_font, "I") == refusal(no_font, "it is not a TrueType or OpenType font (.ttf, .otf)"));
     CHECK(said_of(folder, "I") == refusal(folder, "it is not a regular file"));
-    CHECK(said_of(folder / "b", "I") == refusal(folder / "b", "there is no such file"));
+    CHECK(said_of(folder / "b", "I") == refusal(folder / "b", "no such file"));
     CHECK(said_of("/dev/zero", "I") == refusal("/dev/zero", "it is not a regular file"));
     CHECK(said_of(font("ttf"), std::string(20'000, 'I')) ==
           refusal(font("ttf"), "the text is longer than 10,000 bytes"));
@@ -176,7 +176,7 @@ TEST_CASE("a scene's text is read from the font it names, written and read again
     CHECK(distances(tree.object, {0.6f, -1.7f, 0})[1] == doctest::Approx(0.4).epsilon(0.002));
     const SceneTree again = read_tree(Document::from_text(write_tree(tree)), readers);
     CHECK(write_tree(again) == write_tree(tree));
-    CHECK_THROWS_WITH_AS(read_tree(Document::from_text(scene)), doctest::Contains("this program reads no fonts"),
+    CHECK_THROWS_WITH_AS(read_tree(Document::from_text(scene)), doctest::Contains("this program cannot read fonts"),
                          SceneError);
 }
 

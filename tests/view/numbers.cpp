@@ -1,4 +1,4 @@
-// The numbers in a scene's text: what is listed, and what stands in their place.
+// The numbers in a scene's text: which ones are listed, and how they are replaced.
 #include "view/numbers.hpp"
 
 #include <doctest/doctest.h>

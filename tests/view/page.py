@@ -190,7 +190,7 @@ class Page(unittest.TestCase):
         self.assertEqual([row.split("\t")[1:] for row in rows], [["vacuum", "wood"], ["wood", "vacuum"]])
         self.shoot("point")
         self.browser.click(*self.at(0.02, 0.02))
-        self.browser.wait_for("document.getElementById('point').textContent.includes('Nothing is met')")
+        self.browser.wait_for("document.getElementById('point').textContent.includes('There is nothing')")
 
     def test_the_keyboard_does_it_all(self):
         self.browser.run("document.getElementById('picture').focus()")
@@ -201,7 +201,7 @@ class Page(unittest.TestCase):
         self.browser.press("0", "Digit0", "0")
         self.browser.wait_for(f"{READY} && {SEEN} === {json.dumps(self.before)}")
         self.browser.press("Enter")
-        self.browser.wait_for("document.getElementById('point').textContent.includes('Nothing is met')")
+        self.browser.wait_for("document.getElementById('point').textContent.includes('There is nothing')")
         # From the picture the next stop is the first phase; a blank ticks it.
         self.browser.press("Tab")
         self.assertEqual(self.browser.run("document.activeElement.value"), "glass")
@@ -217,12 +217,12 @@ class Page(unittest.TestCase):
         self.browser.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
         nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
         told = {(n["role"]["value"], n["name"]["value"]) for n in nodes if n.get("name", {}).get("value")}
-        for role, name in (("checkbox", "glass"), ("checkbox", "wood"), ("group", "Phases"), ("button", "Turn left"),
-                           ("application", "Picture of the scene"), ("button", "Save the picture"),
-                           ("textbox", "Text of the camera"), ("button", "glass as in the file"), ("button", "Save it as EXR"),
-                           ("group", "Cut"), ("combobox", "Cut away what lies towards"), ("spinbutton", "x of the normal")):
+        for role, name in (("checkbox", "glass"), ("checkbox", "wood"), ("group", "Phases"), ("button", "Rotate left"),
+                           ("application", "Picture of the scene"), ("button", "Save picture"),
+                           ("textbox", "Text of the camera"), ("button", "Reset material of glass"), ("button", "Save as EXR"),
+                           ("group", "Cut"), ("combobox", "Cut away the side towards"), ("spinbutton", "x of the normal")):
             self.assertIn((role, name), told)
-        for slider in ("Exposure", "Place", "Index", "Roughness"):
+        for slider in ("Exposure", "Position", "Index", "Roughness"):
             self.assertTrue(any(role == "slider" and name.startswith(slider) for role, name in told), slider)
 
     def test_the_file_is_followed_and_its_errors_are_shown(self):
@@ -244,7 +244,7 @@ class Page(unittest.TestCase):
         error = self.wait_for_error("scene.json")
         self.assertEqual(error, self.said_in_terminal())
         self.assertEqual(self.browser.run(SEEN), self.before)
-        # What cannot be written is told, too, and once.
+        # A file that cannot be written is reported once.
         self.expected = "Failed to load resource"
         self.browser.run("document.getElementById('write').click()")
         time.sleep(0.3)

@@ -274,7 +274,7 @@ class Pictures(unittest.TestCase):
             for crossing, line in zip(told["crossings"], lines):
                 self.assertAlmostEqual(crossing["distance"], float(line[1]), delta=1e-4)
             self.assertEqual([d["phase"] for d in told["distances"]], ["vacuum", "glass", "wood"])
-            # It is told of the bracket's near end, which is in the vacuum still.
+            # The position is the near end of the bracket, which is still in the vacuum.
             self.assertLess(told["distances"][0]["phi"], 0)
             self.assertAlmostEqual(told["distances"][1]["phi"], 0, delta=1e-4)
 
@@ -299,7 +299,7 @@ class Files(unittest.TestCase):
             self.assertEqual(wrong.state["error"] + "\n", checked.stderr)
             self.assertIn("scene.json:3:", wrong.state["error"])
             self.assertIn(wrong.state["error"], view.said())
-            # The picture that there is can be turned all the same.
+            # The last picture can still be rotated.
             view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}})
             turned = view.wait_for(lambda s: is_ready(s) and "[5, 0, 0]" in s["camera"])
             self.assertNotEqual(turned.pixels, before.pixels)
@@ -426,7 +426,7 @@ class Refusals(unittest.TestCase):
         assert code == 0, code
 
     def tearDown(self):
-        # Whatever it was sent, it lives and answers.
+        # After any request, the server still answers.
         self.assertEqual(self.view.get("").status, 200)
         self.assertEqual(self.view.get("picture").status, 200)
 

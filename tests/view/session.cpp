@@ -1,4 +1,4 @@
-// A session whose scenes and displays stop and fail when the test says so: what comes in between loses nothing.
+// A session whose scenes and displays stop and fail on demand: nothing that happens meanwhile is lost.
 #include "view/session.hpp"
 
 #include <unistd.h>
@@ -312,12 +312,12 @@ TEST_CASE("a camera that is wished is told at once and by whatever is shown from
         (void)comes([&] { return is_released.load(); });
     };
     session.change(camera_at("[1, -3, 0]"));
-    // The picture of that one is still to be shown when another is wished, so it is told with the newer one.
+    // Another change arrives before its picture is shown, so the picture is reported with the newer one.
     REQUIRE(comes([&] { return is_held.load(); }));
     const std::uint64_t version = session.change(camera_at("[2, -3, 0]"));
     CHECK(session.shown()->version == version);
     CHECK(session.shown()->camera_text.find("[2, -3, 0]") != std::string::npos);
-    CHECK(session.shown()->doing == "Taking the picture");
+    CHECK(session.shown()->doing == "Rendering");
     is_released = true;
     const std::uint64_t before = session.shown()->picture->number;
     REQUIRE(comes([&] { return session.shown()->picture->number > before; }));

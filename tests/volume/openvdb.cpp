@@ -137,14 +137,14 @@ TEST_CASE("which grids of numbers are taken, and what the others are rejected fo
     };
     const fs::path two = folder.write("two.vdb", {named("density"), named("temperature")});
     CHECK(said_of_numbers(two) ==
-          "it has several grids of numbers; choose one by \"grid\": \"density\" (float), \"temperature\" (float)");
+          "it has several grids of numbers; choose one with \"grid\": \"density\" (float), \"temperature\" (float)");
     CHECK(said_of_numbers(two, "density") == "nothing");
     CHECK(said_of_numbers(two, "flame") ==
           "it has no grid \"flame\"; it has \"density\" (float), \"temperature\" (float)");
     CHECK(said_of_numbers(folder.write("ball.vdb", {ball(1, {0, 0, 0}, 0.2f, "b")}))
               .starts_with("it is a level set, whose numbers are distances"));
     CHECK(said_of_numbers(folder.write("bg.vdb", {named("d", 0.5f)})) ==
-          "its background is not 0, so that it is without end");
+          "its background is not 0, so it would be infinite");
     CHECK(said_of_numbers(folder.write("ints.vdb", {openvdb::Int32Grid::create(0)})) ==
           "it is a grid of int32, but numbers are floats or doubles");
     // A frame of a simulation in which there is nothing yet.
@@ -200,7 +200,7 @@ TEST_CASE("one of several grids is read by its name") {
     const fs::path two = folder.write("two.vdb", {ball(0.5, {0, 0, 0}, 0.05f, "a"), ball(0.7, {0, 0, 0}, 0.05f, "b")});
     CHECK(tracer::read_level_set(two, "a").bytes() < tracer::read_level_set(two, "b").bytes());
     CHECK(said_of_level_set(two) ==
-          "it has several level sets; choose one by \"grid\": \"a\" (float level set), \"b\" (float level set)");
+          "it has several level sets; choose one with \"grid\": \"a\" (float level set), \"b\" (float level set)");
     CHECK(said_of_level_set(two, "c") ==
           "it has no grid \"c\"; it has \"a\" (float level set), \"b\" (float level set)");
     const fs::path one = folder.write("one.vdb", {fog, ball(0.5, {0, 0, 0}, 0.05f, "a"), whole});
@@ -224,10 +224,10 @@ TEST_CASE("one of several grids is read by its name") {
 
 TEST_CASE("what is no level set is rejected, with what is wrong") {
     const VdbFolder folder;
-    CHECK(said_of_level_set(folder.path("none.vdb")) == "there is no such file");
-    CHECK(said_of_level_set(folder.write_bytes("a.obj", "x")) == "its name must end with .vdb");
-    CHECK(said_of_level_set(folder.write_bytes("text.vdb", "This is no grid.")) == "it is no OpenVDB file");
-    CHECK(said_of_level_set(folder.write_bytes("empty.vdb", "")) == "it is no OpenVDB file");
+    CHECK(said_of_level_set(folder.path("none.vdb")) == "no such file");
+    CHECK(said_of_level_set(folder.write_bytes("a.obj", "x")) == "its name must end in .vdb");
+    CHECK(said_of_level_set(folder.write_bytes("text.vdb", "This is no grid.")) == "it is not an OpenVDB file");
+    CHECK(said_of_level_set(folder.write_bytes("empty.vdb", "")) == "it is not an OpenVDB file");
     CHECK(said_of_level_set(folder.write("no_grids.vdb", {})) == "it has no grids");
     auto empty = openvdb::FloatGrid::create(1);
     empty->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -237,32 +237,31 @@ TEST_CASE("what is no level set is rejected, with what is wrong") {
     CHECK(said_of_level_set(folder.write("u.vdb", {unknown})) == "it is not marked as a level set (its \"class\")");
     auto turned = ball(0.5, {0, 0, 0}, 0.05f, "a");
     turned->transform().preRotate(0.5);
-    CHECK(said_of_level_set(folder.write("t.vdb", {turned})).starts_with("its voxels do not lie along the axes"));
+    CHECK(said_of_level_set(folder.write("t.vdb", {turned})).starts_with("its voxels are not aligned with the axes"));
     auto negative = ball(0.5, {0, 0, 0}, 0.05f, "a");
     negative->tree().root().setBackground(-1, false);
     CHECK(said_of_level_set(folder.write("n.vdb", {negative})) ==
-          "its background is not positive, so that it has no outside");
+          "its background is not positive, so it has no outside");
     auto far = ball(0.5, {0, 0, 0}, 0.05f, "a");
     far->tree().setValue(openvdb::Coord(100000, 0, 0), 0.1f);
-    CHECK(said_of_level_set(folder.write("f.vdb", {far})).find("voxels along an axis; at most 8192 can be") !=
+    CHECK(said_of_level_set(folder.write("f.vdb", {far})).find("voxels along an axis; the limit is 8192") !=
           std::string::npos);
     auto nan = ball(0.5, {0, 0, 0}, 0.05f, "a");
     nan->tree().setValue(openvdb::Coord(3, 2, 1), std::numeric_limits<float>::quiet_NaN());
-    CHECK(said_of_level_set(folder.write("nan.vdb", {nan})).find("is too large, or no number") != std::string::npos);
+    CHECK(said_of_level_set(folder.write("nan.vdb", {nan})).find("is too large, or not a number") != std::string::npos);
     auto steep = ball(0.5, {0, 0, 0}, 0.05f, "a");
     steep->tree().setValue(openvdb::Coord(10, 0, 0), 1e6f);
-    CHECK(said_of_level_set(folder.write("steep.vdb", {steep})).find("those of a level set are distances") !=
-          std::string::npos);
+    CHECK(said_of_level_set(folder.write("steep.vdb", {steep})).find("so it is not a level set") != std::string::npos);
     auto many = openvdb::Int32Grid::create(0);
     for (int i = 0; i < 300; ++i) many->tree().setValue(openvdb::Coord(i, 0, 0), i);
     CHECK(said_of_labels(folder.write("m.vdb", {many})) == "it has more than 256 different numbers");
     auto wide = openvdb::Int64Grid::create(0);
     wide->tree().setValue(openvdb::Coord(0, 0, 0), std::int64_t{1} << 40);
-    CHECK(said_of_labels(folder.write("w.vdb", {wide})) == "it has a number that does not fit into 32 bits");
+    CHECK(said_of_labels(folder.write("w.vdb", {wide})) == "it has a number that does not fit in 32 bits");
     auto spread = openvdb::Int32Grid::create(0);
     spread->tree().setValue(openvdb::Coord(0, 0, 0), 1);
     spread->tree().setValue(openvdb::Coord(4000, 4000, 4000), 1);
-    CHECK(said_of_labels(folder.write("spread.vdb", {spread})).find("in all can be") != std::string::npos);
+    CHECK(said_of_labels(folder.write("spread.vdb", {spread})).find("in total") != std::string::npos);
 }
 
 TEST_CASE("a file that is cut off anywhere, or damaged anywhere, is rejected or read, in bounded memory") {
@@ -328,10 +327,9 @@ TEST_CASE("without OpenVDB its files are rejected in a sentence that says how th
         (void)phasetree::tracer::read_level_set("ball.vdb", "");
         CHECK(false);
     } catch (const std::runtime_error& e) {
-        CHECK(
-            std::string(e.what()) ==
-            "cannot use the volume \"ball.vdb\": this phasetree was built without OpenVDB: install libopenvdb-dev, or "
-            "the library from openvdb.org, and build again");
+        CHECK(std::string(e.what()) ==
+              "cannot use the volume \"ball.vdb\": this phasetree was built without OpenVDB; install libopenvdb-dev, "
+              "or the library from openvdb.org, and rebuild");
     }
 }
 

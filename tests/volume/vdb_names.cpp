@@ -55,7 +55,7 @@ TEST_CASE("a name with brackets of its own, and grids without a name") {
     const fs::path unnamed = folder.write("unnamed.vdb", {numbers("", 1), numbers("", 2)});
     CHECK(greatest_in(unnamed, "[1]") == 2);
     CHECK(said_of_numbers(unnamed) ==
-          "it has several grids of numbers; choose one by \"grid\": \"[0]\" (float), \"[1]\" (float)");
+          "it has several grids of numbers; choose one with \"grid\": \"[0]\" (float), \"[1]\" (float)");
     CHECK(greatest_in(folder.write("one.vdb", {numbers("", 1)}), "") == 1);
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("a long list of grids is cut") {
     openvdb::GridCPtrVec grids;
     for (int i = 0; i < 20; ++i) grids.push_back(numbers(std::to_string(100 + i) + std::string(100, 'x'), 1));
     const std::string said = said_of_numbers(folder.write("many.vdb", grids));
-    CHECK(said.starts_with("it has several grids of numbers; choose one by \"grid\": \"100xxx"));
+    CHECK(said.starts_with("it has several grids of numbers; choose one with \"grid\": \"100xxx"));
     CHECK(said.ends_with("x…\" (float) and 12 more"));
     CHECK(said.size() < 600);
 }

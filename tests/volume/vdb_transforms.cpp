@@ -213,14 +213,14 @@ TEST_CASE("which transforms are rejected") {
     set->setTransform(turned);
     labels->setTransform(turned);
     const std::string straight =
-        "its voxels do not lie along the axes; store the grid with axes that do, and apply the node \"rotate\" or "
-        "\"affine\" to it in the scene";
+        "its voxels are not aligned with the axes; align the grid, and rotate it in the scene with \"rotate\" or "
+        "\"affine\"";
     CHECK(said_of_level_set(folder.write("s.vdb", {set})) == straight);
     CHECK(said_of_labels(folder.write("l.vdb", {labels})) == straight);
     numbers->setTransform(
         openvdb::math::Transform::createFrustumTransform(openvdb::BBoxd({0, 0, 0}, {9, 9, 9}), 0.5, 2));
     CHECK(said_of_numbers(folder.write("f.vdb", {numbers})) ==
-          "its voxels differ in size, as in a camera's frustum; resample it to a grid whose voxels are all alike");
+          "its voxels differ in size, as in a camera frustum; resample it to a uniform grid");
     // OpenVDB itself refuses to make a transform that has no inverse, but not one that nearly has none.
     numbers->setTransform(transform_of(glm::dmat3{{1, 0, 0}, {1, 1e-7, 0}, {0, 0, 1}}, {}));
     CHECK(said_of_numbers(folder.write("z.vdb", {numbers})) == "its transform is singular: its voxels have no volume");

@@ -226,12 +226,12 @@ class Carver {
 void check(const CarveOptions& options) {
     for (const glm::dvec3& d : options.directions)
         if (!(glm::length(d) > 0) || !std::isfinite(glm::length(d)))
-            throw ModelError("a direction to carve along must have a length");
-    if (options.directions.size() > Polyhedron::most_planes - 6) throw ModelError("too many directions to carve along");
+            throw ModelError("a carving direction must not be zero");
+    if (options.directions.size() > Polyhedron::most_planes - 6) throw ModelError("too many carving directions");
     if (options.directions.empty() &&
         (options.most_planes < 6 || options.most_planes > static_cast<int>(Polyhedron::most_planes)))
-        throw ModelError("the planes to carve must be 6 to 256");
-    if (!(options.tolerance > 0)) throw ModelError("the tolerance of carving must be positive");
+        throw ModelError("the number of carving planes must be from 6 to 256");
+    if (!(options.tolerance > 0)) throw ModelError("the carving tolerance must be positive");
 }
 
 }  // namespace
@@ -262,7 +262,7 @@ void CarvedBounds::clip(const glm::dvec3& origin, const glm::dvec3& direction, d
 }
 
 Field as_field(const CarvedBounds& carved) {
-    if (carved.box.empty()) throw ModelError("there is nothing within the carved bounds");
+    if (carved.box.empty()) throw ModelError("the carved bounds are empty");
     Polyhedron node;
     for (const HalfSpace& h : carved.planes) {
         // Round outwards: rounding a normal moves the plane by no more than this within the box.

@@ -45,7 +45,7 @@ class CellsReader {
         std::vector<float> added;
         read(added, h.counts[constants]);
         if (sum_.get() != h.tables_checksum)
-            throw error(Reason::damaged, "it is damaged: its checksum is not that of its contents");
+            throw error(Reason::damaged, "it is damaged: its checksum does not match its contents");
         program.constants.insert(program.constants.end(), added.begin(), added.end());
         if (const std::string wrong = describe_damage(t, program); !wrong.empty())
             throw error(Reason::damaged, "it is damaged: " + wrong);
@@ -88,14 +88,14 @@ class CellsReader {
             decltype(Header::magic) start{};
             if (file_.size() >= start.size()) read_bytes(start.data(), start.size());
             if (start == Header::known_magic) throw error(Reason::damaged, "it is damaged: it ends too early");
-            throw error(Reason::foreign, "it is no file of cells");
+            throw error(Reason::foreign, "it is not a cell file");
         }
         read_bytes(&h, sizeof h);
-        if (h.magic != Header::known_magic) throw error(Reason::foreign, "it is no file of cells");
+        if (h.magic != Header::known_magic) throw error(Reason::foreign, "it is not a cell file");
         if (h.byte_order != Header::own_byte_order) {
             if (h.byte_order != Header::other_byte_order)
                 throw error(Reason::damaged, "it is damaged: its header is wrong");
-            throw error(Reason::differing, "it was written by a machine of the other byte order");
+            throw error(Reason::differing, "it was written by a machine with another byte order");
         }
         if (h.format != Header::known_format)
             throw error(Reason::differing, fmt::format("its format is version {}, and this library reads version {}",
@@ -109,24 +109,21 @@ class CellsReader {
     void require_same(const Header& h, const Header& wanted) const {
         const auto differs = [&](const std::string& what) { return error(Reason::differing, what); };
         if (h.library != wanted.library)
-            throw differs(
-                fmt::format("it was written by phasetree {}, and this is {}; write the cells again with this build",
-                            as_text(h.library), as_text(wanted.library)));
+            throw differs(fmt::format("it was written by build {}, but this is build {}; write the cells again",
+                                      as_text(h.library), as_text(wanted.library)));
         if (h.machine != wanted.machine)
-            throw differs(fmt::format("it was written for {}, and this is {}", as_text(h.machine), machine()));
+            throw differs(fmt::format("it was written for {}, but this is {}", as_text(h.machine), machine()));
         if (h.layout != wanted.layout) throw differs("it was written by a library with other nodes");
-        if (h.program != wanted.program) throw differs("its cells are those of another tree");
+        if (h.program != wanted.program) throw differs("its cells belong to another tree");
         if (h.resolution != wanted.resolution)
-            throw differs(
-                fmt::format("its cells have the resolution {}, and wanted is {}", h.resolution, wanted.resolution));
+            throw differs(fmt::format("its cells have resolution {}, not {}", h.resolution, wanted.resolution));
         if (h.quality != wanted.quality) throw differs("its cells were built with another quality");
         if (h.deepest != wanted.deepest)
-            throw differs(
-                fmt::format("its cells were built with {} divisions, and wanted are {}", h.deepest, wanted.deepest));
+            throw differs(fmt::format("its cells were built with {} divisions, not {}", h.deepest, wanted.deepest));
         if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
         // If the cells are not coarser, the limit had no effect, and any higher limit gives the same cells.
         if (h.is_coarser ? h.most_bytes != wanted.most_bytes : h.most_bytes > wanted.most_bytes)
-            throw differs("its cells were built with another limit of memory");
+            throw differs("its cells were built with another memory limit");
     }
 
     // Requires that the file has the size implied by its header, before memory is allocated.
@@ -137,7 +134,7 @@ class CellsReader {
                 throw error(Reason::damaged, "it is damaged: it ends too early");
             rest -= h.counts[i] * item_bytes[i];
         }
-        if (rest != 0) throw error(Reason::damaged, "it is damaged: something is behind its end");
+        if (rest != 0) throw error(Reason::damaged, "it is damaged: there are data after its end");
     }
 
     const fs::path& path_;

@@ -65,18 +65,18 @@ class Validation {
 
     std::string operator()() {
         for (const RoutineTables::Shape& s : routines_.shapes)
-            if (!is_valid(s)) return "a routine is impossible";
+            if (!is_valid(s)) return "a routine is invalid";
         if (tables_.first_certificate.size() != tables_.cells.size() + 1 || tables_.first_certificate.front() != 0 ||
             tables_.first_certificate.back() != tables_.certificates.size() ||
             !std::ranges::is_sorted(tables_.first_certificate))
             return "the certificate table does not match the cells";
         for (std::size_t i = 0; i < tables_.cells.size(); ++i) {
             const InterfaceCell& c = tables_.cells[i];
-            if (c.shape >= routines_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is impossible";
+            if (c.shape >= routines_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is invalid";
             if (!has_constants(c)) return "a routine's constants are missing";
             if (!is_certificate(tables_.first_certificate[i], tables_.first_certificate[i + 1],
                                 routines_.shapes[c.shape].slots))
-                return "a certificate is impossible";
+                return "a certificate is invalid";
         }
         return "";
     }

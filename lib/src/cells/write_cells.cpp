@@ -22,7 +22,7 @@ std::span<const std::byte> bytes_of(const std::vector<T>& items) {
 }  // namespace
 
 CellsFileError::CellsFileError(Reason reason, const fs::path& path, const std::string& what)
-    : std::runtime_error(fmt::format("cells' file \"{}\": {}", path.string(), what)), reason_(reason) {}
+    : std::runtime_error(fmt::format("cell file \"{}\": {}", path.string(), what)), reason_(reason) {}
 
 void write_cells(const fs::path& path, const InterfaceCells& cells) {
     const auto [tables, program, settings] = CellsFile::contents(cells);

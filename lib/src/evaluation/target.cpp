@@ -70,7 +70,7 @@ void use_simd_target(std::string_view name) {
             return;
         }
     }
-    throw std::invalid_argument(fmt::format("no SIMD target \"{}\" on this machine", name));
+    throw std::invalid_argument(fmt::format("this machine does not support the SIMD target \"{}\"", name));
 }
 
 }  // namespace phasetree

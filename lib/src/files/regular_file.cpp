@@ -13,7 +13,7 @@ RegularFile::RegularFile(const std::filesystem::path& path) {
     struct stat status {};
     // Check before opening, too: opening a device can have side effects, and opening a pipe may block forever.
     if (::stat(path.c_str(), &status) != 0) throw FileError(errno);
-    if (!S_ISREG(status.st_mode)) throw FileError(EINVAL, "it is no regular file");
+    if (!S_ISREG(status.st_mode)) throw FileError(EINVAL, "it is not a regular file");
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     if (descriptor_ < 0) throw FileError(errno);
     const int error = ::fstat(descriptor_, &status) != 0 ? errno : S_ISREG(status.st_mode) ? 0 : EINVAL;

@@ -217,7 +217,7 @@ PhasetreeCrossing phasetree_trace(vec3 origin, vec3 direction, float t_min, floa
         }
     }
     if (after < 0.0) return crossing;
-    // Either side's component tells the normal; one of them may have no sample, or no program in its box.
+    // Either side's component gives the normal; one of them may have no sample, or no program in its box.
     vec3 near = origin + before * direction, far = origin + after * direction;
     bool is_near = inside >= 0 && inside != behind && pt_has_gradients(near);
     vec3 normal = phasetree_normal(is_near ? near : far, is_near ? inside : behind);

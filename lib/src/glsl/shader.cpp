@@ -191,8 +191,9 @@ Evaluation by_table(Program program, const Bounds& bounds, float resolution, con
 
 GlslShader make_glsl(const Program& program, const Bounds& bounds, float resolution, const GlslOptions& options) {
     if (program.instructions.size() > longest_glsl_program)
-        throw ModelError(fmt::format("the object has {} instructions, and a shader takes {}: export a part of it",
-                                     program.instructions.size(), longest_glsl_program));
+        throw ModelError(
+            fmt::format("the object has {} instructions, but a shader can hold only {}; export a part of it",
+                        program.instructions.size(), longest_glsl_program));
     const bool is_table = options.grid > 0 || program.instructions.size() > options.most_calls;
     Evaluation evaluation = is_table ? by_table(program, bounds, resolution, options) : by_calls(program);
     const bool in_texture = evaluation.numbers.size() > options.most_numbers_in_text;

@@ -15,7 +15,7 @@ namespace phasetree::io {
 /// by index.
 class AbsentVertices {
   public:
-    static constexpr const char* used = "a face has a vertex of which a coordinate is no number, or is too large";
+    static constexpr const char* used = "a face has a vertex with a coordinate that is not a number, or too large";
 
     /// Appends a vertex, which may be invalid.
     void add(TriangleMesh& mesh, const glm::vec3& p) {

@@ -159,7 +159,7 @@ Checked read(const Document& document, Value value, const Range& range, std::vec
 template <class T>
 Checked read_keys(const Document& document, Value value, const Range& range, T& out) {
     Checked wrong;
-    out = of_keys<T>(document, Keys(document, value, "what changes with time"), [&](Value one) {
+    out = of_keys<T>(document, Keys(document, value, "the animated value"), [&](Value one) {
         T read_out{};
         if (!wrong) wrong = read(document, one, range, read_out);
         return read_out;
@@ -207,7 +207,7 @@ T as(const Document& document, Value value, std::string_view what, const Range& 
 glm::vec3 as_colour(const Document& document, Value value, std::string_view what, const Range& range) {
     constexpr std::string_view either = "a colour, [r, g, b] or \"#rrggbb\"";
     if (Keys::are_in(value))
-        return of_keys<glm::vec3>(document, Keys(document, value, "what changes with time"),
+        return of_keys<glm::vec3>(document, Keys(document, value, "the animated value"),
                                   [&](Value one) { return as_colour(document, one, what, range); });
     if (value.is_string()) {
         const auto colour = linear_of_hexadecimal(value.string());

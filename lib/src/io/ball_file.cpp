@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t radius = 3, phase = 4, required = 3;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
-constexpr std::string_view too_many = "there are more balls than 16 million";
+constexpr std::string_view too_many = "there are more than 16 million balls";
 
 // For each column of ball_columns, its index among the columns of the file.
 using ColumnIndices = std::array<std::optional<std::size_t>, ball_columns.size()>;
@@ -42,7 +42,7 @@ std::string missing_columns(const ColumnIndices& indices) {
 std::optional<BallBuilder::Mistake> BallBuilder::add(const std::array<double, ball_columns.size()>& columns) {
     constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < required; ++i)
-        if (!(std::abs(columns[i]) <= most)) return Mistake{i, "a coordinate is no number, or too large"};
+        if (!(std::abs(columns[i]) <= most)) return Mistake{i, "a coordinate is not a number, or too large"};
     if (has_radius_ && !(columns[radius] > 0 && columns[radius] <= most))
         return Mistake{radius, "a radius is not positive"};
     if (has_phase_ && !(columns[phase] >= 0 && columns[phase] < 256 && columns[phase] == std::floor(columns[phase])))
@@ -77,7 +77,7 @@ BallList read_ball_ply(const std::filesystem::path& path, std::string_view conte
         ply.finish();
         return std::move(builder.balls());
     }
-    throw SceneError(path.string(), "has no vertices, which would be the balls");
+    throw SceneError(path.string(), "has no element \"vertex\", which should contain the balls");
 }
 
 BallList read_ball_csv(const std::filesystem::path& path, std::string_view content) {
@@ -111,7 +111,7 @@ BallList read_balls(const std::filesystem::path& path) {
     std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
     if (ending == ".ply") return io::read_ball_ply(path, io::read_file(path, io::most_bytes));
     if (ending == ".csv") return io::read_ball_csv(path, io::read_file(path, io::most_bytes));
-    throw SceneError(path.string(), "has no balls: its name must end with .ply or .csv");
+    throw SceneError(path.string(), "is not a file of balls: its name must end in .ply or .csv");
 }
 
 }  // namespace phasetree

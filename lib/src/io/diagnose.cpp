@@ -56,7 +56,7 @@ class Diagnosis {
         const std::size_t end = last == std::string_view::npos ? 0 : last + 1;
         if (!failure_.opened) {
             const bool is_blank = end == 0 || text_.substr(0, end) == byte_order_mark;
-            return error(end, is_blank ? "the file is empty" : "the file holds comments and nothing else");
+            return error(end, is_blank ? "the file is empty" : "the file contains only comments");
         }
         const std::size_t opened = *failure_.opened;
         const std::size_t line = line_of(opened);
@@ -85,7 +85,7 @@ class Diagnosis {
         if (is_end(at)) return ends_early();
         if (begins_comment(text_, at)) return error(at, "unterminated comment: no */ follows");
         if (text_[at] == '#') return error(at, "a comment begins with // or /*, not with #");
-        if (text_[at] == '\'') return error(at, "text stands in \"double quotes\", not in 'single quotes'");
+        if (text_[at] == '\'') return error(at, "strings must be in \"double quotes\", not in 'single quotes'");
         const bool is_bracket = std::string_view("{}[]:").find(text_[at]) != std::string_view::npos;
         const std::string hint = failure_.expecting == Expecting::end_of_file ? hint_of_extra_bracket(at)
                                  : is_bracket                                 ? hint_of_missing_bracket(at)
@@ -100,7 +100,7 @@ class Diagnosis {
         if (is_end(at) || text_[at] != ',') return expected(at, fmt::format("',' or '{}'", bracket));
         const std::size_t after = skip_blank(text_, at + 1);
         if (!is_end(after) && text_[after] == bracket) {
-            return error(at, fmt::format("a comma must not stand before '{}'", bracket));
+            return error(at, fmt::format("remove the comma before '{}'", bracket));
         }
         return bracket == ']' ? value(after, "a value") : key(after);
     }
@@ -156,7 +156,7 @@ class Diagnosis {
         if (word[0] == '-') better.insert(0, 1, '-');
         const bool has_digit = std::any_of(word.begin(), word.end(), is_digit);
         const bool is_good = has_digit && word.size() < 40 && number_end(better, 0) == better.size();
-        return error(at, fmt::format("{} is not a number as JSON writes it", shown_token(text_, at)),
+        return error(at, fmt::format("{} is not a valid JSON number", shown_token(text_, at)),
                      is_good ? std::optional(better) : std::nullopt);
     }
 
@@ -169,12 +169,12 @@ class Diagnosis {
             is_closed = c.value == '"';
             if (is_closed) continue;
             if (c.value == '\n' || c.value == '\r') return unterminated();
-            if (c.value == '\t') return error(i, "a tab inside a string is written \\t");
+            if (c.value == '\t') return error(i, "write a tab inside a string as \\t");
             if (c.value < 0x20) {
-                return error(i, fmt::format("a control character inside a string is written \\u{:04x}",
+                return error(i, fmt::format("write a control character inside a string as \\u{:04x}",
                                             static_cast<unsigned>(c.value)));
             }
-            if (!c.is_valid) return error(i, "this byte is not UTF-8 text: save the file as UTF-8");
+            if (!c.is_valid) return error(i, "this byte is not valid UTF-8; save the file as UTF-8");
             if (c.value != '\\') {
                 i += c.bytes;
                 continue;
@@ -183,7 +183,7 @@ class Diagnosis {
             if (is_end(escaped) || text_[escaped] == '\n' || text_[escaped] == '\r') return unterminated();
             if (text_[escaped] != 'u') {
                 if (std::string_view("\"\\/bfnrt").find(text_[escaped]) == std::string_view::npos) {
-                    return error(i, fmt::format("'\\{}' is no escape sequence; a backslash is written \\\\",
+                    return error(i, fmt::format("'\\{}' is not an escape sequence; write a backslash as \\\\",
                                                 printable_at(text_, escaped, decode(text_, escaped))));
                 }
                 i += 2;
@@ -195,12 +195,12 @@ class Diagnosis {
                            ? unterminated()
                            : error(i, "\\u must be followed by four hexadecimal digits");
             }
-            if (*unit == 0) return error(i, "a string must not hold the zero character");
+            if (*unit == 0) return error(i, "a string must not contain the null character");
             const bool is_high = *unit >= 0xD800 && *unit <= 0xDBFF;
             const bool is_low = *unit >= 0xDC00 && *unit <= 0xDFFF;
             const auto second = is_high ? utf16_unit(i + 6) : std::nullopt;
             if (is_low || (is_high && !(second && *second >= 0xDC00 && *second <= 0xDFFF))) {
-                return error(i, "half of a surrogate pair: \\ud800 to \\udbff and \\udc00 to \\udfff go together");
+                return error(i, "unpaired surrogate: \\ud800 to \\udbff must be followed by \\udc00 to \\udfff");
             }
             i += is_high ? 12 : 6;
         }

@@ -181,7 +181,7 @@ std::filesystem::path Document::file(Value named) const {
     std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
     const bool is_stack = named.string().find('#') != std::string_view::npos;
     if (problem || !is_within(folder, real) || (is_stack && !are_layers_within(folder, real)))
-        throw error(named, fmt::format("\"{}\" leads out of {}, the folder that files must lie in", named.string(),
+        throw error(named, fmt::format("\"{}\" is outside {}, the folder that files must be in", named.string(),
                                        folder.string()));
     return real;
 }
@@ -197,8 +197,7 @@ Document Document::beside(Value named) const {
 Document Document::with_files_within(const std::filesystem::path& folder) const {
     std::error_code problem;
     std::filesystem::path real = std::filesystem::canonical(folder, problem);
-    if (problem || !std::filesystem::is_directory(real, problem))
-        throw SceneError(folder.string(), "is no folder that files could lie in");
+    if (problem || !std::filesystem::is_directory(real, problem)) throw SceneError(folder.string(), "is not a folder");
     Document confined = *this;
     confined.access_ = std::make_shared<const FileAccess>(FileAccess{std::move(real), reads_assets()});
     return confined;

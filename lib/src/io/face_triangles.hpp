@@ -23,8 +23,7 @@ inline constexpr std::size_t most_corners_to_clip = 1024;
 class FaceDivider {
   public:
     static constexpr const char* takes_too_long =
-        "its faces of many corners take too long to divide into triangles; divide them in the program that made the "
-        "file";
+        "its faces with many corners take too long to triangulate; triangulate them before exporting";
 
     explicit FaceDivider(std::size_t comparisons = 1'000'000'000) : comparisons_left_(comparisons) {}
 

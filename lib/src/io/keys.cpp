@@ -42,7 +42,7 @@ Keys::Keys(const Document& document, Value value, std::string_view what) : list_
     if (!list_.is_array() || list_.size() < 2)
         throw document.error(list_, "\"keys\" must be a list of two or more [seconds, value]");
     if (list_.size() > most)
-        throw document.error(list_, fmt::format("\"keys\" has {} keys; at most {} can be", list_.size(), most));
+        throw document.error(list_, fmt::format("\"keys\" has {} keys; the limit is {}", list_.size(), most));
     if (const auto word = value.find("between")) is_smooth_ = is_smooth(document, *word);
     double before = -std::numeric_limits<double>::infinity();
     for (const Value key : list_) {
@@ -52,7 +52,7 @@ Keys::Keys(const Document& document, Value value, std::string_view what) : list_
             throw document.error(
                 key[0],
                 fmt::format("a key must be later than the one before it, but {} s comes after {} s", now, before));
-        if (are_in(key[1])) throw document.error(key[1], "the value of a key cannot have keys itself");
+        if (are_in(key[1])) throw document.error(key[1], "the value of a key must not have keys");
         before = now;
     }
 }
@@ -79,15 +79,14 @@ std::string schema_of_keys() {
     using Json = nlohmann::ordered_json;
     const Json key{
         {"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{{"type", "number"}}, Json::object()}}};
-    return Json{{"type", "object"},
-                {"description",
-                 "Values at times in seconds, in the order of their times; between them it changes linearly, or "
-                 "smoothly."},
-                {"properties",
-                 {{"keys", {{"type", "array"}, {"minItems", 2}, {"maxItems", Keys::most}, {"items", key}}},
-                  {"between", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}}}},
-                {"required", {"keys"}},
-                {"additionalProperties", false}}
+    return Json{
+        {"type", "object"},
+        {"description", "Values at increasing times in seconds, with linear or smooth interpolation in between."},
+        {"properties",
+         {{"keys", {{"type", "array"}, {"minItems", 2}, {"maxItems", Keys::most}, {"items", key}}},
+          {"between", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}}}},
+        {"required", {"keys"}},
+        {"additionalProperties", false}}
         .dump();
 }
 

@@ -12,7 +12,7 @@ namespace phasetree {
 
 void io::check_triangles(const std::filesystem::path& path, const TriangleMesh& mesh, std::size_t most) {
     if (mesh.triangles.size() > most)
-        throw SceneError(path.string(), fmt::format("there are more triangles than {} million", most / 1'000'000));
+        throw SceneError(path.string(), fmt::format("there are more than {} million triangles", most / 1'000'000));
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
@@ -26,7 +26,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view cont
     else if (ending == ".stl")
         file = io::read_stl(path, content);
     else
-        throw SceneError(path.string(), "is no mesh: its name must end with .obj, .ply or .stl");
+        throw SceneError(path.string(), "is not a mesh: its name must end in .obj, .ply or .stl");
     io::check_triangles(path, file.mesh, most_triangles);
     return file;
 }

@@ -88,16 +88,17 @@ class NodeFiles {
         } else if constexpr (std::is_same_v<Content, BallList>) {
             return read_balls(path);
         } else if constexpr (std::is_same_v<Content, VoxelGrid>) {
-            if (!readers_.level_set) throw std::runtime_error("this program reads no OpenVDB files");
+            if (!readers_.level_set) throw std::runtime_error("this program cannot read OpenVDB files");
             return readers_.level_set(path, part);
         } else if constexpr (std::is_same_v<Content, LabelGrid>) {
-            if (!readers_.label_grid) throw std::runtime_error("this program reads neither OpenVDB files nor images");
+            if (!readers_.label_grid)
+                throw std::runtime_error("this program can read neither OpenVDB files nor images");
             return readers_.label_grid(path, part);
         } else if constexpr (std::is_same_v<Content, TextOutlines>) {
-            if (!readers_.text_outlines) throw std::runtime_error("this program reads no fonts");
+            if (!readers_.text_outlines) throw std::runtime_error("this program cannot read fonts");
             return readers_.text_outlines(path, part);
         } else {
-            if (!readers_.height_grid) throw std::runtime_error("this program reads no images");
+            if (!readers_.height_grid) throw std::runtime_error("this program cannot read images");
             return readers_.height_grid(path);
         }
     }

@@ -87,12 +87,12 @@ void NumberTable::read_header() {
         const auto column = std::ranges::find(columns_, lower_case(cells_[i].text), &Column::name);
         if (column == columns_.end()) continue;
         std::size_t& place = places_[static_cast<std::size_t>(column - columns_.begin())];
-        if (place != missing) throw error_at(cells_[i].at, fmt::format("there are two columns \"{}\"", column->name));
+        if (place != missing) throw error_at(cells_[i].at, fmt::format("the column \"{}\" occurs twice", column->name));
         place = i;
     }
     for (std::size_t i = 0; i < columns_.size(); ++i)
         if (columns_[i].is_required && places_[i] == missing)
-            throw error_at(cells_.front().at, fmt::format("the header has no column \"{}\"; it must name {}",
+            throw error_at(cells_.front().at, fmt::format("the header lacks the column \"{}\"; it must name {}",
                                                           columns_[i].name, required_names()));
 }
 
@@ -155,7 +155,7 @@ void NumberTable::split_without_header() {
         const char separator = line_[at] == ',' || line_[at] == ';' ? line_[at] : ' ';
         // "0,5 1,5" is not a row of four numbers.
         if (separator != first_separator.value_or(separator))
-            throw error_at(end, "numbers must have a decimal point, and one separator must stand between all of them");
+            throw error_at(end, "numbers must use a decimal point, and the same separator must be used throughout");
         first_separator = separator;
         // A comma is always followed by a cell, even if that is empty.
         if (separator != ' ') at = skip_blanks(at + 1);
@@ -200,7 +200,7 @@ Number NumberTable::number(std::size_t column) const {
     std::ranges::replace(with_point, ',', '.');
     const bool has_decimal_comma = with_point != found->text && io::number_of<Number>(with_point);
     throw error(column, fmt::format("{} must be a finite number, but is {}{}", name, io::in_quotes(found->text),
-                                    has_decimal_comma ? "; write a decimal point" : ""));
+                                    has_decimal_comma ? "; use a decimal point" : ""));
 }
 
 template float NumberTable::number(std::size_t) const;

@@ -177,7 +177,7 @@ class ObjReader {
                                is_beyond(normal, of_normals)))
                 return Corners::named_later;
             const auto index = index_of(vertex, file_.mesh.vertices.size(), before_[0]);
-            if (!index) fail("a face names a vertex that does not exist");
+            if (!index) fail("a face refers to a vertex that does not exist");
             vertices_.push_back(*index);
             places_.push_back(file_.mesh.vertices[*index]);
             if (const auto t = index_of(texture, of_texture, before_[1])) textures_.push_back(*t);

@@ -22,18 +22,30 @@ std::string ObjectReader::quoted(std::string_view key) {
 }
 
 bool ObjectReader::knows(std::string_view key) const {
-    return std::ranges::find(known_, key) != known_.end();
+    return std::ranges::any_of(known_,
+                               [&](const std::string& known) { return known == key || is_other_spelling(key, known); });
 }
 
 void ObjectReader::allow(std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys) {
-        if (!knows(key)) known_.emplace_back(key);
+        if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
     }
 }
 
 std::optional<Value> ObjectReader::value(std::string_view key) {
     allow({key});
-    return object_.find(key);
+    const std::optional<Value> found = object_.find(key), other = value_in_other_spelling(key);
+    if (found && other)
+        throw document_->error(other->key_offset(), fmt::format("{} has both {} and {}; remove one of them", what_,
+                                                                quoted(key), quoted(other->key())));
+    return found ? found : other;
+}
+
+std::optional<Value> ObjectReader::value_in_other_spelling(std::string_view key) const {
+    if (!has_other_spelling(key)) return std::nullopt;
+    for (const Value member : object_)
+        if (is_other_spelling(member.key(), key)) return member;
+    return std::nullopt;
 }
 
 Value ObjectReader::required_value(std::string_view key) {
@@ -66,7 +78,7 @@ void ObjectReader::finish() const {
         // If no key is similar, list the valid ones, unless there are many.
         constexpr std::size_t max_listed = 12;
         if (!meant && !known_.empty() && known_.size() <= max_listed) {
-            message += known_.size() == 1 ? "; it has only" : "; it may have";
+            message += known_.size() == 1 ? "; the only key is" : "; the keys are";
             for (std::size_t i = 0; i < known_.size(); ++i) message += (i == 0 ? " " : ", ") + quoted(known_[i]);
         }
         throw document_->error(member.key_offset(), std::move(message), meant);

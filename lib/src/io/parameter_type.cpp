@@ -110,7 +110,7 @@ ValueType colour_type(const Limits& l) {
 using Direction = ParameterType<glm::vec3, DirectionParameter>;
 glm::vec3 Direction::read(const Document& document, Value value, std::string_view what, const DirectionParameter& p) {
     const glm::vec3 direction = as<glm::vec3>(document, value, what, range_of(p.limits));
-    if (direction == glm::vec3(0)) throw document.error(value, fmt::format("{} has no direction", what));
+    if (direction == glm::vec3(0)) throw document.error(value, fmt::format("{} must not be zero", what));
     return direction;
 }
 ValueType Direction::describe(const DirectionParameter& p) {

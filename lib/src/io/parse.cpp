@@ -304,11 +304,11 @@ void parse(DocumentData& data) {
     const std::string_view text = data.text;
     if (text.size() > Document::max_bytes) throw SceneError(data.name, "the text is larger than 256 MiB");
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-        throw SceneError(data.name, "the file is UTF-16 text: save it as UTF-8");
+        throw SceneError(data.name, "the file is UTF-16; save it as UTF-8");
     }
     // The parser treats a zero byte as the end of the text.
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
-        throw SceneError(data.name, text, zero, "a zero byte: this is not UTF-8 text");
+        throw SceneError(data.name, text, zero, "a null byte: this is not UTF-8 text");
     }
     Builder(data).run();
 }

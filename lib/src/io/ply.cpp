@@ -97,7 +97,7 @@ void Ply::fail(const Element& element, std::string_view what) const {
 }
 
 void Ply::read_header() {
-    if (!words_.next_line() || words_.word() != "ply") fail("is no PLY file: it does not begin with \"ply\"");
+    if (!words_.next_line() || words_.word() != "ply") fail("is not a PLY file: it does not begin with \"ply\"");
     bool has_format = false;
     while (words_.next_line()) {
         const std::string_view kind = words_.word();
@@ -114,7 +114,7 @@ void Ply::read_header() {
             else if (name == "binary_big_endian")
                 format_ = Format::big_endian;
             else
-                fail("the header names a format that there is not");
+                fail("the header names an unknown format");
             has_format = true;
         } else if (kind == "element") {
             const std::string name(words_.word());
@@ -130,7 +130,7 @@ void Ply::read_header() {
 }
 
 void Ply::add_property() {
-    if (elements_.empty()) fail("a property stands before all elements");
+    if (elements_.empty()) fail("a property comes before the first element");
     std::string_view word = words_.word();
     Property property;
     if (word == "list") {
@@ -155,7 +155,7 @@ void Ply::check_claims() const {
         if (e.rows == 0) continue;
         // The last word need not be followed by a blank.
         if (least == 0 || e.rows > (left + 1) / least)
-            throw SceneError(path_.string(), "is shorter than its header says");
+            throw SceneError(path_.string(), "is shorter than its header declares");
         left -= std::min(left, e.rows * least);
     }
 }
@@ -165,7 +165,7 @@ double Ply::read(const Element& element, Type type) {
         const std::string_view word = words_.word_of_any_line();
         if (word.empty()) fail(element, "the file ends too early");
         const auto number = number_or_nan<double>(word);
-        if (!number) fail(element, "there is something other than a number");
+        if (!number) fail(element, "expected a number");
         return *number;
     }
     const std::size_t count = bytes_of(type);
@@ -178,8 +178,10 @@ double Ply::read(const Element& element, Type type) {
 
 double Ply::number(const Element& element, const Row& row, std::size_t property) const {
     const std::vector<double>& values = row[property];
-    if (values.size() != 1) fail(element, fmt::format("its {} is not one number", element.properties[property].name));
-    if (!std::isfinite(values[0])) fail(element, fmt::format("its {} is no number", element.properties[property].name));
+    if (values.size() != 1)
+        fail(element, fmt::format("its {} must be a single number", element.properties[property].name));
+    if (!std::isfinite(values[0]))
+        fail(element, fmt::format("its {} is not a number", element.properties[property].name));
     return values[0];
 }
 
@@ -190,7 +192,7 @@ void Ply::read_row(const Element& element, Row& row) {
         std::uint64_t count = 1;
         if (p.count) {
             const double length = read(element, *p.count);
-            if (!(length >= 0 && length <= longest_list)) fail(element, "a list has an impossible length");
+            if (!(length >= 0 && length <= longest_list)) fail(element, "a list has an invalid length");
             count = static_cast<std::uint64_t>(length);
         }
         for (; count > 0; --count) row[i].push_back(read(element, p.type));

@@ -96,7 +96,7 @@ class PlyReader {
         glm::vec3 p;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::vector<double>& value = row[columns[i]];
-            if (value.size() != 1) ply_.fail(element, "a coordinate is not one number");
+            if (value.size() != 1) ply_.fail(element, "a coordinate must be a single number");
             const bool is_float = std::abs(value[0]) <= std::numeric_limits<float>::max();
             p[static_cast<int>(i)] = is_float ? static_cast<float>(value[0]) : std::numeric_limits<float>::quiet_NaN();
         }
@@ -132,7 +132,7 @@ class PlyReader {
         const auto normal = find<3>(element, {{"nx", "ny", "nz"}});
         const auto color = find<3>(element, {{"red", "green", "blue"}});
         const auto texture = find<2>(element, {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}});
-        if (!place) throw SceneError(path_.string(), "its vertices have no x, y and z");
+        if (!place) throw SceneError(path_.string(), "its vertices lack x, y or z");
         glm::vec3 white(1);
         for (int i = 0; color && i < 3; ++i)
             white[i] = static_cast<float>(largest_of(element.properties[(*color)[static_cast<std::size_t>(i)]].type));
@@ -150,7 +150,7 @@ class PlyReader {
         const bool are_strips = element.name == "tristrips";
         if (!list)
             throw SceneError(path_.string(),
-                             fmt::format("its {} have no vertex_indices", are_strips ? "triangle strips" : "faces"));
+                             fmt::format("its {} lack vertex_indices", are_strips ? "triangle strips" : "faces"));
         if (are_strips)
             ply.for_each_row(element, [&](const Ply::Row& row) { read_strip(ply, element, row[*list]); });
         else
@@ -195,7 +195,7 @@ class PlyReader {
         if (corners.size() > most_corners_of_face) ply.fail(element, "a face has more than a million corners");
         places.clear();
         for (const double c : corners) {
-            const std::uint32_t vertex = vertex_of(ply, element, c, "a face names a vertex that does not exist");
+            const std::uint32_t vertex = vertex_of(ply, element, c, "a face refers to a vertex that does not exist");
             if (absent_.contain(vertex)) ply.fail(element, AbsentVertices::used);
             places.push_back(file_.mesh.vertices[vertex]);
         }
@@ -219,7 +219,7 @@ class PlyReader {
                 continue;
             }
             const std::uint32_t vertex =
-                vertex_of(ply, element, corner, "a triangle strip names a vertex that does not exist");
+                vertex_of(ply, element, corner, "a triangle strip refers to a vertex that does not exist");
             last = {last.y, last.z, vertex};
             if (++count < 3 || last.x == last.y || last.y == last.z || last.z == last.x) continue;
             for (int i = 0; i < 3; ++i)

@@ -68,7 +68,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
     if (::stat(name.c_str(), &status) != 0) throw fail(errno);
     const auto check = [&] {
         if (S_ISDIR(status.st_mode)) throw SceneError(name, "is a directory, not a file");
-        if (!S_ISREG(status.st_mode)) throw SceneError(name, "is no regular file but a pipe, a socket or a device");
+        if (!S_ISREG(status.st_mode)) throw SceneError(name, "is not a regular file but a pipe, a socket or a device");
         if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > most_bytes) throw too_large();
     };
     check();

@@ -6,23 +6,27 @@
 
 namespace phasetree {
 
+bool is_kind(Value member, std::string_view name) {
+    return member.key() == name || is_other_spelling(member.key(), name);
+}
+
 Value member_of_kind(const Document& document, Value value, std::string_view what,
                      std::span<const std::string_view> kinds) {
     std::string list;
     for (const std::string_view kind : kinds) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", kind);
     if (!value.is_object())
         throw document.error(
-            value, fmt::format("{} is an object {{\"kind\": {{…}}}}, where the kind is one of {}; this is {}", what,
+            value, fmt::format("{} must be an object {{\"kind\": {{…}}}}, where the kind is one of {}, but is {}", what,
                                list, name_of(value.kind())));
     if (value.size() != 1)
         throw document.error(
-            value, fmt::format("{} has one member, named after its kind, but this has {}; the kinds are {}", what,
+            value, fmt::format("{} must have one member, named after its kind, but has {}; the kinds are {}", what,
                                value.size(), list));
     const Value member = value[0];
     for (const std::string_view kind : kinds)
-        if (member.key() == kind) return member;
+        if (is_kind(member, kind)) return member;
     throw document.error(member.key_offset(),
-                         fmt::format("{} of the kind \"{}\" does not exist; there are {}", what, member.key(), list),
+                         fmt::format("{} cannot be of the kind \"{}\"; choose from {}", what, member.key(), list),
                          closest(member.key(), kinds));
 }
 

@@ -25,12 +25,12 @@ SirenNetwork network_of(const Document& document) {
         layer.outputs = static_cast<int>(layer.bias.size());
         const Value rows = reader.required_value("weights");
         if (!rows.is_array() || rows.size() != layer.bias.size())
-            throw document.error(rows, "\"weights\" must be a list of rows, one for each number in \"bias\"");
+            throw document.error(rows, "\"weights\" must be a list of rows, one per number in \"bias\"");
         for (const Value row : rows) {
             const auto numbers = as<std::vector<float>>(document, row, "a row of \"weights\"");
             if (layer.weights.empty()) layer.inputs = static_cast<int>(numbers.size());
             if (numbers.empty() || numbers.size() != static_cast<std::size_t>(layer.inputs))
-                throw document.error(row, "the rows of \"weights\" must be of one length");
+                throw document.error(row, "the rows of \"weights\" must have the same length");
             layer.weights.insert(layer.weights.end(), numbers.begin(), numbers.end());
         }
         network.layers.push_back(std::move(layer));
@@ -54,12 +54,11 @@ auto unquoted(const std::filesystem::path& path, std::string_view what, F&& read
 }  // namespace
 
 SirenNetwork read_siren(const std::filesystem::path& path) {
-    const Document document = unquoted(path, "is no JSON text", [&] { return Document::from_file(path); });
-    SirenNetwork network = unquoted(
-        path,
-        "is no network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": […]}, …]}, with a row of "
-        "weights for each number in bias",
-        [&] { return network_of(document); });
+    const Document document = unquoted(path, "is not JSON", [&] { return Document::from_file(path); });
+    SirenNetwork network = unquoted(path,
+                                    "is not a network {\"radius\": R, \"layers\": [{\"weights\": [[…], …], \"bias\": "
+                                    "[…]}, …]} with one row of weights per number in bias",
+                                    [&] { return network_of(document); });
     if (const char* mistake = network.mistake()) throw SceneError(path.string(), mistake);
     return network;
 }

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers of STL files are little-endian");
 
 constexpr std::size_t header_bytes = 80, head_bytes = header_bytes + 4, triangle_bytes = 50, normal_bytes = 12;
-constexpr const char* no_point = "a vertex has a coordinate that is no number, or is too large";
+constexpr const char* no_point = "a vertex has a coordinate that is not a number, or too large";
 
 bool is_word(std::string_view word, std::string_view lower_case) {
     return std::ranges::equal(word, lower_case, {}, [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
@@ -164,8 +164,8 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view content) {
     // A binary file may begin with "solid", and may be truncated.
     if (!is_text || (mesh.triangles.empty() && has_control_characters(content)))
         throw SceneError(path.string(),
-                         "is no STL file: it is neither as long as its number of triangles says nor a text "
-                         "that begins with \"solid\"");
+                         "is not an STL file: its length does not match its number of triangles, and it does not begin "
+                         "with \"solid\"");
     return {std::move(mesh), {}, {}, {}};
 }
 

@@ -5,12 +5,24 @@
 #include "phasetree/io/suggest.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/utf8.hpp"
 
 namespace phasetree {
 
 namespace {
+
+// British and American spellings.
+constexpr std::pair<std::string_view, std::string_view> spellings[] = {{"colour", "color"}, {"centre", "center"}};
+
+std::string american(std::string_view name) {
+    std::string result(name);
+    for (const auto& [from, to] : spellings)
+        for (std::size_t at = 0; (at = result.find(from, at)) != std::string::npos; at += to.size())
+            result.replace(at, from.size(), to);
+    return result;
+}
 
 constexpr std::size_t longest_word = 64;  // longer words are not misspelt by just a letter or two
 
@@ -67,6 +79,16 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
         }
     }
     return best;
+}
+
+bool has_other_spelling(std::string_view name) {
+    return std::ranges::any_of(spellings, [&](const auto& pair) {
+        return name.find(pair.first) != name.npos || name.find(pair.second) != name.npos;
+    });
+}
+
+bool is_other_spelling(std::string_view key, std::string_view name) {
+    return key != name && has_other_spelling(name) && american(key) == american(name);
 }
 
 }  // namespace phasetree

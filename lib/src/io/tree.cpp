@@ -51,7 +51,7 @@ class Reader {
         if (value.is_string()) return named<Handle>(value);
         if (!value.is_object() || value.size() != 1) {
             throw document_.error(value, value.is_object()
-                                             ? "a node is an object of one member, {\"name\": {…}}, but this has " +
+                                             ? "a node must be an object with one member, {\"name\": {…}}, but has " +
                                                    std::to_string(value.size())
                                              : fmt::format("expected {}: a node {{\"name\": {{…}}}} or the name of a "
                                                            "shape, but found {}",
@@ -112,11 +112,10 @@ class Reader {
         if (!shape) {
             using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
             if (known<Other>().contains(name)) throw other_kind<Handle>(reference);
-            throw document_.error(reference, fmt::format("there is no shape \"{}\"", name),
-                                  closest(name, shape_names()));
+            throw document_.error(reference, fmt::format("unknown shape \"{}\"", name), closest(name, shape_names()));
         }
         if (std::find(open_.begin(), open_.end(), name) != open_.end())
-            throw document_.error(reference, fmt::format("the shape \"{}\" is made of itself", name));
+            throw document_.error(reference, fmt::format("the shape \"{}\" contains itself", name));
         if (is_field(*shape) != std::is_same_v<Handle, Field>) throw other_kind<Handle>(reference);
         open_.emplace_back(name);
         Handle result = read<Handle>(*shape);
@@ -128,7 +127,7 @@ class Reader {
     template <class Handle>
     SceneError other_kind(Value reference) const {
         using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
-        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is needed here", reference.string(),
+        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is required here", reference.string(),
                                                       kind_name<Other>, kind_name<Handle>));
     }
 
@@ -228,8 +227,8 @@ class Reader {
             if (missing.empty()) missing = p.name;
         });
         if (single.empty())
-            throw document_.error(
-                list, fmt::format("the parameters of \"{}\" must be an object, but are a list", N::info.name));
+            throw document_.error(list,
+                                  fmt::format("the parameters of \"{}\" must be an object, not a list", N::info.name));
         if (!missing.empty())
             throw document_.error(
                 list, fmt::format("\"{0}\" needs \"{1}\" beside the list: {{\"{0}\": {{\"{2}\": […], \"{1}\": …}}}}",
@@ -287,7 +286,7 @@ class Reader {
             if (names_.names[i] == value.string()) return Phase{static_cast<std::uint8_t>(i)};
         if (value.string() == names_.names[0])
             throw document_.error(value, fmt::format("{} must be a phase other than the vacuum", what));
-        throw document_.error(value, fmt::format("there is no phase \"{}\"", value.string()),
+        throw document_.error(value, fmt::format("unknown phase \"{}\"", value.string()),
                               closest(value.string(), std::span(names_.names).subspan(1)));
     }
 
@@ -295,12 +294,12 @@ class Reader {
     SceneError unknown_node(Value member) {
         using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
         if (has_node<NodesOf<Other>>(member.key()))
-            return document_.error(member.key_offset(), fmt::format("\"{}\" makes {}, but {} is needed here",
+            return document_.error(member.key_offset(), fmt::format("\"{}\" makes {}, but {} is required here",
                                                                     member.key(), kind_name<Other>, kind_name<Handle>));
         return unknown_node(member, names_of(NodesOf<Handle>()));
     }
     SceneError unknown_node(Value member, const std::vector<std::string>& known) const {
-        return document_.error(member.key_offset(), fmt::format("there is no node \"{}\"", member.key()),
+        return document_.error(member.key_offset(), fmt::format("unknown node \"{}\"", member.key()),
                                closest(member.key(), known));
     }
     template <class... Lists>
@@ -337,13 +336,13 @@ PhaseNames read_phases(const Document& document, Value root) {
     PhaseNames names;
     for (const Value phase : *phases) {
         if (phase.key() == names.names[0])
-            throw document.error(phase.key_offset(), "\"vacuum\" is always there and cannot be a phase of one's own");
+            throw document.error(phase.key_offset(), "\"vacuum\" is reserved and cannot be declared");
         if (names.names.size() == Phase::capacity)
             throw document.error(phase.key_offset(), fmt::format("more than {} phases", Phase::capacity - 1));
         names.names.emplace_back(phase.key());
     }
     if (names.size() == 0)
-        throw document.error(*phases, "\"phases\" must not be empty; leave it out if the scene has no \"tree\"");
+        throw document.error(*phases, "\"phases\" must not be empty; remove it if the scene has no \"tree\"");
     return names;
 }
 
@@ -360,7 +359,7 @@ std::optional<Value> shapes_of(const Document& document) {
 SceneTree read_tree(const Document& document, const FileReaders& files, NodePlaces* places) {
     const Value root = document.root();
     if (!root.is_object())
-        throw document.error(root, fmt::format("a scene is an object, but this is {}", name_of(root.kind())));
+        throw document.error(root, fmt::format("a scene must be an object, but is {}", name_of(root.kind())));
     PhaseNames names = read_phases(document, root);
     const std::optional<Value> shapes = shapes_of(document);
     const std::optional<Value> tree = root.find("tree");

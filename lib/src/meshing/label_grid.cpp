@@ -27,9 +27,9 @@ constexpr double margin[] = {1.618, 1.571, 1.529};
 
 Grid Grid::around(const Bounds& bounds, float spacing) {
     if (!(spacing >= 0 && std::isfinite(spacing)))
-        throw ModelError(fmt::format("the spacing is {}; it must be a length, or 0", spacing));
-    if (bounds.empty()) throw ModelError("the object is empty: there is nothing to make a mesh of");
-    if (!bounds.finite()) throw ModelError("the object is unbounded: a mesh of it would have no end");
+        throw ModelError(fmt::format("the spacing must be a positive length, or 0, but is {}", spacing));
+    if (bounds.empty()) throw ModelError("the object is empty, so it has no mesh");
+    if (!bounds.finite()) throw ModelError("the object is unbounded, so it has no finite mesh");
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
     const double longest = std::max({size.x, size.y, size.z});
     Grid grid;
@@ -41,14 +41,13 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     const double finest = finest_in_digits * grid.digit;
     grid.spacing = spacing > 0 ? static_cast<double>(spacing) : std::max(longest / default_cubes_along, finest);
     if (!(longest / grid.spacing <= most_cubes_along))
-        throw ModelError(
-            fmt::format("a spacing of {} would take more than {} cubes along the object, which is {:.6g} "
-                        "long: the least is {:.4g}",
-                        spacing, most_cubes_along, longest, 1.0001 * longest / most_cubes_along));
+        throw ModelError(fmt::format(
+            "a spacing of {} needs more than {} cubes along the object, which is {:.6g} long; use at least {:.4g}",
+            spacing, most_cubes_along, longest, 1.0001 * longest / most_cubes_along));
     if (grid.spacing < finest)
         throw ModelError(
-            fmt::format("a spacing of {} is finer than 32-bit numbers are so far from the origin: the "
-                        "least is {:.4g}",
+            fmt::format("a spacing of {} is finer than 32-bit coordinates allow at this distance from the origin; use "
+                        "at least {:.4g}",
                         spacing, 1.0001 * finest));
     for (int i = 0; i < 3; ++i) {
         grid.low[i] = static_cast<double>(bounds.low[i]) - margin[i] * grid.spacing;

@@ -58,7 +58,7 @@ class ActiveCubes {
             vertices_ += static_cast<std::size_t>(cube.patches.count());
         }
         if (vertices_ > std::numeric_limits<std::uint32_t>::max())
-            throw ModelError("the mesh would have more than four billion vertices: a larger spacing has fewer");
+            throw ModelError("the mesh would have more than four billion vertices; use a larger spacing");
     }
 
     std::size_t vertices() const { return vertices_; }

@@ -24,8 +24,7 @@ void PreparationTogether::pay(std::string_view node, std::uint64_t steps) {
     if (held == nullptr) return;
     if (steps > most - held->paid_)
         throw ModelError(
-            fmt::format("{}: this and the nodes before it take more work to prepare than a scene may: "
-                        "{} million steps",
+            fmt::format("{}: preparing this node and those before it exceeds the limit of {} million steps per scene",
                         node, most / 1'000'000));
     held->paid_ += steps;
 }
@@ -33,8 +32,8 @@ void PreparationTogether::pay(std::string_view node, std::uint64_t steps) {
 void Preparation::pay(std::uint64_t steps) {
     if (steps > left())
         throw ModelError(
-            fmt::format("{}: it takes more work to prepare than a node may, {} million steps: give it "
-                        "something simpler, or ask for less of it",
+            fmt::format("{}: preparing this node exceeds the limit of {} million steps; simplify its child, or reduce "
+                        "its parameters",
                         node_, most / 1'000'000));
     paid_ += steps;
     PreparationTogether::pay(node_, steps);

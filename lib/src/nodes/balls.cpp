@@ -26,7 +26,7 @@ std::vector<std::uint8_t> phases_of_balls(const Particles& n, std::size_t balls)
     const std::size_t listed = n.of_phases.size();
     if (!n.file.content) {
         if (listed != 1 && listed != balls)
-            throw ModelError("particles: \"phases\" needs an entry for each centre, or one for all");
+            throw ModelError("particles: \"phases\" needs one entry per centre, or one for all");
         for (std::size_t i = 0; i < balls && listed > 1; ++i) result[i] = n.of_phases[i].index;
         if (listed == 1) std::ranges::fill(result, n.of_phases[0].index);
         return result;
@@ -35,14 +35,14 @@ std::vector<std::uint8_t> phases_of_balls(const Particles& n, std::size_t balls)
     if (numbers.empty()) {
         if (listed != 1)
             throw ModelError(
-                fmt::format("particles: {} has no column \"phase\", so \"phases\" must be one for all balls",
+                fmt::format("particles: {} has no column \"phase\", so \"phases\" must have a single entry",
                             n.file.path.empty() ? "the file" : n.file.path));
         std::ranges::fill(result, n.of_phases[0].index);
         return result;
     }
     for (std::size_t i = 0; i < balls; ++i) {
         if (numbers[i] >= listed)
-            throw ModelError(fmt::format("particles: {} has the phase {}, but \"phases\" has only {}, counted from 0",
+            throw ModelError(fmt::format("particles: {} has phase {}, counted from 0, but \"phases\" has only {}",
                                          name_of_ball(i, n.file.path), numbers[i], listed));
         result[i] = n.of_phases[numbers[i]].index;
     }
@@ -54,20 +54,19 @@ std::vector<std::uint8_t> phases_of_balls(const Particles& n, std::size_t balls)
 std::vector<glm::vec4> detail::given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
                                            const std::vector<float>& radii, const FromFile<BallList>& file) {
     if (centres.empty() == !file.content)
-        throw ModelError(fmt::format("{}: it needs either \"centres\" or a \"file\"", node));
+        throw ModelError(fmt::format("{}: either \"centres\" or \"file\" is required", node));
     const std::vector<glm::vec3>& points = file.content ? file.content->centres : centres;
     const bool has_own = file.content && !file.content->radii.empty();
     if (has_own && !radii.empty())
-        throw ModelError(fmt::format("{}: \"radii\" must be absent, because the file has radii of its own", node));
+        throw ModelError(fmt::format("{}: remove \"radii\", because the file has its own", node));
     const std::vector<float>& sizes = has_own ? file.content->radii : radii;
     if (points.empty()) throw ModelError(fmt::format("{}: there are no balls", node));
     if (points.size() > BallList::most_balls)
         throw ModelError(fmt::format("{}: there are more than {} balls", node, BallList::most_balls));
     if (sizes.size() != 1 && sizes.size() != points.size())
-        throw ModelError(sizes.empty()
-                             ? fmt::format("{}: \"radii\" is missing{}", node,
-                                           file.content ? ", and the file has none of its own" : "")
-                             : fmt::format("{}: \"radii\" needs an entry for each ball, or one for all", node));
+        throw ModelError(sizes.empty() ? fmt::format("{}: \"radii\" is missing{}", node,
+                                                     file.content ? ", and the file has none of its own" : "")
+                                       : fmt::format("{}: \"radii\" needs one entry per ball, or one for all", node));
     std::vector<glm::vec4> balls(points.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const float r = sizes[sizes.size() == 1 ? 0 : i];
@@ -92,7 +91,7 @@ const float* Balls::few_balls(const float* data) {
     const std::size_t count = balls::ShortList::count(data);
     if (count > most_of_shader)
         throw ModelError(
-            fmt::format("balls: a shader takes at most {} balls, but these are {}", most_of_shader, count));
+            fmt::format("balls: a shader can hold at most {} balls, but there are {}", most_of_shader, count));
     return data;
 }
 

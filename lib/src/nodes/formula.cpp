@@ -24,7 +24,7 @@ constexpr double steepest = 1e6;  // steeper formulas are rejected
 constexpr double everywhere = 1e6, nearby = 1e3;
 
 BoxOfDoubles box_of(const std::vector<glm::vec3>& corners) {
-    if (corners.size() != 2) throw ModelError("formula: \"bounds\" are two corners, [[x, y, z], [x, y, z]]");
+    if (corners.size() != 2) throw ModelError("formula: \"bounds\" must be two corners, [[x, y, z], [x, y, z]]");
     BoxOfDoubles box{};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<glm::length_t>(i);
@@ -57,8 +57,8 @@ void Formula::prepare() {
             const double near = slope_in(term, cube(nearby), most_boxes / 20, false, budget);
             if (far > 1.1 * near)
                 fail_in_formula(term.steps.back().offset,
-                                "the formula's slope has no bound far from the origin; say with "
-                                "\"bounds\" where it is meant: [[x, y, z], [x, y, z]]");
+                                "the slope of the formula is unbounded far from the origin; limit it with \"bounds\": "
+                                "[[x, y, z], [x, y, z]]");
             slope = std::max(slope, far);
         }
     } else {

@@ -24,21 +24,21 @@ constexpr double no_bound = 1e50;      // larger bounds count as none: Range::mo
         const std::string near = " near " + box.middle_text();
         switch (s.op) {
             case Op::square_root:
-                fail_in_formula(
-                    s.offset, "what this is the root of is zero or negative" + near + ", where the slope has no bound");
+                fail_in_formula(s.offset, "the argument of this root is zero or negative" + near +
+                                              ", where the slope is unbounded");
             case Op::divide:
-                fail_in_formula(s.offset, "this divides by zero" + near + ", where the slope has no bound");
+                fail_in_formula(s.offset, "this divides by zero" + near + ", where the slope is unbounded");
             default:
                 break;
         }
         if (!has_bounds) break;
         if (s.op == Op::sine || s.op == Op::cosine)
-            fail_in_formula(s.offset, "this is the sine or cosine of more than 10000" + near);
-        fail_in_formula(s.offset, "the slope of this has no bound" + near);
+            fail_in_formula(s.offset, "the argument of this sine or cosine exceeds 10000" + near);
+        fail_in_formula(s.offset, "the slope of this term is unbounded" + near);
     }
-    fail_in_formula(term.steps.back().offset,
-                    "the formula's slope has no bound far from the origin; say with \"bounds\" where it "
-                    "is meant: [[x, y, z], [x, y, z]]");
+    fail_in_formula(
+        term.steps.back().offset,
+        "the slope of the formula is unbounded far from the origin; limit it with \"bounds\": [[x, y, z], [x, y, z]]");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ int operands(Op op) {
 }
 
 FormulaIndex FormulaSteps::constant(double v) {
-    if (!(std::abs(v) < 1e30)) fail_in_formula(offset_, "a number is too large, or is none");
+    if (!(std::abs(v) < 1e30)) fail_in_formula(offset_, "a value is too large, or not a number");
     return emit({.op = Op::constant, .value = v});
 }
 
@@ -90,7 +90,7 @@ FormulaIndex FormulaSteps::divide(Index a, Index b) {
 FormulaIndex FormulaSteps::power(Index a, double n) {
     if (n == 0.5) return square_root(a);
     if (n != std::floor(n) || std::abs(n) > 64)
-        fail_in_formula(offset_, "an exponent is a whole number from -64 to 64, or 0.5");
+        fail_in_formula(offset_, "an exponent must be a whole number from -64 to 64, or 0.5");
     if (n < 0) return divide(constant(1), power(a, -n));
     if (n == 0) return constant(1);
     const Index half = power(a, std::floor(n / 2));
@@ -105,7 +105,7 @@ FormulaIndex FormulaSteps::power_of(Index a, Index exponent) {
 
 FormulaIndex FormulaSteps::square_root(Index a) {
     if (is_constant(a)) {
-        if (value(a) < 0) fail_in_formula(offset_, "this is the root of a negative number");
+        if (value(a) < 0) fail_in_formula(offset_, "the argument of this root is negative");
         return constant(std::sqrt(value(a)));
     }
     std::vector<Index> sides;

@@ -11,7 +11,7 @@ namespace {
 TermSteps term_of(const std::vector<FormulaStep>& all, Index root) {
     TermSteps term{{}, needed_steps(all, root)};
     if (term.steps.size() > most_operations)
-        fail_in_formula(all[root].offset, "here are more than 128 operations between minima and maxima");
+        fail_in_formula(all[root].offset, "there are more than 128 operations between minima and maxima");
     term.data = {static_cast<float>(term.steps.size()), 1};
     for (const FormulaStep& s : term.steps) {
         const auto value = static_cast<float>(s.value);

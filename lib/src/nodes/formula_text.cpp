@@ -49,7 +49,7 @@ class FormulaReader {
         }
         const Index result = sum();
         blanks();
-        if (at_ < text_.size()) fail_in_formula(at_, "an operator or the end is expected here" + found());
+        if (at_ < text_.size()) fail_in_formula(at_, "expected an operator or the end" + found());
         return steps_.needed_for(result);
     }
 
@@ -99,7 +99,7 @@ class FormulaReader {
             return false;
         }
         if (names_.contains(word) || is_function(word))
-            fail_in_formula(begin, "\"" + std::string(word) + "\" means something already");
+            fail_in_formula(begin, "\"" + std::string(word) + "\" is already defined");
         const Index value = sum();
         expect(';');
         names_.emplace(word, value);
@@ -194,12 +194,12 @@ class FormulaReader {
         }
         if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return steps_.constant(number());
         const std::string_view word = name();
-        if (word.empty()) fail_in_formula(at_, "a number, a name or \"(\" is expected here" + found());
+        if (word.empty()) fail_in_formula(at_, "expected a number, a name or \"(\"" + found());
         if (accept('(')) return call(word, offset);
         if (const auto known = names_.find(word); known != names_.end()) return known->second;
         fail_in_formula(offset, is_function(word)
-                                    ? "\"" + std::string(word) + "\" is a function: (…) is missing behind it"
-                                    : "there is no name \"" + std::string(word) + "\"; there are " + all_names());
+                                    ? "\"" + std::string(word) + "\" is a function and must be followed by (…)"
+                                    : "unknown name \"" + std::string(word) + "\"; choose from " + all_names());
     }
     std::string all_names() const {
         std::string all;
@@ -219,7 +219,7 @@ class FormulaReader {
         if (!function) {
             std::string all;
             for (const FormulaFunction& f : formula_functions()) all += (all.empty() ? "" : ", ") + std::string(f.name);
-            fail_in_formula(offset, "there is no function \"" + std::string(word) + "\"; there are " + all);
+            fail_in_formula(offset, "unknown function \"" + std::string(word) + "\"; choose from " + all);
         }
         std::vector<Index> arguments;
         do arguments.push_back(sum());

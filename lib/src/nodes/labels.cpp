@@ -48,8 +48,8 @@ void refuse_unknown_number(const LabelGrid& grid, const std::vector<int>& phases
                y = at / static_cast<std::size_t>(nx) % static_cast<std::size_t>(ny),
                z = at / static_cast<std::size_t>(nx) / static_cast<std::size_t>(ny);
     throw ModelError(
-        fmt::format("labels: the voxel ({}, {}, {}), counted from 0, has the number {}, which is that of no phase; "
-                    "\"values\" gives numbers to phases, \"empty\" to the vacuum",
+        fmt::format("labels: the voxel ({}, {}, {}), counted from 0, has the number {}, which belongs to no phase; add "
+                    "it to \"values\", or to \"empty\" for the vacuum",
                     x, y, z, grid.numbers[*unknown]));
 }
 
@@ -58,14 +58,12 @@ VoxelLattice placed(const LabelGrid& grid, const glm::vec3& spacing) {
     VoxelLattice lattice = grid.lattice;
     const bool is_given = spacing.x > 0 && spacing.y > 0 && spacing.z > 0;
     if (grid.has_spacing) {
-        if (spacing != glm::vec3(0))
-            throw ModelError("labels: the grid has a spacing of its own; leave out \"spacing\"");
+        if (spacing != glm::vec3(0)) throw ModelError("labels: the grid has its own spacing; remove \"spacing\"");
         return lattice;
     }
     if (!is_given)
         throw ModelError(
-            "labels: images do not say how large their voxels are: \"spacing\" must be [x, y, z], each "
-            "positive");
+            "labels: images do not store the size of their voxels; \"spacing\" must be [x, y, z], each positive");
     lattice.spacing = glm::dvec3(spacing);
     for (glm::length_t i = 0; i < 3; ++i)
         lattice.first[i] = -0.5 * (lattice.size[static_cast<std::size_t>(i)] - 1) * lattice.spacing[i];
@@ -77,17 +75,17 @@ VoxelLattice placed(const LabelGrid& grid, const glm::vec3& spacing) {
 void Labels::prepare() {
     const LabelGrid& content = *file.content;
     if (!values.empty() && values.size() != of_phases.size())
-        throw ModelError(fmt::format("labels: {} phases need as many \"values\", but there are {}", of_phases.size(),
-                                     values.size()));
+        throw ModelError(fmt::format("labels: \"values\" needs one entry for each of the {} phases, but has {}",
+                                     of_phases.size(), values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!is_whole(values[i]) ||
             std::count(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]))
-            throw ModelError("labels: \"values\" must be whole numbers, each of one phase");
+            throw ModelError("labels: \"values\" must be different whole numbers");
     if (!std::ranges::all_of(empty, is_whole)) throw ModelError("labels: \"empty\" must be whole numbers");
     if (voxels::count_of(content.lattice.size) > LabelGrid::most_voxels)
         throw ModelError(fmt::format("labels: the grid has more than {} voxels", LabelGrid::most_voxels));
     if (content.voxels.empty() || content.voxels.size() != voxels::count_of(content.lattice.size))
-        throw ModelError("labels: the grid has not all its voxels");
+        throw ModelError("labels: the grid lacks some of its voxels");
     const std::vector<int> phase_of = phases_of_numbers(*this);
     refuse_unknown_number(content, phase_of);
 

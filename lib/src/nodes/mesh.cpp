@@ -173,7 +173,7 @@ const float* Mesh::few_pieces(const float* data) {
     for_each_kind([&]<class Kind>() { count += mesh::PieceList::count(data, Kind::kind); });
     if (count > most_pieces_of_shader)
         throw ModelError(
-            fmt::format("mesh: a shader takes meshes of at most {} faces, edges and vertices, but this has {}",
+            fmt::format("mesh: a shader can hold meshes of at most {} faces, edges and vertices, but this one has {}",
                         most_pieces_of_shader, count));
     return data;
 }

@@ -155,7 +155,7 @@ void require_no_crossing(const Surface& s, const std::string& name) {
         work.pay(steps);
         if (!crossed) continue;
         const Bounds both = intersect(boxes[t], boxes[*crossed]);
-        throw ModelError(fmt::format("mesh: {} crosses or touches itself: its triangles {} and {}, near {}", name,
+        throw ModelError(fmt::format("mesh: {} crosses or touches itself: triangles {} and {}, near {}", name,
                                      s.numbers[t], s.numbers[*crossed], written(both.centre())));
     }
 }

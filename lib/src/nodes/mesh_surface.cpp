@@ -33,8 +33,8 @@ void check_numbers(const TriangleMesh& mesh, const Complaint& complain) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
-                complain(
-                    fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or no number", i + 1));
+                complain(fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or not a number",
+                                     i + 1));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int i = 0; i < 3; ++i)
             if (mesh.triangles[t][i] >= mesh.vertices.size())
@@ -95,7 +95,7 @@ void join(Surface& s, const Complaint& complain) {
             complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", edge_text(), next - i,
                                  s.numbers[u.triangle], s.numbers[uses[i + 2].triangle]));
         } else if (u.is_rising == uses[i + 1].is_rising) {
-            complain(fmt::format("has triangles that are turned opposite ways: {} and {} at {}", s.numbers[u.triangle],
+            complain(fmt::format("has triangles of opposite orientation: {} and {} at {}", s.numbers[u.triangle],
                                  s.numbers[uses[i + 1].triangle], edge_text()));
         } else {
             s.edges.push_back({{u.low, u.high}, {u.triangle, uses[i + 1].triangle}});
@@ -104,7 +104,7 @@ void join(Surface& s, const Complaint& complain) {
     if (open)
         complain(fmt::format("is not closed: the edge from {} to {} has a triangle ({}) on one side only{}",
                              written(s.at(open->low)), written(s.at(open->high)), s.numbers[open->triangle],
-                             open_edges > 1 ? fmt::format(", as have {} more", open_edges - 1) : ""));
+                             open_edges > 1 ? fmt::format(", and so do {} more edges", open_edges - 1) : ""));
 }
 
 // The index of the corner of a triangle at a vertex.
@@ -141,7 +141,7 @@ void add_normals(Surface& s, const Complaint& complain) {
         const double length = glm::length(n),
                      longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v)});
         if (!(length > 1e-12 * longest))
-            complain(fmt::format("has a triangle of no area: {}, with corners at {}, {} and {}", s.numbers[t],
+            complain(fmt::format("has a triangle without area: {}, with corners at {}, {} and {}", s.numbers[t],
                                  written(a), written(s.corner(t, 1)), written(s.corner(t, 2))));
         s.normals.push_back(n / length);
     }
@@ -177,11 +177,9 @@ Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
     add_normals(s, complain);
     for (const SharedEdge& e : s.edges)
         if (glm::length(s.normals[e.triangles[0]] + s.normals[e.triangles[1]]) < 1e-4)
-            complain(
-                fmt::format("is folded onto itself: its triangles {} and {} lie on each other at the edge from {} "
-                            "to {}",
-                            s.numbers[e.triangles[0]], s.numbers[e.triangles[1]], written(s.at(e.ends[0])),
-                            written(s.at(e.ends[1]))));
+            complain(fmt::format("is folded onto itself: triangles {} and {} coincide at the edge from {} to {}",
+                                 s.numbers[e.triangles[0]], s.numbers[e.triangles[1]], written(s.at(e.ends[0])),
+                                 written(s.at(e.ends[1]))));
     return s;
 }
 

@@ -50,12 +50,12 @@ const char* SirenNetwork::mistake() const {
     for (std::size_t n = 0; n < layers.size(); ++n) {
         const Layer& layer = layers[n];
         if (layer.inputs != width)
-            return n == 0 ? "the first layer must take three numbers, x, y and z"
-                          : "a layer takes another number of inputs than the one before gives";
+            return n == 0 ? "the first layer must have three inputs, x, y and z"
+                          : "the number of inputs of a layer differs from the number of outputs of the one before";
         if (layer.outputs < 1 || layer.outputs > widest) return "a layer must have between 1 and 128 outputs";
         const auto weights = static_cast<std::size_t>(layer.inputs) * static_cast<std::size_t>(layer.outputs);
         if (layer.weights.size() != weights || layer.bias.size() != static_cast<std::size_t>(layer.outputs))
-            return "a layer's weights and biases do not fit its inputs and outputs";
+            return "the weights and biases of a layer do not match its inputs and outputs";
         for (std::size_t o = 0; o < layer.bias.size(); ++o) {
             double sum = std::abs(static_cast<double>(layer.bias[o]));
             for (std::size_t i = 0; i < static_cast<std::size_t>(layer.inputs); ++i)
@@ -67,7 +67,7 @@ const char* SirenNetwork::mistake() const {
         width = layer.outputs;
         largest_input = 1;
     }
-    return width == 1 ? nullptr : "the last layer must give one number, the distance";
+    return width == 1 ? nullptr : "the last layer must have one output, the distance";
 }
 
 double SirenNetwork::spectral_bound() const {

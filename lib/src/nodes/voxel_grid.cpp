@@ -55,11 +55,14 @@ void check(std::string_view who, const VoxelLattice& lattice) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (lattice.size[i] < 1) throw ModelError(fmt::format("{}: the grid is empty", who));
         if (lattice.size[i] > VoxelGrid::most_along_axis)
-            throw ModelError(fmt::format("{}: the grid has {} voxels along an axis; at most {} can be", who,
+            throw ModelError(fmt::format("{}: the grid has {} voxels along an axis; the limit is {}", who,
                                          lattice.size[i], VoxelGrid::most_along_axis));
         const auto axis = static_cast<glm::length_t>(i);
         if (!(lattice.spacing[axis] >= 1e-9 && lattice.spacing[axis] <= 1e6) || !(std::abs(lattice.first[axis]) <= 1e9))
-            throw ModelError(fmt::format("{}: voxels must be 1e-9 to 1e6 m apart, at most 1e9 m from the origin", who));
+            throw ModelError(
+                fmt::format("{}: the spacing of voxels must be from 1e-9 to 1e6 m, and their distance from the origin "
+                            "at most 1e9 m",
+                            who));
     }
 }
 
@@ -93,8 +96,8 @@ ModelError bad_value(std::string_view who, const VoxelLattice& lattice, const st
     std::array<int, 3> voxel;
     // Values beyond the border are copies of the border's.
     for (std::size_t a = 0; a < 3; ++a) voxel[a] = std::clamp(at[a] - 1 + within[a], 0, lattice.size[a] - 1);
-    return ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or no number", who, voxel[0],
-                                  voxel[1], voxel[2]));
+    return ModelError(fmt::format("{}: the value at the voxel ({}, {}, {}) is too large, or not a number", who,
+                                  voxel[0], voxel[1], voxel[2]));
 }
 
 // A grid with its header and an empty directory.

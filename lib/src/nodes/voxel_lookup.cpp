@@ -108,8 +108,8 @@ const float* for_shader(std::string_view who, const float* data) {
     if (static_cast<std::size_t>(at.values - at.directory) > most)
         throw ModelError(fmt::format("{}: the grid has too many voxels for a shader", who));
     if (kept * VoxelGrid::kept_values > most)
-        throw ModelError(fmt::format("{}: a shader carries at most {} values of a grid, but this has {}", who, most,
-                                     kept * VoxelGrid::kept_values));
+        throw ModelError(fmt::format("{}: a shader can hold at most {} values of a grid, but this one has {}", who,
+                                     most, kept * VoxelGrid::kept_values));
     return data;
 }
 

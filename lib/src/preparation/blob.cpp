@@ -139,11 +139,11 @@ double blob_slope(const Blob& blob) {
 }  // namespace
 
 void Blob::prepare() {
-    if (count() == 0) throw ModelError("blob: it needs skeletons: \"points\", a \"polyline\" or fields in \"of\"");
-    if (polyline.size() == 1) throw ModelError("blob: a polyline has two points at least");
+    if (count() == 0) throw ModelError("blob: skeletons are required: \"points\", a \"polyline\" or fields in \"of\"");
+    if (polyline.size() == 1) throw ModelError("blob: a polyline needs at least two points");
     const auto fits = [&](const std::vector<float>& list) { return list.size() <= 1 || list.size() == count(); };
     if (!fits(radii) || !fits(weights))
-        throw ModelError("blob: \"radii\" and \"weights\" need an entry for each skeleton, or one for all");
+        throw ModelError("blob: \"radii\" and \"weights\" need one entry per skeleton, or one for all");
     for (const float r : radii) detail::require_usable(info.name, {r});
     for (const float w : weights) detail::require_usable(info.name, {w});
     for (const auto* list : {&points, &polyline})
@@ -152,7 +152,7 @@ void Blob::prepare() {
     double sum = 0;
     for (std::size_t i = 0; i < count(); ++i) sum += static_cast<double>(weight(i));
     level = static_cast<float>(static_cast<double>(threshold) / sum);
-    if (!(level < 1)) throw ModelError("blob: the threshold is more than all skeletons together give, so it is empty");
+    if (!(level < 1)) throw ModelError("blob: the threshold exceeds the sum of all skeletons, so the solid is empty");
     if (!(level > 1e-12f)) throw ModelError("blob: the threshold is too small");
     segments.clear();
     for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {

@@ -205,7 +205,7 @@ std::vector<SurfacePoint> scattered(const Field& surface, int count, float spaci
             taken.add(p);
             found.push_back({p, search.normal_at(p)});
         }
-    if (found.empty()) throw ModelError("scatter: no place was found on the surface");
+    if (found.empty()) throw ModelError("scatter: no position was found on the surface");
     return found;
 }
 

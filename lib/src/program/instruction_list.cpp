@@ -44,12 +44,12 @@ std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std
             continue;
         }
         if (next >= limit_)
-            throw ModelError(
-                fmt::format("the object takes more than {} instructions: shared shapes multiply it", limit_));
+            throw ModelError(fmt::format(
+                "the object needs more than {} instructions, because every use of a shape repeats it", limit_));
         if (program_.constants.size() + constants.size() > most_constants)
             throw ModelError(
-                fmt::format("the object's instructions carry more than {} numbers: shared shapes multiply those of an "
-                            "image, a network or an outline",
+                fmt::format("the object's instructions hold more than {} numbers, because every use of a shape repeats "
+                            "its image, network or outline",
                             most_constants));
         program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
         program_.constants.insert(program_.constants.end(), constants.begin(), constants.end());
@@ -61,9 +61,9 @@ std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std
 void InstructionList::work(std::size_t steps) {
     work_ += steps;
     if (work_ > most_work_for_one * limit_)
-        throw ModelError(
-            fmt::format("to find the object's instructions takes more than {} steps: shared shapes multiply them",
-                        most_work_for_one * limit_));
+        throw ModelError(fmt::format(
+            "finding the object's instructions takes more than {} steps, because every use of a shape repeats it",
+            most_work_for_one * limit_));
 }
 
 void InstructionList::limit_lipschitz(std::uint32_t value, float bound) {

@@ -27,20 +27,20 @@ constexpr float poor = 1e-3f;
 
 TraceableObject prepare_to_trace(const Phased& object, float wanted) {
     const Bounds b = phasetree::bounds(object);
-    if (b.empty()) throw ModelError("the object is empty: nothing of it is left");
+    if (b.empty()) throw ModelError("the object is empty");
     if (!b.finite())
         throw ModelError(
-            "the object is unbounded: cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+            "the object is unbounded; cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
     const float farthest = std::max({std::abs(b.low.x), std::abs(b.low.y), std::abs(b.low.z), std::abs(b.high.x),
                                      std::abs(b.high.y), std::abs(b.high.z)});
     const float size = b.diagonal();
     if (!(farthest < 1e15f) || !(size > 1e-15f))
-        throw ModelError("the object's size or place is beyond what 32-bit floats can trace (10⁻¹⁵ to 10¹⁵)");
+        throw ModelError("the object's size or position is beyond what 32-bit floats can trace (10⁻¹⁵ to 10¹⁵)");
     const float least = finest * std::max(farthest, size), most = std::max(coarsest * size, least);
     if (least > size / 8)
         throw ModelError(
-            fmt::format("the object is {:.3g} large and lies up to {:.3g} from the origin, where 32-bit "
-                        "coordinates are up to {:.2g} apart: move it to the origin",
+            fmt::format("the object has size {:.3g} and extends up to {:.3g} from the origin, where 32-bit coordinates "
+                        "are up to {:.2g} apart; move it to the origin",
                         size, farthest, 0.5f * least));
     const float chosen = wanted > 0 ? wanted : std::max(of_diagonal * size, of_farthest * farthest);
     TraceableObject result;
@@ -48,15 +48,14 @@ TraceableObject prepare_to_trace(const Phased& object, float wanted) {
     result.bounds = b.inflated(8 * result.resolution);
     if (wanted > 0 && result.resolution != wanted)
         result.warning = fmt::format(
-            "the resolution {:.3g} is {} an object that is {:.3g} large and lies up to {:.3g} "
-            "from the origin: it is traced at {:.3g}",
+            "the resolution {:.3g} is {} an object of size {:.3g} that extends up to {:.3g} from the origin; {:.3g} is "
+            "used instead",
             wanted, wanted < least ? "finer than 32-bit coordinates allow for" : "too coarse for", size, farthest,
             result.resolution);
     else if (wanted > 0 ? least > poor * size : chosen > poor * size)
         result.warning = fmt::format(
-            "the object is {:.3g} large and lies up to {:.3g} from the origin, where 32-bit "
-            "coordinates leave few digits: what is thinner than {:.2g} may be missed; "
-            "move it nearer to the origin",
+            "the object has size {:.3g} and extends up to {:.3g} from the origin, where 32-bit coordinates are coarse; "
+            "details smaller than {:.2g} may be missed; move it closer to the origin",
             size, farthest, result.resolution);
     return result;
 }

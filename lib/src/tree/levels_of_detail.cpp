@@ -115,7 +115,7 @@ class Choice {
 
 Phased with_levels_of_detail(const Phased& object, const DetailView& view) {
     if (!(view.angle > 0) || !std::isfinite(view.angle))
-        throw ModelError("levels of detail need an angle of view that is positive");
+        throw ModelError("the viewing angle of levels of detail must be positive");
     return Choice(view.angle).chosen(object, view.position);
 }
 

@@ -69,7 +69,7 @@ class SourceWalk {
     struct Below {
         Below(SourceWalk& w, NodeOnPath node) : walk(w), above(w.here_) {
             if (w.steps_.size() == most_steps)
-                throw ModelError("shared shapes stand for too many nodes to be walked through");
+                throw ModelError("the tree expands to too many nodes, because every use of a shape repeats it");
             w.steps_.push_back({node, above});
             w.here_ = static_cast<std::int32_t>(w.steps_.size()) - 1;
         }

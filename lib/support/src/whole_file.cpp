@@ -33,9 +33,9 @@ fs::path followed(const fs::path& path) {
     fs::path target = path;
     std::error_code error;
     for (int i = 0; fs::is_symlink(fs::symlink_status(target, error)); ++i) {
-        if (i == most_links) throw FileError(ELOOP, "the symbolic link leads nowhere: in a circle");
+        if (i == most_links) throw FileError(ELOOP, "the symbolic link points to itself");
         const fs::path next = fs::read_symlink(target, error);
-        if (error) throw FileError(error.value(), fmt::format("the symbolic link leads nowhere: {}", error.message()));
+        if (error) throw FileError(error.value(), fmt::format("the symbolic link is broken: {}", error.message()));
         target = target.parent_path() / next;
     }
     return target;
@@ -48,7 +48,7 @@ fs::path resolved(const fs::path& path) {
     const fs::path folder = folder_of(target);
     const fs::file_status folder_status = fs::status(folder, error);
     if (folder_status.type() == fs::file_type::not_found)
-        throw FileError(ENOENT, fmt::format("there is no directory \"{}\"", folder.string()));
+        throw FileError(ENOENT, fmt::format("no such directory: \"{}\"", folder.string()));
     if (folder_status.type() == fs::file_type::none) throw FileError(error.value(), error.message());
     if (folder_status.type() != fs::file_type::directory)
         throw FileError(ENOTDIR, fmt::format("\"{}\" is not a directory", folder.string()));
@@ -127,7 +127,7 @@ void WholeFile::open() {
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) return;
     const int code = errno;
-    throw FileError(code, fmt::format("no file can be created in the directory \"{}\": {}", folder_of(target_).string(),
+    throw FileError(code, fmt::format("cannot create a file in the directory \"{}\": {}", folder_of(target_).string(),
                                       std::generic_category().message(code)));
 }
 

@@ -13,7 +13,7 @@ _CHECKED_AS = {
     "Materials": ("material", lambda text: text),
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
     "Numbers": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
-    "Maps of normals": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
+    "Normal maps": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
     "Voxels": ("material", lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
@@ -41,7 +41,7 @@ class Part(Value):
 
     def written(self):
         """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
-        return self.parameters() if self.chapter in ("Maps of normals", "Voxels") else json.loads(self._text)
+        return self.parameters() if self.chapter in ("Normal maps", "Voxels") else json.loads(self._text)
 
     def parameters(self):
         """What was said of it."""
@@ -99,7 +99,7 @@ meshes = _module("meshes", "Meshes: what stands beside the object.", _chapters["
 cameras = _module("cameras", "Cameras.", _chapters["Cameras"])
 image = _function(_chapters["Image"][0])
 image.__name__ = image.__qualname__ = "image"
-normal_map = _function(_chapters["Maps of normals"][0])
+normal_map = _function(_chapters["Normal maps"][0])
 voxels = _function(_chapters["Voxels"][0])
 
 

@@ -21,6 +21,11 @@ def python_name(name):
     return name + "_" if keyword.iskeyword(name) else name
 
 
+def _american(name):
+    """A name in American spelling."""
+    return name.replace("colour", "color").replace("centre", "center")
+
+
 class Parameter:
     """A parameter of a kind: its description from the list, and how it is passed."""
 
@@ -94,6 +99,17 @@ class Kind:
         first = self.parameters[: self.parameters.index(self.many)] if self.many else self.parameters
         return zip(first, arguments)
 
+    def _in_known_spelling(self, named, known):
+        """The same arguments, with British spellings of American names, such as colour, and vice versa, replaced."""
+        names = {_american(name): name for name in known}
+        result = {}
+        for name, value in named.items():
+            name = name if name in known else names.get(_american(name), name)
+            if name in result:
+                raise TypeError(f'{self.name}: "{name}" is given twice, in two spellings')
+            result[name] = value
+        return result
+
     def bound(self, signature, arguments, named):
         """What was passed, by the names of the list."""
         if self.many and self.many.python_name in named:
@@ -103,6 +119,7 @@ class Kind:
             # Who writes translate(1, 2, 3) is not to hear of the parameters that 2 and 3 would be.
             if p and p.type.startswith("[") and isinstance(value, numbers.Real):
                 raise Error(f'{self.name}: "{p.name}" must be {p.type} as one list or tuple, but is {value!r}')
+        named = self._in_known_spelling(named, known)
         for name in named:
             if name not in known:
                 close = difflib.get_close_matches(name, known, 1)

@@ -80,7 +80,7 @@ class Image:
 
     def __repr__(self):
         height, width, _ = self.pixels.shape
-        return f"<Image {width}x{height}, {self.samples} samples a pixel>"
+        return f"<Image {width}x{height}, {self.samples} samples per pixel>"
 
 
 class Scene(Value):
@@ -225,13 +225,13 @@ class Scene(Value):
             if p.material is None:
                 raise Error(f'the phase "{p.name}" has no material: pt.phase("{p.name}", pt.clear(ior=1.5))')
         settings = _parts.image(**{**(self.image.parameters() if self.image else {}), **image}).parameters()
-        wishes = _wishes(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
-        wishes.crop, wishes.threads, wishes.most_bytes = crop, threads, most_bytes
-        wishes.samples = None if image.get("samples") is None else int(image["samples"])
-        wishes.seconds_at = at
+        request = _render_request(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
+        request.crop, request.threads, request.most_bytes = crop, threads, most_bytes
+        request.samples = None if image.get("samples") is None else int(image["samples"])
+        request.seconds_at = at
         tell = _line if progress is True else progress or None
         try:
-            made = _phasetree.render(self.to_json(**image), self.name, wishes, tell)
+            made = _phasetree.render(self.to_json(**image), self.name, request, tell)
         finally:
             if progress is True:
                 print(file=sys.stderr)
@@ -262,7 +262,7 @@ class Scene(Value):
         return f"<Scene of {shown}, {len(self.lights)} lights, {len(self.meshes)} meshes>"
 
 
-def _wishes(quality, denoise, time_limit, planes):
+def _render_request(quality, denoise, time_limit, planes):
     """What render() is asked for, as the extension module has it."""
     if quality not in ("low", "medium"):
         raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
@@ -270,12 +270,12 @@ def _wishes(quality, denoise, time_limit, planes):
         raise Error(f'denoise must be True, "regression" or "oidn", but is {denoise!r}')
     if time_limit is not None and not 0 < time_limit <= 366 * 24 * 3600:
         raise Error(f"time_limit must be seconds, more than 0 and no more than a year, but is {time_limit!r}")
-    wishes = _phasetree.Wishes()
-    wishes.is_quick = quality == "low"
-    wishes.denoise = "best" if denoise is True else denoise or None
-    wishes.time_seconds = time_limit or 0
-    wishes.planes = list(planes or ())
-    return wishes
+    request = _phasetree.RenderRequest()
+    request.is_quick = quality == "low"
+    request.denoise = "best" if denoise is True else denoise or None
+    request.time_seconds = time_limit or 0
+    request.planes = list(planes or ())
+    return request
 
 
 def _line(stage, share):
@@ -283,7 +283,7 @@ def _line(stage, share):
 
 
 def _with_nodes(parts, phases):
-    """The same with the nodes of handles in their place."""
+    """The same with handles replaced by their nodes."""
     if isinstance(parts, _phasetree.FieldHandle):
         return node_of(parts, phases or ["phase"])
     if isinstance(parts, dict):

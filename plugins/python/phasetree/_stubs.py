@@ -37,7 +37,7 @@ _CLASSES = {
     "Materials": "Material",
     "Textures": "Texture",
     "Numbers": "Number",
-    "Maps of normals": "NormalMap",
+    "Normal maps": "NormalMap",
     "Voxels": "Voxels",
     "Lights": "Light",
     "Meshes": "Mesh",
@@ -184,7 +184,7 @@ def text():
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():
-        if title in ("Image", "Maps of normals", "Voxels"):
+        if title in ("Image", "Normal maps", "Voxels"):
             out += _function(kinds[0].name if title != "Image" else "image", kinds[0], _CLASSES[title]) + "\n"
             continue
         out += f"class {title.lower()}:\n"

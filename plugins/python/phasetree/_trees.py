@@ -100,7 +100,7 @@ class PhaseMesh(NamedTuple):
 
 
 def node_of(handle, phases):
-    """A field's node as JSON has it, with all that it is made of in its place."""
+    """A field's node as JSON, with its shapes expanded."""
     scene = _phasetree.value_of(handle.text(phases))
     shapes = scene.get("shapes", {})
 

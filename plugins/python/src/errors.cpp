@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "command/errors.hpp"
 #include "embree_core/error.hpp"
 #include "module.hpp"
 #include "output/error.hpp"
@@ -36,10 +37,10 @@ void raise_scene_error(const SceneError& e) {
 
 void add_errors(py::module_& module) {
     py::exception<ModelError> base(module, "Error", PyExc_ValueError);
-    base.attr("__doc__") = "What is wrong with a tree, a scene or a call, in the words of the C++ library.";
+    base.attr("__doc__") = "An invalid tree, scene or call, with the message of the C++ library.";
     py::exception<SceneError> of_scenes(module, "SceneError", base.ptr());
     of_scenes.attr("__doc__") =
-        "What is wrong with a text: file, line and column (from 1; 0 without a place), message and suggestion.";
+        "An invalid scene text: file, line and column (counted from 1; 0 if unknown), message and suggestion.";
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
@@ -53,6 +54,8 @@ void add_errors(py::module_& module) {
             PyErr_SetString(PyExc_RuntimeError, e.what());
         } catch (const tracer::view::MissingLibraryError& e) {
             PyErr_SetString(PyExc_ImportError, e.what());
+        } catch (const tracer::UsageError& e) {
+            PyErr_SetString(class_of("Error"), e.what());
         } catch (const tracer::OutputError& e) {
             PyErr_SetString(PyExc_OSError, e.what());
         } catch (const tracer::DisplayError& e) {

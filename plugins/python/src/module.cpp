@@ -4,7 +4,7 @@
 
 PYBIND11_MODULE(_phasetree, module) {
     using namespace phasetree::python;
-    module.doc() = "What the package phasetree is made of: the C++ library as it is.";
+    module.doc() = "Bindings of the C++ library, used by the package phasetree.";
     add_errors(module);
     add_reference(module);
     add_nodes(module);

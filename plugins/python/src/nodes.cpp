@@ -79,7 +79,7 @@ Field field_of_text(const std::string& text) {
     std::optional<Value> value = document.root();
     for (const char* const key : {"tree", "set", "of"})
         if (value) value = value->find(key);
-    if (!value) throw ModelError("the text is not that of a field");
+    if (!value) throw ModelError("the text does not describe a field");
     return read_field(document, *value, tracer::file_readers());
 }
 
@@ -98,7 +98,7 @@ template <class Handle>
 Handle with_numbers(const Handle& handle, const std::vector<int>& numbers) {
     std::vector<Phase> phases;
     for (const int i : numbers) {
-        if (i < 0 || i >= Phase::capacity) throw ModelError(fmt::format("{} is no number of a phase", i));
+        if (i < 0 || i >= Phase::capacity) throw ModelError(fmt::format("{} is not a phase number", i));
         phases.push_back(Phase{static_cast<std::uint8_t>(i)});
     }
     return renumbered(handle, phases);

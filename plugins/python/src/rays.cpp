@@ -19,7 +19,7 @@ constexpr std::size_t queries_a_block = 16;
 std::size_t count_of_rays(const Points& origins, const Points& directions) {
     const std::size_t n = count_of(origins, "origins");
     if (count_of(directions, "directions") != n)
-        throw std::invalid_argument("there must be as many directions as origins");
+        throw std::invalid_argument("directions and origins must have the same number of rows");
     return n;
 }
 

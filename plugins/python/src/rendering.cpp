@@ -10,7 +10,7 @@
 #include "arrays.hpp"
 #include "command/load.hpp"
 #include "command/render_options.hpp"
-#include "denoise/as_asked.hpp"
+#include "denoise/apply.hpp"
 #include "film/chosen_planes.hpp"
 #include "module.hpp"
 #include "output/encode.hpp"
@@ -28,7 +28,7 @@ using namespace phasetree::tracer;
 
 using Clock = std::chrono::steady_clock;
 
-struct Wishes {
+struct RenderRequest {
     std::optional<std::array<int, 4>> crop;
     int threads = 0;
     bool is_quick = false;
@@ -45,13 +45,14 @@ struct Rendered {
     std::optional<std::string> is_noisy_because;
 };
 
-PixelRange pixels_of(const Scene& scene, const Wishes& wishes) {
+PixelRange pixels_of(const Scene& scene, const RenderRequest& request) {
     const PixelRange whole = scene.film.whole();
-    if (!wishes.crop) return whole;
-    const auto [x0, y0, x1, y1] = *wishes.crop;
+    if (!request.crop) return whole;
+    const auto [x0, y0, x1, y1] = *request.crop;
     if (x0 < 0 || y0 < 0 || x1 > whole.x1 || y1 > whole.y1 || x0 >= x1 || y0 >= y1)
-        throw ModelError(fmt::format("the crop {}, {}, {}, {} is not a part of the {}x{} image", x0, y0, x1, y1,
-                                     whole.x1, whole.y1));
+        throw ModelError(
+            fmt::format("crop {}, {}, {}, {}: the region must not be empty and must lie within the {}x{} picture", x0,
+                        y0, x1, y1, whole.x1, whole.y1));
     return {x0, y0, x1, y1};
 }
 
@@ -84,16 +85,16 @@ py::object crop_of(const Image& image) {
     return py::make_tuple(c.x0, c.y0, c.display_width, c.display_height);
 }
 
-// Applies the wishes as the command applies its options, and checks that they are possible.
-void apply(const Wishes& wishes, Scene& scene) {
+// Applies the request as the command applies its options. Throws ModelError if it is impossible.
+void apply(const RenderRequest& request, Scene& scene) {
     RenderOptions options;
-    options.time_seconds = wishes.time_seconds;
-    options.samples_in_all = wishes.samples;
+    options.time_seconds = request.time_seconds;
+    options.samples_in_all = request.samples;
     apply(options, scene);
     try {
-        scene.film.planes = chosen_planes(wishes.planes);
-        if (!wishes.denoise) return;
-        (void)denoiser_named(*wishes.denoise);
+        scene.film.planes = chosen_planes(request.planes);
+        if (!request.denoise) return;
+        (void)denoiser_named(*request.denoise);
         check_samples_to_denoise(scene.settings.samples);
     } catch (const std::invalid_argument& e) {
         throw ModelError(fmt::format("planes: {}", e.what()));
@@ -102,15 +103,15 @@ void apply(const Wishes& wishes, Scene& scene) {
     }
 }
 
-Rendering sampled(const Scene& scene, const Wishes& wishes, const std::optional<Clock::time_point>& deadline,
+Rendering sampled(const Scene& scene, const RenderRequest& request, const std::optional<Clock::time_point>& deadline,
                   const std::function<bool()>& cancelled, const Progress& progress) {
-    const AvailableThreads threads(wishes.threads);
-    const World world(scene, WorldOptions{.quality = wishes.is_quick ? BuildQuality::low : BuildQuality::medium,
+    const AvailableThreads threads(request.threads);
+    const World world(scene, WorldOptions{.quality = request.is_quick ? BuildQuality::low : BuildQuality::medium,
                                           .cancelled = cancelled,
                                           .progress = [&](float share) { progress("preparing", share); },
-                                          .most_bytes = wishes.most_bytes});
+                                          .most_bytes = request.most_bytes});
     RenderJob job;
-    job.pixels = pixels_of(scene, wishes);
+    job.pixels = pixels_of(scene, request);
     job.threads = threads.count();
     job.deadline = deadline;
     job.cancelled = cancelled;
@@ -120,22 +121,22 @@ Rendering sampled(const Scene& scene, const Wishes& wishes, const std::optional<
     job.advance = [&](std::uint64_t n) {
         const double of_samples = static_cast<double>(done += n) / all;
         const std::chrono::duration<double> left = deadline ? *deadline - Clock::now() : Clock::duration();
-        const double of_time = deadline ? std::clamp(1 - left.count() / wishes.time_seconds, 0.0, 1.0) : 0.0;
+        const double of_time = deadline ? std::clamp(1 - left.count() / request.time_seconds, 0.0, 1.0) : 0.0;
         progress("rendering", static_cast<float>(std::max(of_samples, of_time)));
     };
     return render(world, scene, job);
 }
 
-Rendered rendered(Scene scene, const Wishes& wishes, const std::optional<Clock::time_point>& deadline,
+Rendered rendered(Scene scene, const RenderRequest& request, const std::optional<Clock::time_point>& deadline,
                   const std::function<bool()>& cancelled, const Progress& progress) {
-    apply(wishes, scene);
+    apply(request, scene);
     const Planes::Choice wanted = film_settings(scene).planes;
-    if (wishes.denoise) scene.film.planes |= denoising_planes();
-    Rendered result{sampled(scene, wishes, deadline, cancelled, progress), std::nullopt};
-    if (!wishes.denoise || cancelled()) return result;
+    if (request.denoise) scene.film.planes |= denoising_planes();
+    Rendered result{sampled(scene, request, deadline, cancelled, progress), std::nullopt};
+    if (!request.denoise || cancelled()) return result;
     try {
         DenoiseJob job;
-        job.by = denoiser_named(*wishes.denoise);
+        job.by = denoiser_named(*request.denoise);
         job.threads = result.rendering.threads;
         job.progress = [&](double share) { progress("denoising", static_cast<float>(share)); };
         job.cancelled = cancelled;
@@ -148,15 +149,16 @@ Rendered rendered(Scene scene, const Wishes& wishes, const std::optional<Clock::
 }
 
 // Reads the scene from its text, with all of the command's checks for a file, and renders it.
-py::dict render_text(const std::string& text, const std::string& name, const Wishes& wishes, const py::object& tell) {
+py::dict render_text(const std::string& text, const std::string& name, const RenderRequest& request,
+                     const py::object& tell) {
     std::optional<Clock::time_point> deadline;
-    if (wishes.time_seconds > 0)
+    if (request.time_seconds > 0)
         deadline = Clock::now() +
-                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wishes.time_seconds));
+                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.time_seconds));
     Rendered result;
     run_beside(tell, [&](const std::function<bool()>& cancelled, const Progress& progress) {
-        const Document document = Document::from_text(text, name).at(wishes.seconds_at);
-        result = rendered(load_scene(document), wishes, deadline, cancelled, progress);
+        const Document document = Document::from_text(text, name).at(request.seconds_at);
+        result = rendered(load_scene(document), request, deadline, cancelled, progress);
     });
     const Image& image = result.rendering.image;
     py::dict d;
@@ -180,7 +182,7 @@ Image image_of(const py::array_t<float>& pixels, const py::dict& planes) {
     for (const auto& [name, values] : planes) {
         const auto array = py::cast<py::array_t<float, py::array::c_style | py::array::forcecast>>(values);
         if (static_cast<std::size_t>(array.size()) != image.pixels.size())
-            throw std::invalid_argument("a plane must have a value for each pixel");
+            throw std::invalid_argument("a plane must have one value per pixel");
         image.further.push_back({name.cast<std::string>(), {array.data(), array.data() + array.size()}});
     }
     return image;
@@ -207,7 +209,7 @@ void save(const std::string& path, const Pixels& pixels, const py::dict& planes,
     if (crop) {
         const auto [x0, y0, width, height] = *crop;
         if (x0 < 0 || y0 < 0 || x0 > width - image.width || y0 > height - image.height)
-            throw std::invalid_argument("crop must be x0, y0, and the size of a picture that the pixels are a part of");
+            throw std::invalid_argument("crop must be x0, y0, and the size of the picture that contains the pixels");
         image.crop = Crop{x0, y0, width, height};
     }
     const py::gil_scoped_release unlocked;
@@ -219,18 +221,18 @@ void save(const std::string& path, const Pixels& pixels, const py::dict& planes,
 }  // namespace
 
 void add_rendering(py::module_& module) {
-    py::class_<Wishes>(module, "Wishes")
+    py::class_<RenderRequest>(module, "RenderRequest")
         .def(py::init())
-        .def_readwrite("crop", &Wishes::crop)
-        .def_readwrite("threads", &Wishes::threads)
-        .def_readwrite("is_quick", &Wishes::is_quick)
-        .def_readwrite("most_bytes", &Wishes::most_bytes)
-        .def_readwrite("planes", &Wishes::planes)
-        .def_readwrite("denoise", &Wishes::denoise)
-        .def_readwrite("seconds_at", &Wishes::seconds_at)
-        .def_readwrite("time_seconds", &Wishes::time_seconds)
-        .def_readwrite("samples", &Wishes::samples);
-    module.def("render", &render_text, py::arg("text"), py::arg("name"), py::arg("wishes"), py::arg("tell"));
+        .def_readwrite("crop", &RenderRequest::crop)
+        .def_readwrite("threads", &RenderRequest::threads)
+        .def_readwrite("is_quick", &RenderRequest::is_quick)
+        .def_readwrite("most_bytes", &RenderRequest::most_bytes)
+        .def_readwrite("planes", &RenderRequest::planes)
+        .def_readwrite("denoise", &RenderRequest::denoise)
+        .def_readwrite("seconds_at", &RenderRequest::seconds_at)
+        .def_readwrite("time_seconds", &RenderRequest::time_seconds)
+        .def_readwrite("samples", &RenderRequest::samples);
+    module.def("render", &render_text, py::arg("text"), py::arg("name"), py::arg("request"), py::arg("tell"));
     module.def("png", &png, py::arg("pixels").noconvert(), py::arg("exposure"), py::arg("view"));
     module.def(
         "save_image",

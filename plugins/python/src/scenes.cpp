@@ -91,34 +91,36 @@ py::array_t<float> matrices(std::span<const tracer::Transform> maps) {
     return result;
 }
 
-// (name, matrices) for each run of places of the same object or group.
-py::list places_of(const tracer::PlacedObjects& all, const std::vector<tracer::Place>& places) {
+// (name, matrices) for each run of instances of the same object or group.
+py::list instances_of(const tracer::PlacedObjects& all, const std::vector<tracer::Instance>& instances) {
     py::list result;
-    for (std::size_t i = 0; i < places.size();) {
-        const tracer::Place& first = places[i];
+    for (std::size_t i = 0; i < instances.size();) {
+        const tracer::Instance& first = instances[i];
         std::vector<tracer::Transform> maps;
-        for (; i < places.size() && places[i].of == first.of && places[i].is_group == first.is_group; ++i)
-            maps.push_back(places[i].transform);
+        for (; i < instances.size() && instances[i].of == first.of && instances[i].is_group == first.is_group; ++i)
+            maps.push_back(instances[i].transform);
         result.append(
             py::make_tuple(first.is_group ? all.groups[first.of].name : all.objects[first.of].name, matrices(maps)));
     }
     return result;
 }
 
-// For a scene of several objects: the names and transforms of the objects, the places in each group, and those of the
-// scene. Reports all errors of the scene.
+// For a scene of several objects: the names and transforms of the objects, the instances in each group, and those of
+// the scene. Reports all errors of the scene.
 py::tuple placed_in(const Document& document) {
     const Value root = document.root();
     tracer::PlacedObjects all =
         root.find("camera") ? tracer::read_scene(document).placed : tracer::read_scene_without_camera(document).placed;
     if (!all.moving.empty())
-        throw document.error(*root.find("objects"), "objects that move while the shutter is open cannot be read here");
+        throw document.error(*root.find("objects"),
+                             "objects that move while the shutter is open are not supported here");
     py::list objects;
     for (const tracer::PlacedObject& object : all.objects)
         objects.append(py::make_tuple(object.name, matrices(std::span(&object.first, 1))));
     py::dict groups;
-    for (const tracer::PlacedGroup& group : all.groups) groups[py::str(group.name)] = places_of(all, group.places);
-    return py::make_tuple(objects, groups, places_of(all, all.places));
+    for (const tracer::PlacedGroup& group : all.groups)
+        groups[py::str(group.name)] = instances_of(all, group.instances);
+    return py::make_tuple(objects, groups, instances_of(all, all.instances));
 }
 
 // The keys of everything in a scene file that reads a file, each with the name of the parameter that has the file. Keys

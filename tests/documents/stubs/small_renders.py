@@ -41,7 +41,7 @@ def main() -> int:
     if arguments[:1] == ["render"]:
         if "--time" in arguments:
             arguments = [*without(arguments, "--time"), "--time", "0.3s"]
-        if "--samples" not in arguments:
+        if "--sample-range" not in arguments and "--samples" not in arguments:
             enough = 8 if any(a.startswith("--denoise") for a in arguments) else 1
             # Few samples are kept, so that a picture has the bytes of its parts.
             if not enough <= int(value_of(arguments, "--spp") or 0) <= 32:

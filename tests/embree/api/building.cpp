@@ -1,4 +1,4 @@
-// Building: what is told of its progress, and cells that are kept in files.
+// Building: progress, and cells that are kept in files.
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -39,7 +39,7 @@ PhasetreeGeometryOptions telling(Told& told) {
 
 }  // namespace
 
-TEST_CASE("a build tells of its progress, by one thread at a time") {
+TEST_CASE("a build reports progress, by one thread at a time") {
     Device device;
     Told told;
     const embree::Geometry geometry(device, object_tree(), telling(told));
@@ -124,8 +124,7 @@ TEST_CASE("files of cells that cannot be used") {
     };
     expect_error(phasetreeWriteGeometryCells(nullptr, path.c_str()), no_handle, "geometry is NULL");
     expect_error(phasetreeWriteGeometryCells(built.get(), nullptr), invalid, "path is NULL");
-    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong,
-                 "there is no directory");
+    expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "no/cells").c_str()), wrong, "no such directory");
     expect_error(phasetreeWriteGeometryCells(built.get(), (folder / "").c_str()), wrong, "directory");
     expect_error(read(path, tree, nullptr), wrong, "No such file");
     built.write_cells(path);
@@ -167,7 +166,7 @@ TEST_CASE("files of cells that cannot be used") {
     std::ofstream(path, std::ios::binary | std::ios::in | std::ios::out).seekp(5000).put('\x55').put('\xaa');
     expect_error(read(path, tree, nullptr), wrong, "damaged");
     std::ofstream(folder / "text") << std::string(1000, ' ');
-    expect_error(read(folder / "text", tree, nullptr), wrong, "no file of cells");
+    expect_error(read(folder / "text", tree, nullptr), wrong, "not a cell file");
     CHECK(geometry == nullptr);
     // What could not be read is no obstacle to writing.
     built.write_cells(path);

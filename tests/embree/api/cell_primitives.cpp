@@ -179,7 +179,7 @@ TEST_CASE("what the flag excludes is rejected, and says why") {
     };
     refuse(PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES, PHASETREE_ALL_PHASES, "NO_FILTERS");
     refuse(promised | PHASETREE_GEOMETRY_FLAG_POINT_QUERY, PHASETREE_ALL_PHASES, "POINT_QUERY");
-    refuse(promised, PHASETREE_ALL_PHASES & ~PhasetreePhaseSet{4}, "phase 2 is to be hidden");
+    refuse(promised, PHASETREE_ALL_PHASES & ~PhasetreePhaseSet{4}, "phase 2 cannot be hidden");
     // The vacuum never counts as shown.
     const embree::Geometry geometry(device, tree, [] {
         PhasetreeGeometryOptions options = with_flags(promised);

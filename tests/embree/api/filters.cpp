@@ -19,7 +19,7 @@ struct Seen {
     unsigned from, to;
 };
 
-// What the filter is told by the geometry's user pointer, and what it collects, by the rays' ids.
+// The filter's input, by the geometry's user pointer, and what it collects, by the rays' ids.
 struct Filter {
     std::map<unsigned, std::vector<Seen>> calls;
     unsigned accept_from = 1000;  // accepts a crossing with this number of its ray and later ones

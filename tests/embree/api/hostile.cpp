@@ -86,7 +86,7 @@ TEST_CASE("rays that are none hit nothing and are not touched") {
         CAPTURE(&ray - bad.data());
         check_untouched(geometry.get(), ray);
     }
-    // Some of these may be rays; they end all the same, and never touch what is not theirs.
+    // Some of these may be rays; they still end, and never touch memory outside them.
     for (int i = 0; i < 20'000; ++i) {
         RTCRayHit ray = marked({from, {pick(), pick(), pick()}}, pick(), pick());
         if (random() % 2 == 0) ray.ray.org_x = pick();

@@ -60,7 +60,8 @@ TEST_CASE("null, freed and foreign handles") {
 
     Device device;
     PhasetreeGeometry geometry = nullptr;
-    expect(phasetreeNewGeometry(PHASETREE_API_VERSION, device, tree, nullptr, &geometry), invalid, "already released");
+    expect(phasetreeNewGeometry(PHASETREE_API_VERSION, device, tree, nullptr, &geometry), invalid,
+           "already been released");
     CHECK(geometry == nullptr);
     REQUIRE(phasetreeNewGeometry(PHASETREE_API_VERSION, device, next.get(), nullptr, &geometry) ==
             PHASETREE_ERROR_NONE);
@@ -134,7 +135,7 @@ TEST_CASE("arguments that are missing or impossible") {
     const char* name = nullptr;
     unsigned phase = 99;
     expect(phasetreeGetTreePhaseCount(object.get(), nullptr), invalid, "count");
-    expect(phasetreeGetTreePhaseName(object.get(), 5, &name), invalid, "there is no phase 5");
+    expect(phasetreeGetTreePhaseName(object.get(), 5, &name), invalid, "phase 5 does not exist");
     expect(phasetreeGetTreePhaseByName(object.get(), "gold", &phase), invalid, "\"gold\"");
     expect(phasetreeGetTreeBounds(object.get(), nullptr), invalid, "bounds");
     expect(phasetreeNewEditedTree(object.get(), nullptr, "1", &tree), invalid, "path");
@@ -240,7 +241,8 @@ TEST_CASE("Embree geometries that are not ours") {
     Device device;
     const RTCGeometry foreign = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     PhasetreeGeometry found = nullptr;
-    expect(phasetreeGetGeometryFromEmbree(foreign, &found), PHASETREE_ERROR_INVALID_HANDLE, "not made by this library");
+    expect(phasetreeGetGeometryFromEmbree(foreign, &found), PHASETREE_ERROR_INVALID_HANDLE,
+           "not created by this library");
     const embree::Geometry mine(device, object_tree());
     // Another one that points to our handle is not ours either.
     rtcSetGeometryUserData(foreign, mine.get());

@@ -72,7 +72,7 @@ TEST_CASE("the closest interface of a ball in layers is where geometry says") {
             REQUIRE(true_distance(vec(c.point)) < 4 * resolution);
             REQUIRE(c.here != c.there);
         }
-        // Nothing within less than that, and the radius says so.
+        // Nothing is closer, so the radius stays as it is.
         const float expected = true_distance(p);
         if (expected < 0.01f) continue;
         const PhasetreeClosest none = placed.geometry.closest(arr(p), 0.9f * expected);

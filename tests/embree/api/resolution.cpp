@@ -55,7 +55,7 @@ TEST_CASE("rays end at any resolution that is accepted, and hit what is there") 
 TEST_CASE("what leaves too few digits is warned of, and what leaves none is rejected") {
     const Placed near(ball(0)), far(ball(1e5f));
     CHECK(near.geometry.warning() == "");
-    CHECK(far.geometry.warning().find("move it nearer to the origin") != std::string::npos);
+    CHECK(far.geometry.warning().find("move it closer to the origin") != std::string::npos);
     CHECK(Placed(ball(0), resolving(1e-20f)).geometry.warning().find("finer than 32-bit") != std::string::npos);
     CHECK(Placed(ball(0), resolving(1e10f)).geometry.warning().find("too coarse") != std::string::npos);
     Device device;

@@ -150,11 +150,11 @@ TEST_CASE("images are read by the application") {
     const PhasetreeFileReader refusing{refuse, nullptr}, forgetting{forget, nullptr}, empty{nullptr, nullptr};
     CHECK(message_of([&] { embree::Tree::from_text(text, "a", &refusing); }).find("knows no such image") !=
           std::string::npos);
-    CHECK(message_of([&] { embree::Tree::from_text(text, "a", &forgetting); }).find("gave no image") !=
+    CHECK(message_of([&] { embree::Tree::from_text(text, "a", &forgetting); }).find("returned no image") !=
           std::string::npos);
     CHECK(message_of([&] { embree::Tree::from_text(text, "a", &empty); }).find("readImage is NULL") !=
           std::string::npos);
-    CHECK(message_of([&] { embree::Tree::from_text(text, "a"); }).find("reads no images") != std::string::npos);
+    CHECK(message_of([&] { embree::Tree::from_text(text, "a"); }).find("cannot read images") != std::string::npos);
 }
 
 TEST_CASE("wrong texts say where") {

@@ -35,7 +35,7 @@ constexpr const char* values[] = {"0.5", "2", "-1", "1e39", "{\"sphere\": {\"rad
 
 const char* read_image(void* user, const char*, PhasetreeImage image) {
     const auto kind = reinterpret_cast<std::uintptr_t>(user);
-    if (kind == 0) return "there is no such file";
+    if (kind == 0) return "no such file";
     if (kind == 1) return nullptr;
     if (phasetreeNewImageValues(image, 0, 5) || phasetreeNewImageValues(nullptr, 5, 5)) broken("sizes are checked");
     float* const heights = phasetreeNewImageValues(image, 3, 2);

@@ -335,7 +335,7 @@ TEST_CASE("a lamp hides the sun from the photons") {
                         });
         return found;
     };
-    // From below one sees the sun in its place only if it shines upward.
+    // From below, the sun is visible only if it emits upward.
     CHECK(of_the_sun("0") == 0);
     CHECK(of_the_sun("9") > 100);
 }

@@ -14,7 +14,7 @@ inline std::string clear(const std::string& name, double ior, double roughness, 
     return "\"" + name + R"(": {"clear": {"ior": )" + std::to_string(ior) + R"(, "roughness": )" +
            std::to_string(roughness) + more + "}}";
 }
-// There are so many photons that they and the other techniques each have some of the weight, which check() requires.
+// With this number of photons, they and the other techniques all have some weight, which check() requires.
 inline std::string lit_by(const std::string& light, double photons = 0.04) {
     return R"("lights": [)" + light + R"(], "render": {"width": 64, "height": 64, "photon_radius": 2, "photons": )" +
            std::to_string(photons) + "}";

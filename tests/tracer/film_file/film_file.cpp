@@ -132,11 +132,11 @@ TEST_CASE("what differs is named") {
     CHECK(difference(wanted, found) == "it has seed 5??[2J, not 4");
     found = wanted;
     found.settings.pop_back();
-    CHECK(difference(wanted, found) == "it is of another version of phasetree");
+    CHECK(difference(wanted, found) == "it was written by another version of phasetree");
     CHECK(difference(found, wanted) == "");  // of the first settings alone
     found = wanted;
     found.subjects.groups.push_back("sky");
-    CHECK(difference(wanted, found) == "it is of another picture");
+    CHECK(difference(wanted, found) == "it belongs to another picture");
 }
 
 TEST_CASE("wherever a file ends too early, it is rejected") {
@@ -145,7 +145,8 @@ TEST_CASE("wherever a file ends too early, it is rejected") {
         CAPTURE(count);
         const std::string why = written.refusal(written.bytes.substr(0, count));
         CHECK(why.starts_with("cannot use \"" + written.path.string() + "\": it is "));
-        CHECK((why.ends_with("it is truncated") || (count == 0 && why.ends_with("it is no part and no checkpoint"))));
+        CHECK((why.ends_with("it is truncated") ||
+               (count == 0 && why.ends_with("it is neither a part nor a checkpoint"))));
     }
     CHECK(written.refusal(written.bytes + "x").ends_with("it is truncated"));
     CHECK(written.refusal(written.bytes) == "");
@@ -164,10 +165,10 @@ TEST_CASE("whichever byte is another one, the file is rejected") {
 
 TEST_CASE("an image where a part was meant, and a file of another format") {
     const Written written(header_of({.width = 5, .height = 5}, {0, 0, 5, 5}));
-    CHECK(written.refusal("\x89PNG\r\n and more").ends_with("it is no part and no checkpoint"));
+    CHECK(written.refusal("\x89PNG\r\n and more").ends_with("it is neither a part nor a checkpoint"));
     std::string later = written.bytes;
     later[8] = static_cast<char>(film_file_format + 1);
-    CHECK(written.refusal(later).ends_with("it is of another version of phasetree"));
+    CHECK(written.refusal(later).ends_with("it was written by another version of phasetree"));
 }
 
 TEST_CASE("a file that cannot be written is named, and what was there stays") {
@@ -214,7 +215,7 @@ TEST_CASE("the pixels of the picture are some of the film's") {
     CHECK(file.header().shown.y1 == 15);
     FilmFileHeader other = h;
     other.shown = h.area;
-    CHECK(difference(other, file.header()) == "it is of another picture");
+    CHECK(difference(other, file.header()) == "it belongs to another picture");
     for (const PixelRange outside : {PixelRange{7, 8, 20, 15}, PixelRange{9, 8, 25, 15}, PixelRange{9, 8, 9, 15}}) {
         h.shown = outside;
         const Written wrong(h);

@@ -225,7 +225,7 @@ TEST_CASE("what is wrong with data of meshopt is said") {
     // Nobody asks for them.
     CHECK(said_of(grid.rows(), 12, mode, "no data") == "read");
     const std::string place = "bufferViews[10].extensions.EXT_meshopt_compression ";
-    const std::string invalid = place + "has invalid data; export the file again, or without meshopt compression";
+    const std::string invalid = place + "contains invalid data; export the file again, or without meshopt compression";
     CHECK(said_of(grid.rows(), 12, mode, "no data", last) == invalid);
     CHECK(said_of(grid.rows(), 12, mode, good.substr(0, good.size() - 9), last) == invalid);
     CHECK(said_of(3 * grid.rows(), 12, mode, good, last) == invalid);
@@ -346,21 +346,21 @@ TEST_CASE("what is wrong with data of Draco is said") {
     const auto said_of = [&](const std::string& bytes, const std::string& ids, std::size_t rows,
                              std::size_t corners = 0) { return said(draco_file(grid, bytes, ids, rows, "", corners)); };
     const std::string invalid =
-        place + "has invalid data of Draco; export the file again, or without Draco compression";
+        place + "contains invalid Draco data; export the file again, or without Draco compression";
     CHECK(said_of("no data", all_ids, grid.rows()) == invalid);
     CHECK(said_of("", all_ids, grid.rows()) == invalid);
     CHECK(said_of(good.substr(0, good.size() / 2), all_ids, grid.rows()) == invalid);
     CHECK(said_of(good, R"("NORMAL": 1)", grid.rows()) == place + "has no positions");
-    CHECK(said_of(good, R"("POSITION": 9)", grid.rows()) == place + "has no attribute 9 in its data of Draco");
+    CHECK(said_of(good, R"("POSITION": 9)", grid.rows()) == place + "has no attribute 9 in its Draco data");
     CHECK(said_of(good, R"("POSITION": 2)", grid.rows()) ==
-          place + "has rows of 2 numbers in attribute 2 of its data of Draco, but its accessor 3");
+          place + "has rows of 2 numbers in attribute 2 of its Draco data, but its accessor declares 3");
     CHECK(said_of(good, all_ids, grid.rows() - 1) ==
-          place + "has more triangles, vertices or numbers in its data of Draco than its accessors say");
+          place + "has more triangles, vertices or numbers in its Draco data than its accessors declare");
     CHECK(said_of(good, all_ids, grid.rows() + 1) ==
-          place + "has 144 vertices and 726 indices, but its accessors say 145 and 726");
-    CHECK(said_of(good, all_ids, 4'000'000'000) == "its compressed data are larger than 1 GiB in all");
+          place + "has 144 vertices and 726 indices, but its accessors declare 145 and 726");
+    CHECK(said_of(good, all_ids, 4'000'000'000) == "its compressed data exceed 1 GiB in total");
     CHECK(said_of(good, all_ids, grid.rows(), 3 * grid.indices.size()) ==
-          place + "has 144 vertices and 726 indices, but its accessors say 144 and 2178");
+          place + "has 144 vertices and 726 indices, but its accessors declare 144 and 2178");
     // Whatever byte is changed, the file is read or refused.
     std::size_t refused = 0;
     for (const bool is_sequential : {false, true}) {
@@ -385,16 +385,15 @@ TEST_CASE("without its library a compressed file is rejected by name") {
     if (gltf::has_draco())
         CHECK(required("KHR_draco_mesh_compression") == "read");
     else
-        CHECK(
-            required("KHR_draco_mesh_compression") ==
-            "it requires KHR_draco_mesh_compression, which this build does not read because it lacks Draco's library; "
-            "export without Draco compression, or install libdraco-dev and build again");
+        CHECK(required("KHR_draco_mesh_compression") ==
+              "it requires KHR_draco_mesh_compression, which this build cannot read without Draco's library; export it "
+              "without Draco compression, or install libdraco-dev and rebuild");
     if (gltf::has_meshopt())
         CHECK(required("EXT_meshopt_compression") == "read");
     else
         CHECK(required("EXT_meshopt_compression") ==
-              "it requires EXT_meshopt_compression, which this build does not read because it lacks meshoptimizer's "
-              "library; export without meshopt compression, or install libmeshoptimizer-dev and build again");
+              "it requires EXT_meshopt_compression, which this build cannot read without meshoptimizer's library; "
+              "export it without meshopt compression, or install libmeshoptimizer-dev and rebuild");
 }
 
 }  // namespace test_gltf_compressed

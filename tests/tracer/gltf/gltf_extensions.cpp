@@ -91,24 +91,20 @@ TEST_CASE("an extension that is required and not read is named, with what to do"
     CHECK(said_of(R"("KHR_texture_transform", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_node_visibility",
                      "KHR_materials_transmission", "KHR_lights_punctual", "KHR_xmp_json_ld")") == "read");
     CHECK(said_of(R"("EXT_texture_webp")") ==
-          "it requires EXT_texture_webp, which this program does not read; export the images as PNG or JPEG, or give "
-          "the mesh a \"material\" here");
-    CHECK(
-        said_of(R"("KHR_meshopt_compression")") ==
-        "it requires KHR_meshopt_compression, which this program does not read; compress with EXT_meshopt_compression "
-        "(gltfpack -c), or not at all");
-    CHECK(
-        said_of(R"("KHR_materials_clearcoat")") ==
-        "it requires KHR_materials_clearcoat, which this program does not read; export without it, or give the mesh a "
-        "\"material\" here");
+          "it requires EXT_texture_webp, which phasetree cannot read; export the images as PNG or JPEG, or give the "
+          "mesh a \"material\" here");
+    CHECK(said_of(R"("KHR_meshopt_compression")") ==
+          "it requires KHR_meshopt_compression, which phasetree cannot read; compress with EXT_meshopt_compression "
+          "(gltfpack -c), or not at all");
+    CHECK(said_of(R"("KHR_materials_clearcoat")") ==
+          "it requires KHR_materials_clearcoat, which phasetree cannot read; export without it, or give the mesh a "
+          "\"material\" here");
     const std::string of_material =
         Corner().file("\"extensionsRequired\": [\"KHR_materials_clearcoat\"], " + one_node + meshes(all_attributes));
     CHECK(gltf::read_gltf(of_material, gltf::ReadMaterials::none).not_shown.empty());
-    CHECK(said_of(R"("ACME_teapot")") ==
-          "it requires ACME_teapot, which this program does not read; export without it");
+    CHECK(said_of(R"("ACME_teapot")") == "it requires ACME_teapot, which phasetree cannot read; export without it");
     // Messages quote nothing but names.
-    CHECK(said_of(R"("\u001b[2J")") ==
-          "it requires an extension of glTF, which this program does not read; export without it");
+    CHECK(said_of(R"("\u001b[2J")") == "it requires a glTF extension, which phasetree cannot read; export without it");
 }
 
 TEST_CASE("one sentence lists the extensions that are used and not read, and what is missing") {
@@ -121,16 +117,15 @@ TEST_CASE("one sentence lists the extensions that are used and not read, and wha
     CHECK(sentences(plain).empty());
     CHECK(sentences(plain + R"(, "extensionsUsed": ["KHR_texture_transform", "KHR_xmp_json_ld", "KHR_materials_ior"])")
               .empty());
-    CHECK(
-        sentences(plain + R"(, "extensionsUsed": ["KHR_materials_clearcoat", "KHR_lights_punctual", "ACME_teapot",
+    CHECK(sentences(plain + R"(, "extensionsUsed": ["KHR_materials_clearcoat", "KHR_lights_punctual", "ACME_teapot",
                                 "\u001b[2J", 7], "extensions": {"KHR_lights_punctual": {}})") ==
-        std::vector<std::string>{
-            "uses extensions that are not read: ACME_teapot (unknown), KHR_lights_punctual (missing: lights; add them "
-            "to \"lights\"), KHR_materials_clearcoat (missing: clear coats) and 2 more"});
+          std::vector<std::string>{
+              "uses unsupported extensions: ACME_teapot (unknown), KHR_lights_punctual (missing: lights; add them to "
+              "\"lights\"), KHR_materials_clearcoat (missing: clear coats) and 2 more"});
     // Materials may have extensions that the document forgets to list.
     const std::string sheen = R"("materials": [{"extensions": {"KHR_materials_sheen": {}}}])";
     CHECK(sentences(sheen) ==
-          std::vector<std::string>{"uses extensions that are not read: KHR_materials_sheen (missing: sheen of cloth)"});
+          std::vector<std::string>{"uses unsupported extensions: KHR_materials_sheen (missing: sheen of cloth)"});
     // They do not matter if the scene has a material of its own.
     CHECK(sentences(sheen + R"(, "extensionsUsed": ["KHR_materials_sheen", "EXT_texture_webp"])",
                     gltf::ReadMaterials::none)

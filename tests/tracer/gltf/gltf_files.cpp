@@ -18,32 +18,32 @@ using namespace phasetree::tracer::tests;
 TEST_CASE("what is no glTF file, or is more than is read, is said") {
     const std::string good = Corner().file(one_node + meshes(all_attributes));
     CHECK(said(good) == "read");
-    CHECK(said("") == "it is no glTF file: it begins neither with \"glTF\" nor with a document");
-    CHECK(said(R"({"asset": {"version": "1.0"}})") == "it is not of version 2.0 of glTF");
-    CHECK(said(R"({"asset": {"version": "2.0", "minVersion": "2.1"}})") == "it is not of version 2.0 of glTF");
-    CHECK(said("\xEF\xBB\xBF {\"asset\": {\"version\": \"2.0\"}}") == "it has no triangles in its scene");
-    CHECK(said("{\"asset\": \"\xE4\"}") == "its document is not JSON in UTF-8");
-    CHECK(said(glb("\"x\": 1", "", 1)) == "it is not of version 2 of glTF");
+    CHECK(said("") == "it is not a glTF file: it begins neither with \"glTF\" nor with a JSON document");
+    CHECK(said(R"({"asset": {"version": "1.0"}})") == "it is not glTF version 2.0");
+    CHECK(said(R"({"asset": {"version": "2.0", "minVersion": "2.1"}})") == "it is not glTF version 2.0");
+    CHECK(said("\xEF\xBB\xBF {\"asset\": {\"version\": \"2.0\"}}") == "its scene has no triangles");
+    CHECK(said("{\"asset\": \"\xE4\"}") == "its document is not valid JSON in UTF-8");
+    CHECK(said(glb("\"x\": 1", "", 1)) == "it is not glTF version 2");
     const auto file = [](const std::string& rest) { return Corner().file(rest); };
     CHECK(said(file(R"("extensionsRequired": ["KHR_texture_transform", "KHR_materials_transmission"])")) ==
-          "it has no triangles in its scene");
-    CHECK(said(file(R"("scenes": [{"nodes": [7]}])")) == "scenes[0] refers to nodes[7], but there are 0");
-    CHECK(said(file(R"("scenes": [{"nodes": "all"}])")) == "scenes[0] should have a list \"nodes\"");
+          "its scene has no triangles");
+    CHECK(said(file(R"("scenes": [{"nodes": [7]}])")) == "scenes[0] refers to nodes[7], but there are only 0");
+    CHECK(said(file(R"("scenes": [{"nodes": "all"}])")) == "scenes[0] must have a list \"nodes\"");
     CHECK(said(file(R"("scenes": [{"nodes": [0]}], "nodes": [{"scale": [1, 2]}])")) ==
-          "nodes[0] should have 3 numbers in \"scale\"");
+          "nodes[0] must have 3 numbers in \"scale\"");
     CHECK(said(file(one_node + meshes(R"("attributes": {"NORMAL": 1})"))) ==
           "meshes[0].primitives[0] has no positions");
     CHECK(said(file(one_node + meshes(R"("attributes": {"POSITION": 2})"))) ==
-          "accessors[2] has positions that are not of three numbers");
+          "accessors[2] has positions that do not have three numbers");
     CHECK(said(file(one_node + meshes(R"("attributes": {"POSITION": 0}, "indices": 0)"))) ==
-          "accessors[0] has indices that are not whole numbers from 0");
+          "accessors[0] has indices that are not whole numbers of at least 0");
     const auto accessor = [](const std::string& more) {
         Corner c;
         c.add("VEC3", 5126, 3, c.bytes.add(std::vector<float>(9, 0.5f)), more);
         return c.file(one_node + meshes(R"("attributes": {"POSITION": 5})"));
     };
     CHECK(said(accessor("")) == "read");
-    CHECK(said(accessor(R"(, "byteOffset": 4)")) == "accessors[5] is beyond the end of its bytes");
+    CHECK(said(accessor(R"(, "byteOffset": 4)")) == "accessors[5] extends beyond the end of its bytes");
     Corner huge;
     huge.add("VEC3", 5126, 3, huge.bytes.add(std::vector<float>(9, 1e30f)));
     CHECK(said(huge.file(one_node + meshes(R"("attributes": {"POSITION": 5})"))).find("beyond 10") !=
@@ -51,14 +51,14 @@ TEST_CASE("what is no glTF file, or is more than is read, is said") {
     Corner dark;
     dark.add("VEC3", 5126, 3, dark.bytes.add(std::vector<float>(9, std::nanf(""))));
     CHECK(said(dark.file(one_node + meshes(R"("attributes": {"POSITION": 0, "COLOR_0": 5})")))
-              .find("accessors[5] has something that is no number") == 0);
+              .find("accessors[5] has a value that is not a number") == 0);
     CHECK(
         said(
             glb(R"("bufferViews": [{"buffer": 1, "byteLength": 4}], "accessors": [{"bufferView": 0, "componentType": 5126,
         "count": 1, "type": "VEC3"}], )" +
                     one_node + meshes(R"("attributes": {"POSITION": 0})"),
                 "    "))
-            .find("bufferViews[0] refers to buffers[1], but there are 1") == 0);
+            .find("bufferViews[0] refers to buffers[1], but there are only 1") == 0);
 }
 
 TEST_CASE("buffers and images may be written into the document, or be files in its folder") {
@@ -108,16 +108,16 @@ TEST_CASE("buffers and images may be written into the document, or be files in i
         }
         return std::string();
     };
-    CHECK(refused("C:/a.bin").find("is in another place") != std::string::npos);
+    CHECK(refused("C:/a.bin").find("is outside the folder of the document") != std::string::npos);
     CHECK(refused("https://example.org/a.bin") ==
-          "buffers[0] is in another place than the folder of the document; nothing is fetched");
+          "buffers[0] is outside the folder of the document; files are never downloaded");
     for (const char* const uri : {"../a.bin", "a/%2e%2e/../b.bin", "/etc/passwd", "", "a%00.bin", "..\\\\a.bin"}) {
         CAPTURE(uri);
-        CHECK(refused(uri) == "buffers[0] must name a file in the folder of the document, or in one within it");
+        CHECK(refused(uri) == "buffers[0] must name a file in the folder of the document or in a subfolder");
     }
-    CHECK(refused("data:;base64") == "buffers[0] has data without a comma before them");
-    CHECK(refused("data:;base64,!!!!") == "buffers[0] has data that are not of base 64");
-    CHECK(said(document("a.bin")) == "buffers[0] is in a file of its own");
+    CHECK(refused("data:;base64") == "buffers[0] has no comma before its data");
+    CHECK(refused("data:;base64,!!!!") == "buffers[0] has data that are not valid base64");
+    CHECK(said(document("a.bin")) == "buffers[0] is in a separate file");
 }
 
 TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing that a link leads to elsewhere") {
@@ -155,7 +155,7 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     phasetree::support::write_text(elsewhere / "c.bin", bytes);
     std::filesystem::create_symlink(elsewhere / "c.bin", folder / "parts/c.bin");
     write("parts/c.bin");
-    CHECK(problem().find("parts/c.bin leads out of the folder of") != std::string::npos);
+    CHECK(problem().find("parts/c.bin is outside the folder of") != std::string::npos);
     // What the document names belongs to the scene's identity, so that shares of a picture are of the same.
     const auto identity = [&] {
         return fingerprint(phasetree::Document::from_text(
@@ -213,12 +213,12 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
     CHECK(refused > 1000);
     // Nodes in circles, and one that is in two places.
     CHECK(said(Corner().file(R"("scenes": [{"nodes": [0]}], "nodes": [{"children": [0]}])")) ==
-          "nodes[0] is at two places of the tree of nodes");
+          "nodes[0] occurs twice in the node hierarchy");
     // One mesh at two places counts twice.
     const std::string twice = Corner().file(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0}], )" +
                                             meshes(all_attributes));
     CHECK(said(twice, {.triangles = 2}) == "read");
-    CHECK(said(twice, {.triangles = 1}) == "there are more triangles than 0 million");
+    CHECK(said(twice, {.triangles = 1}) == "it has more than 0 million triangles");
     Corner doubled;
     doubled.add("SCALAR", 5121, 6, doubled.bytes.add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 0}));
     const std::string both = doubled.file(one_node + meshes(R"("attributes": {"POSITION": 0}, "indices": 5)"));
@@ -228,12 +228,13 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
         Corner().file(one_node + R"("meshes": [{"primitives": [{)" + all_attributes + R"(, "material": 0}, {)" +
                       all_attributes + R"(, "material": 1}]}], "materials": [{}, {}])");
     CHECK(said(two, {.primitives = 2}) == "read");
-    CHECK(said(two, {.primitives = 1}) == "there are more primitives than 1");
+    CHECK(said(two, {.primitives = 1}) == "it has more than 1 primitives");
     CHECK(said(two, {.materials = 2}) == "read");
-    CHECK(said(two, {.materials = 1}) == "there are more materials than 1");
+    CHECK(said(two, {.materials = 1}) == "it has more than 1 materials");
     CHECK(said(good, {.pixels = 4}) == "read");
-    CHECK(said(good, {.pixels = 3}) == "its images have more than 0 million pixels in all");
-    CHECK(said(glb("\"x\": " + std::string(10'000'000, '['), "")) == "its document is deeper than 64 brackets");
+    CHECK(said(good, {.pixels = 3}) == "its images have more than 0 million pixels in total");
+    CHECK(said(glb("\"x\": " + std::string(10'000'000, '['), "")) ==
+          "its JSON document is nested more than 64 levels deep");
     // Many elements that nobody asks for, and many that name one node, take no time.
     std::string many;
     for (int i = 0; i < 1'000'000; ++i) many += i > 0 ? ",{}" : "{}";
@@ -241,10 +242,10 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
     std::string same = "1";
     for (int i = 0; i < 1'000'000; ++i) same += ",1";
     CHECK(said(Corner().file(R"("scenes": [{"nodes": [)" + same + R"(]}], "nodes": [{}, {}])")) ==
-          "nodes[1] is at two places of the tree of nodes");
+          "nodes[1] occurs twice in the node hierarchy");
     const std::string deep = "\"x\": " + std::string(60, '[') + std::string(60, ']');
     CHECK(said(Corner().file(one_node + meshes(all_attributes) + ", " + deep)) == "read");
-    CHECK(said(both, {.triangles = 1}) == "there are more triangles than 0 million");
+    CHECK(said(both, {.triangles = 1}) == "it has more than 0 million triangles");
 }
 
 }  // namespace test_gltf_files

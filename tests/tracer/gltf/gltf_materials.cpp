@@ -97,16 +97,16 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     CHECK(some.not_shown.size() == 4);
     CHECK(some.not_shown.at(0).find("\"pane\" is clear, and is left out") == 0);
     CHECK(some.not_shown.at(1).find("\"half\" is clear") == 0);
-    CHECK(some.not_shown.at(2) == "\"faint\" lets some light through in the file; here it lets none");
-    CHECK(some.not_shown.at(3) == "\"print\" lets some light through in the file; here it lets none");
+    CHECK(some.not_shown.at(2) == "\"faint\" is partly transmissive; it is rendered as opaque");
+    CHECK(some.not_shown.at(3) == "\"print\" is partly transmissive; it is rendered as opaque");
 
     const gltf::GltfFile odd =
         file({R"({"name": "varnish", )" + plain + R"(, "extensions": {"KHR_materials_clearcoat": {},
         "KHR_materials_\u001b[2J": {}}})",
               R"({"name": "dial", "emissiveFactor": [0.001, 0, 0]})"});
-    CHECK(odd.not_shown.at(0) == "\"dial\" shines a little in the file; here it is dark");
+    CHECK(odd.not_shown.at(0) == "\"dial\" is faintly emissive; it is rendered without emission");
     CHECK(odd.not_shown.at(1) ==
-          "uses extensions that are not read: KHR_materials_clearcoat (missing: clear coats) and 1 more");
+          "uses unsupported extensions: KHR_materials_clearcoat (missing: clear coats) and 1 more");
     CHECK(std::holds_alternative<Conductor>(odd.parts.at(1).material));
     // Names are for people: one line, and short.
     const gltf::Part escape = part_of("{\"name\": \"a\\u001b[2Jb\\u009bc" + std::string(99, 'x') + "\"}");
@@ -131,12 +131,12 @@ TEST_CASE("what glows lies by the coordinates of its own images, and is dark whe
     const gltf::GltfFile glowing = file(R"({"index": 0})");
     CHECK(std::holds_alternative<Glowing>(glowing.parts.at(0).material));
     CHECK(glowing.not_shown ==
-          std::vector<std::string>{"\"screen\" shines and has a map of normals, which is ignored"});
+          std::vector<std::string>{"\"screen\" is emissive and has a normal map, which is ignored"});
     // The set 0 is there; the set 1 of the map is not.
     CHECK(glm::length(glowing.parts[0].texture.values.at(1) - glm::vec2(1, 1)) < 1e-6f);
     const gltf::GltfFile dark = file(R"({"index": 1})");
     CHECK(std::holds_alternative<Coated>(dark.parts.at(0).material));
-    CHECK(dark.not_shown.front().find("has an image of a kind that is not read") != std::string::npos);
+    CHECK(dark.not_shown.front().find("has an image in an unsupported format") != std::string::npos);
 }
 
 TEST_CASE("alpha makes holes where the file says that it counts") {
@@ -312,7 +312,8 @@ TEST_CASE("what shines in a few places is dark, what shines in most is a lamp; a
     };
     const gltf::GltfFile dark = read(emitting(few));
     CHECK(std::holds_alternative<Coated>(dark.parts.at(0).material));
-    CHECK(dark.not_shown == std::vector<std::string>{"\"panel\" shines in some places; here it is dark"});
+    CHECK(dark.not_shown ==
+          std::vector<std::string>{"\"panel\" is emissive in some places; it is rendered without emission"});
     CHECK(std::holds_alternative<Glowing>(read(emitting(most)).parts.at(0).material));
     // Clear parts, and images that cannot be read, do not matter then.
     const std::string odd =
@@ -321,15 +322,15 @@ TEST_CASE("what shines in a few places is dark, what shines in most is a lamp; a
             {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}},
             {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{}])");
     CHECK(read(odd).not_shown.at(1) ==
-          "\"material 1\" has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
+          "\"material 1\" has an image in an unsupported format, which is ignored; use PNG or JPEG");
     const gltf::GltfFile all = gltf::read_gltf(odd, gltf::ReadMaterials::none);
     REQUIRE(all.parts.size() == 1);
     CHECK(all.parts[0].mesh.triangles.size() == 2);
-    CHECK(all.not_shown == std::vector<std::string>{"has points or lines, which are not shown"});
+    CHECK(all.not_shown == std::vector<std::string>{"has points or lines, which are ignored"});
     CHECK(said(Corner().file(
                    one_node + meshes(all_attributes + R"(, "material": 0)") +
                    R"(, "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}])"))
-              .find("all of it is clear") == 0);
+              .find("all its materials are clear") == 0);
 }
 
 }  // namespace test_gltf_materials

@@ -64,7 +64,7 @@ TEST_CASE("targets without weights move nothing, and are ignored") {
     CHECK(said_of("[1, 1]", R"({})") == "read");
     CHECK(said_of("[1]", R"({"POSITION": 99})").find("meshes[0].primitives[0].targets[0] refers to accessors[99]") ==
           0);
-    CHECK(said_of("[1]", R"({"POSITION": 2})") == "accessors[2] has rows of too few numbers");
+    CHECK(said_of("[1]", R"({"POSITION": 2})") == "accessors[2] has too few numbers per row");
     CHECK(said_of("[1, 1]", R"({"POSITION": 5}, {"POSITION": 5})", {.moves = 8}) == "read");
     CHECK(said_of("[1, 1]", R"({"POSITION": 5}, {"POSITION": 5})", {.moves = 7}) ==
           "its morph targets move more than 0 million vertices");

@@ -99,20 +99,18 @@ TEST_CASE("what is wrong with a sparse accessor is said, with its number") {
     };
     CHECK(said_of({.type = "VEC3"}, {0, 1, 2}, 3) == "read");
     for (const Bytes& indices : {Bytes{1, 0}, Bytes{1, 1}})
-        CHECK(
-            said_of({.type = "VEC3"}, indices, 2) ==
-            "accessors[7].sparse.indices should increase strictly, but a number is not larger than the one before it");
+        CHECK(said_of({.type = "VEC3"}, indices, 2) ==
+              "accessors[7].sparse.indices must increase strictly, but a number is not larger than the one before it");
     CHECK(said_of({.type = "VEC3"}, {0, 3}, 2) ==
-          "accessors[7].sparse.indices names a row beyond those of its accessor");
-    CHECK(said_of({.type = "VEC3"}, {0, 1}, 1) == "accessors[7].sparse.values is beyond the end of its bytes");
-    CHECK(said_of({.type = "VEC3"}, {0, 1, 2, 3}, 4) ==
-          "accessors[7].sparse has a \"count\" larger than that of its accessor");
+          "accessors[7].sparse.indices refers to a row beyond the end of its accessor");
+    CHECK(said_of({.type = "VEC3"}, {0, 1}, 1) == "accessors[7].sparse.values extends beyond the end of its bytes");
+    CHECK(said_of({.type = "VEC3"}, {0, 1, 2, 3}, 4) == "accessors[7].sparse has a larger \"count\" than its accessor");
     const auto said_by = [](const std::string& sparse, const std::string& count = "3") {
         Corner corner;
         corner.add_accessor(R"({"type": "VEC3", "componentType": 5126, "count": )" + count + sparse + "}");
         return said(corner.file(one_node + meshes(R"("attributes": {"POSITION": 5}, "indices": 4)")));
     };
-    CHECK(said_by(R"(, "sparse": {"count": 1})") == "accessors[5].sparse should have \"indices\" and \"values\"");
+    CHECK(said_by(R"(, "sparse": {"count": 1})") == "accessors[5].sparse must have \"indices\" and \"values\"");
     CHECK(said_by(R"(, "sparse": {"count": 1, "indices": {"bufferView": 4, "componentType": 5122},
                      "values": {"bufferView": 0}})") ==
           "accessors[5].sparse.indices has a \"componentType\" other than 5121, 5123 and 5125");
@@ -120,12 +118,12 @@ TEST_CASE("what is wrong with a sparse accessor is said, with its number") {
                      "values": {"bufferView": 0}})")
               .find("accessors[5].sparse.indices refers to bufferViews[99]") == 0);
     CHECK(said_by(R"(, "sparse": {"count": 1, "indices": {"bufferView": 4, "byteOffset": 5, "componentType": 5123},
-                     "values": {"bufferView": 0}})") == "accessors[5].sparse.indices is beyond the end of its bytes");
+                     "values": {"bufferView": 0}})") ==
+          "accessors[5].sparse.indices extends beyond the end of its bytes");
     // Zeros cost nothing in the file, so there is a limit.
     CHECK(said_by("") == "read");
     CHECK(said_by("", "10000000") == "read");
-    CHECK(said_by("", "4000000000") ==
-          "accessors[5] has more than 10 million rows, but no \"bufferView\" that has them");
+    CHECK(said_by("", "4000000000") == "accessors[5] has more than 10 million rows but no \"bufferView\" for them");
 }
 
 }  // namespace test_gltf_sparse

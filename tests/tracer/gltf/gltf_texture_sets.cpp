@@ -80,7 +80,7 @@ TEST_CASE("images of one material lie each by its own set of coordinates") {
     // A set that both images have may have any number.
     CHECK(difference({.color = R"("texCoord": 1)", .metal = R"("texCoord": 1)", .sets = {second, first, {}}}, same) ==
           0);
-    // Two equal sets are as good as one, and two that differ are not.
+    // Two equal sets count as one; two that differ do not.
     CHECK(difference({.metal = R"("texCoord": 1)", .sets = {first, first, {}}}, same) == 0);
     const Square apart{.metal = R"("texCoord": 1)", .sets = {first, second, {}}};
     CHECK(difference(apart, same) > 0.1f);
@@ -126,8 +126,8 @@ TEST_CASE("a third set is not read, which is said") {
                         .sets = {first, first, first},
                         .more = R"(, "normalTexture": {"index": 0, "texCoord": 2})"};
     CHECK(read(square.file()).not_shown ==
-          std::vector<std::string>{"\"material 0\" uses more than two sets of texture coordinates; an image lies by "
-                                   "another set than in the file"});
+          std::vector<std::string>{
+              "\"material 0\" uses more than two sets of texture coordinates; one image is mapped by another set"});
 }
 
 }  // namespace test_gltf_texture_sets

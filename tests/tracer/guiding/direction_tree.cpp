@@ -36,7 +36,7 @@ std::vector<DirectionTree::Light> lights(int count, std::uint32_t seed) {
     return result;
 }
 
-constexpr int side = 512;  // of a grid that is finer than the tree of this file, so that it tells the density exactly
+constexpr int side = 512;  // of a grid that is finer than the tree of this file, so its density is exact
 
 glm::vec2 middle_of(int x, int y) {
     return (glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / static_cast<float>(side);

@@ -172,14 +172,15 @@ TEST_CASE("a JPEG file is asked for its size before anything is decoded") {
             REQUIRE(good.values.size() == 256);
             CHECK(good.values[100] == doctest::Approx(128 / 255.0));
         }
-        // Without tables it cannot be decoded, and is rejected by its size all the same.
+        // Without tables it cannot be decoded, and is still rejected by its size.
         const Jpeg huge{.width = 65500, .height = 65500, .has_tables = false};
         const Read refused = read(huge.bytes(), file);
         CHECK(refused.error == "it is not wanted");
         CHECK(refused.header.width == 65500);
         CHECK(refused.header.height == 65500);
         // Who wants it must have bytes for its blocks.
-        CHECK(read(huge.bytes(), file, std::int64_t{1} << 40).error == "it is too short for the size that it claims");
+        CHECK(read(huge.bytes(), file, std::int64_t{1} << 40).error ==
+              "it is too short for the image size in its header");
     }
 }
 
@@ -188,7 +189,7 @@ TEST_CASE("a JPEG file of very many scans is rejected") {
     for (const bool is_progressive : {false, true})
         for (const char* const file : places)
             CHECK(read(Jpeg{.is_progressive = is_progressive, .scans = 101}.bytes(), file).error ==
-                  "it has more than a hundred scans; save it as a JPEG of one scan");
+                  "it has more than 100 scans; save it as a baseline JPEG");
 }
 
 TEST_CASE("a JPEG file that is cut off is rejected, wherever that is") {
@@ -196,9 +197,9 @@ TEST_CASE("a JPEG file that is cut off is rejected, wherever that is") {
         const std::string whole = Jpeg{.is_progressive = is_progressive, .scans = 2}.bytes();
         for (std::size_t n = 2; n < whole.size(); ++n) {
             CAPTURE(n);
-            CHECK(read(whole.substr(0, n)).error == "it ends before its image does");
+            CHECK(read(whole.substr(0, n)).error == "its image data are truncated");
         }
-        CHECK(read(whole.substr(0, whole.size() - 2), "a.jpg").error == "it ends before its image does");
+        CHECK(read(whole.substr(0, whole.size() - 2), "a.jpg").error == "its image data are truncated");
     }
     CHECK(read("\xff\xd8\xff\xd9").error == "it has no image");
 }
@@ -226,7 +227,7 @@ TEST_CASE("JPEG files as programs write them have the size that OpenImageIO sees
             changed[i] = static_cast<char>(random());
             const Read r = read(changed, nullptr, 1000);
             readable += r.error.empty();
-            CHECK(r.error != "it decodes to another size than its header says");
+            CHECK(r.error != "the decoded image has a different size than its header declares");
         }
         CHECK(readable > 100);
     }
@@ -240,7 +241,8 @@ TEST_CASE("a PNG file of few bits and one colour is not too short, and a shorten
         CHECK(good.error == "");
         CHECK(good.values.size() == 1024 * 1024);
     }
-    CHECK(read(palette_png(16384, 16384, 2), nullptr, 1 << 30).error == "it is too short for the size that it claims");
+    CHECK(read(palette_png(16384, 16384, 2), nullptr, 1 << 30).error ==
+          "it is too short for the image size in its header");
 }
 
 namespace {
@@ -355,7 +357,7 @@ TEST_CASE("an environment is the display window of its image, whatever part of i
     // The shape that counts is the display window's.
     write_exr(path, {0, 0, 64, 32}, {0, 0, 64, 64});
     CHECK(said([&] { return load_environment_image(path); }) ==
-          "a lat-long image is twice as wide as high, this one is 64 × 64");
+          "an environment map must be twice as wide as high, but this one has 64 × 64");
     // Of a texture, too, alpha is 0 where there are no pixels.
     write_exr(path, {0, 0, 1, 1}, {0, 0, 2, 1});
     const auto alpha = load_texture_image(path, ImageMeaning::alpha);
@@ -441,7 +443,7 @@ TEST_CASE("a TIFF file that is a part of a larger picture is rejected") {
     spec.full_x = 0, spec.full_width = 10, spec.full_height = 5;
     write();
     CHECK(said([&] { return load_texture_image(path); }) ==
-          "its 4 × 2 pixels are a part of a picture of 10 × 5; save the whole picture, or the part as OpenEXR");
+          "its 4 × 2 pixels are a crop of a 10 × 5 picture; save the whole picture, or save the crop as OpenEXR");
 }
 
 }  // namespace test_images

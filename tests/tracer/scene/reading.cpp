@@ -1,4 +1,4 @@
-// How far the reading of files is: each reader tells of every byte once, while it reads.
+// Progress of reading files: each reader reports every byte once, while it reads.
 #include "phasetree_support/reading.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -40,7 +40,7 @@ std::vector<std::uint64_t> heard(F&& f) {
     return all;
 }
 
-// That all bytes are told, and in several steps, each not much larger than a megabyte.
+// All bytes are reported, in several steps of not much more than a megabyte each.
 void check(const std::vector<std::uint64_t>& told, std::uint64_t bytes) {
     CHECK(std::accumulate(told.begin(), told.end(), std::uint64_t{0}) == bytes);
     CHECK(std::count_if(told.begin(), told.end(), [](std::uint64_t n) { return n > 0; }) >=
@@ -115,7 +115,7 @@ TEST_CASE("an image") {
           bytes);
 }
 
-TEST_CASE("a list of places") {
+TEST_CASE("a list of instances") {
     const TemporaryDirectory folder;
     constexpr std::uint64_t count = 50'000;
     std::string bytes = "PTPLACES" + std::string(8, '\0');
@@ -153,7 +153,7 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     CHECK(bytes(R"({"meshes": [{"obj": {"file": "a.obj"}}, {"obj": {"file": "a.obj"}}, {"x": "none.obj"}]})") == 2000);
     const std::uintmax_t vase = std::filesystem::file_size(folder / "vase.json");
     CHECK(bytes(R"({"objects": [{"name": "v", "file": "vase.json"}]})") == vase + 1000);
-    CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // no scene: its reader says so
+    CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // not a scene, which its reader reports
     // A stack of images is all of its layers; a colour is none.
     write_text(folder / "layer_01.pgm", std::string(100, ' '));
     write_text(folder / "layer_02.pgm", std::string(20, ' '));

@@ -1,5 +1,5 @@
-// Each kind of thing that a scene file can say: the least that it needs, and how it is read. What was read is told in
-// numbers, so that tests can ask whether a key has changed it without knowing its type.
+// Each kind of thing that a scene file can say: the least that it needs, and how it is read. What was read is
+// converted to numbers, so tests can check whether a key changes it without knowing its type.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -54,7 +54,7 @@ inline const support::TemporaryDirectory& folder() {
 }
 
 /// A kind of thing: where the schema describes it, the members that it needs at least, and how it is read. `text` is
-/// an object of its parameters; what is read is told in numbers that show what became of them.
+/// an object of its parameters; what is read is converted to numbers that depend on them.
 struct Case {
     std::string chapter, name, needed;
     std::string before, after;  ///< around the object, to make of it what the reader reads

@@ -100,6 +100,24 @@ std::optional<SceneError> error_of(const Case& c, const Document& document) {
     return std::nullopt;
 }
 
+/// Checks that "colour" and "center" are read as "color" and "centre" are, and that a key in both spellings is an
+/// error.
+void check_both_spellings(const Case& c, const std::string& key, const std::string& value) {
+    const Document usual = c.with(key, value);
+    std::string other = key;
+    for (const auto& [from, to] : {std::pair("color", "colour"), std::pair("centre", "center")})
+        if (const std::size_t at = key.find(from); at != key.npos) other.replace(at, std::string(from).size(), to);
+    REQUIRE(other != key);
+    const std::string in_file = fmt::format("\"{}\": ", key), in_other = fmt::format("\"{}\": ", other);
+    std::string text = usual.text();
+    const std::size_t at = text.rfind(in_file);
+    text.replace(at, in_file.size(), in_other);
+    CHECK(c.told(Document::from_text(text, usual.name())) == c.told(usual));
+    const auto error = error_of(c, Document::from_text(text.insert(at, in_file + value + ", "), usual.name()));
+    REQUIRE(error);
+    CHECK(error->message().find(fmt::format("has both \"{}\" and \"{}\"", key, other)) != std::string::npos);
+}
+
 /// Where the last occurrence of this begins, from 1.
 std::size_t column_of(const Document& document, const std::string& part) {
     const std::size_t found = document.text().rfind(part);
@@ -283,6 +301,7 @@ TEST_CASE("every key changes what is read") {
             const bool is_of_metal = c.name == "conductor" && key == "reflectance";
             if (others.contains(key) && !is_of_metal) value = others.at(key);
             CHECK(c.told(c.with(key, value)) != c.told(c.document(c.needed_with(key))));
+            if (has_other_spelling(key)) check_both_spellings(c, key, value);
         }
     }
 }
@@ -318,7 +337,7 @@ TEST_CASE("limits: refused outside, at the number's place, and accepted at the l
                 }
                 ++count;
             };
-            // As near as a float tells the two apart.
+            // As close as floats can distinguish.
             const auto beyond = [&](double limit, double sign) {
                 return is_integer ? limit + sign : limit + sign * std::max(std::abs(limit) * 1e-6, 1e-6);
             };

@@ -124,13 +124,13 @@ TEST_CASE("what is cold does not shine, and what is no temperature is rejected")
     CHECK(light(3000).first == doctest::Approx(light(6000).second).epsilon(1e-3));
     CHECK(light(750).first < 1e-12f);            // 300 K
     CHECK_FALSE(shines(folder.medium(hot(0))));  // a frame in which nothing burns
-    CHECK(folder.said_of(hot(1)).find("its greatest temperature would be 0.4 K; \"factor\" makes kelvin") !=
+    CHECK(folder.said_of(hot(1)).find("its highest temperature would be 0.4 K; use \"factor\" to convert") !=
           std::string::npos);
     std::string bright = hot(2e5) + R"(, "emission_temperature": 500)";
     bright.replace(bright.find("[5, 5, 5]"), 9, "[5e5, 5e5, 5e5]");
-    CHECK(folder.said_of(bright).find("where the medium is densest and hottest, it would emit more than 10²⁵") !=
+    CHECK(folder.said_of(bright).find("the emission of the densest and hottest part exceeds 10²⁵") !=
           std::string::npos);
-    CHECK(folder.said_of(hot(1e7)).find("its greatest temperature would be 4e+06 K") != std::string::npos);
+    CHECK(folder.said_of(hot(1e7)).find("its highest temperature would be 4e+06 K") != std::string::npos);
 }
 
 TEST_CASE("what is hot shines in proportion to its density") {
@@ -160,25 +160,27 @@ TEST_CASE("what does not go together is said at its place") {
     is_said(absorbs + R"("density_grid": {"file": "a.pgm"})", "needs \"spacing\"");
     is_said(absorbs + R"("density_grid": {"file": "a.vdb", "spacing": [1, 1, 1]})",
             "81: grids of OpenVDB have a spacing of their own");
-    is_said(absorbs + R"("density_grid": {IMAGE, "grid": "smoke"})", "images have no grids that this could name");
+    is_said(absorbs + R"("density_grid": {IMAGE, "grid": "smoke"})", "images have no named grids; remove \"grid\"");
     is_said(absorbs + R"("density_grid": {"file": "b.pgm", "spacing": [1, 1, 1]})", "72: cannot use the voxels");
-    is_said(R"("density_grid": {IMAGE})", "\"density_grid\" is of no use without \"scattering\" or \"absorption\"");
+    is_said(R"("density_grid": {IMAGE})", "\"density_grid\" requires \"scattering\" or \"absorption\"");
     is_said(absorbs + R"("density": {"sphere": {"radius": 1}}, "density_depth": 1, "density_grid": {IMAGE})",
             "\"density_grid\" and \"density\" exclude each other");
-    is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "is of no use without \"emission\"");
+    is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "requires \"emission\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "temperature_grid": {IMAGE})",
             "is of no use without \"density_grid\" or \"density\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "emission_spectrum": {"blackbody": 2000}, "density_grid": {IMAGE},
                          "temperature_grid": {IMAGE})",
             "\"temperature_grid\" and \"emission_spectrum\" exclude each other");
     is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e30, 0, 0]})",
-            "its voxels are too small for where they are");
+            "its voxels are too small for their distance");
     is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e7, 0, 0]})",
-            "its voxels are too small for where they are");
-    is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1.2e-38, "translate": [10, 10, 10]})", "too small for where");
-    is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1e20})", "its voxels would lie beyond 10¹⁵");
+            "its voxels are too small for their distance");
+    is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1.2e-38, "translate": [10, 10, 10]})",
+            "too small for their distance");
+    is_said(absorbs + R"("density_grid": {IMAGE, "scale": 1e20})",
+            "its voxels would be farther than 10¹⁵ from the origin");
     is_said(absorbs + R"("density_grid": {IMAGE, "factor": 1e38})",
-            "where the medium is densest, it would absorb and scatter more than 10¹⁵ times a metre");
+            "the absorption and scattering of the densest part exceed 10¹⁵ per metre");
 }
 
 }  // namespace test_voxels_of_scenes

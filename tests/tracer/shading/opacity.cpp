@@ -119,7 +119,7 @@ TEST_CASE("an image's alpha cuts a mesh out") {
 }
 
 TEST_CASE("what does not fit an opacity is said") {
-    CHECK(said(floor(R"(, "opacity_cutoff": 0.5)")).find("\"opacity_cutoff\" is that of an \"opacity\"") == 0);
+    CHECK(said(floor(R"(, "opacity_cutoff": 0.5)")).find("\"opacity_cutoff\" requires \"opacity\"") == 0);
     CHECK(said(floor(R"(, "opacity": 1.5)")).find("opacity") != std::string::npos);
     const phasetree::support::TemporaryDirectory folder;
     const std::string image = (folder / "a.png").string();
@@ -133,7 +133,7 @@ TEST_CASE("what does not fit an opacity is said") {
         return floor(R"(, "opacity": {"mesh_image": {"file": ")" + image + R"(", "channel": ")" + channel + "\"}}");
     };
     CHECK(said(by_image("red")).find("\"mesh_image\" needs texture coordinates") == 0);
-    CHECK(said(by_image("alpha")).find("it has no alpha") != std::string::npos);
+    CHECK(said(by_image("alpha")).find("it has no alpha channel") != std::string::npos);
 }
 
 }  // namespace test_opacity

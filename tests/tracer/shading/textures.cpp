@@ -101,11 +101,11 @@ TEST_CASE("textures by the tree: roughness and films, and what is wrong with a r
     CHECK(least_of(roughness) == 0.1f);
     CHECK(greatest_of(roughness) == 0.5f);
     CHECK(says(ramp("[[0, 0.1], [2, 1.5]]"), "1.5"));
-    CHECK(says(ramp("[[2, 0.1], [0, 0.5]]"), "must rise, but 0 follows 2"));
+    CHECK(says(ramp("[[2, 0.1], [0, 0.5]]"), "must increase, but 0 follows 2"));
     CHECK(says(ramp("[]"), "must be a list of stops"));
     CHECK(says(ramp("[[1]]"), "must be a list of two"));
     CHECK(says(R"({"diffuse": {"color": {"field": {"of": "pond", "ramp": [[0, [1, 1, 1]]]}}}})",
-               "there is no shape \"pond\""));
+               "unknown shape \"pond\""));
     const Scene film = sand_of(R"({"clear": {"ior": 1.5, "film_thickness": {"field": {"of": {"plane": {}},
         "ramp": [[0, 100], [1, 900]]}}, "film_ior": 1.4}})");
     CHECK(number_at(std::get<Clear>(film.materials[2]).film->thickness, glm::vec3(0, 0, 0.5f)) == doctest::Approx(500));
@@ -163,8 +163,8 @@ TEST_CASE("textures from images: sRGB is decoded, and each side of a solid gets 
     CHECK(glm::length(at({9, 1.5f, 1.5f}, {1, 0, 0}) - glm::vec3(0, 1, 0)) < 1e-4f);
     CHECK(at({1.5f, 0.5f, 9}, {0, 0, 1}).x == doctest::Approx(0.2158605f).epsilon(1e-4));  // of 128/255
     CHECK_FALSE(at({1.5f, 0.5f, 9}, {0, 0, 1}).x == doctest::Approx(1.01f * 0.2158605f).epsilon(1e-4));
-    CHECK(says(R"({"diffuse": {"color": {"image": {"file": "no_such_file.png"}}}})", "there is no such file"));
-    CHECK(says(R"({"diffuse": {"color": {"mesh_image": {"file": ")" + path.string() + R"("}}}})", "for meshes"));
+    CHECK(says(R"({"diffuse": {"color": {"image": {"file": "no_such_file.png"}}}})", "no such file"));
+    CHECK(says(R"({"diffuse": {"color": {"mesh_image": {"file": ")" + path.string() + R"("}}}})", "only on meshes"));
     std::filesystem::remove(path);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("a roughness by an image on a mesh: numbers as they are stored, betwee
     CHECK(says(white, "the range has 2", mesh_of(R"(, "range": [0, 2])", "1/1 2/2 3/3")));
     CHECK(says(white, "\"mesh_image\" needs texture coordinates", mesh_of("", "1 2 3")));
     CHECK(says(R"({"coated": {"color": [1, 1, 1], "roughness": {"mesh_image": {"file": ")" + path.string() + R"("}}}})",
-               "is for meshes"));
+               "works only on meshes"));
     std::filesystem::remove(path);
 }
 
@@ -252,8 +252,8 @@ TEST_CASE("colours of a mesh's vertices: sRGB is decoded, and between vertices t
         CHECK(glm::length(beside - expected - glm::vec3(-1, 1, 0) / 12.0f) < 1e-4f);
     }
     const std::string partly = "v -4 -4 2 1 0 0.5\nv 8 -4 2 0 1 0.5\nv -4 8 2\nf 1 2 3\n";
-    CHECK(says(white, "needs colours, which not all vertices", mesh_of("b.obj", partly)));
-    CHECK(says(R"({"diffuse": {"color": {"vertex_color": {}}}})", "is for meshes"));
+    CHECK(says(white, "needs colours, which some vertices", mesh_of("b.obj", partly)));
+    CHECK(says(R"({"diffuse": {"color": {"vertex_color": {}}}})", "works only on meshes"));
 }
 
 }  // namespace test_textures

@@ -192,7 +192,7 @@ TEST_CASE("a spectrum of which nothing is seen, as one in micrometres, is reject
         CHECK_THROWS_WITH_AS(
             spectral_scene(R"("a": {"diffuse": {"color": {"measured": {"reflectance": )" + std::string(points) + "}}}}",
                            ball_of_a),
-            doctest::Contains("light is from 380 to 780 nanometres"), phasetree::SceneError);
+            doctest::Contains("visible light ranges from 380 to 780 nanometres"), phasetree::SceneError);
     }
 }
 

@@ -126,12 +126,12 @@ TEST_CASE("a file of another kind, or of none, is rejected with a hint") {
         }
         return std::string();
     };
-    CHECK(said("obj", "scan.PLY") == "the name of the file must end with .obj; for scan.PLY use the mesh \"ply\"");
-    CHECK(said("ply", "scan.txt") == "the name of the file must end with .ply");
-    CHECK(said("obj", "room.gltf") == "the name of the file must end with .obj; for room.gltf use the mesh \"gltf\"");
+    CHECK(said("obj", "scan.PLY") == "the name of the file must end in .obj; for scan.PLY use the mesh \"ply\"");
+    CHECK(said("ply", "scan.txt") == "the name of the file must end in .ply");
+    CHECK(said("obj", "room.gltf") == "the name of the file must end in .obj; for room.gltf use the mesh \"gltf\"");
     CHECK(said("gltf", "room.obj") ==
-          "the name of the file must end with .gltf or .glb; for room.obj use the mesh \"obj\"");
-    CHECK(said("stl", "none.stl") == "there is no file none.stl");
+          "the name of the file must end in .gltf or .glb; for room.obj use the mesh \"obj\"");
+    CHECK(said("stl", "none.stl") == "no such file none.stl");
 }
 
 }  // namespace test_file_meshes

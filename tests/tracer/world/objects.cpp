@@ -61,7 +61,7 @@ std::string error_of(const std::string& rest) {
     return "";
 }
 
-/// A binary file of places that says that it has so many, with what else of it.
+/// A binary file of instances that declares this number of them, followed by these bytes.
 void write_places(const std::string& name, std::uint64_t says, const std::vector<float>& floats,
                   const char* magic = "PTPLACES") {
     std::string bytes(magic);
@@ -175,8 +175,9 @@ TEST_CASE("what is wrong with objects is said") {
     const auto with = [&](const std::string& more) { return error_of(one + ", " + more); };
     CHECK(error_of(one).empty());
     CHECK(error_of(R"("objects": [])") == "\"objects\" must be a list of at least one object");
-    CHECK(error_of(R"("objects": [{"name": "a"}])") == "an object has either \"tree\" or \"file\"");
-    CHECK(error_of(std::string(R"("objects": [)") + ball + ", " + ball + "]") == "there is another object \"ball\"");
+    CHECK(error_of(R"("objects": [{"name": "a"}])") == "an object must have either \"tree\" or \"file\"");
+    CHECK(error_of(std::string(R"("objects": [)") + ball + ", " + ball + "]") ==
+          "another object is already named \"ball\"");
     CHECK(error_of(R"("objects": [{"name": "a", "file": "nothing.json"}])") == "\"nothing.json\" has no \"tree\"");
     CHECK(error_of(R"("objects": [{"name": "a", "file": "absent.json"}])").find("absent.json: no such file") == 0);
     CHECK(!error_of(R"("objects": [{"name": "a", "file": "no.json"}])").empty());
@@ -185,9 +186,9 @@ TEST_CASE("what is wrong with objects is said") {
             R"("objects": [{"name": "a", "file": "other.json", "phases": {"golf": {"diffuse": {"color": [1, 0, 0]}}}}])") ==
         "the object has no phase \"golf\"");
     CHECK(error_of(R"("tree": {"set": {"phase": "red", "of": "round"}}, "instances": [{"of": "a"}])") ==
-          "\"instances\" is of no use without \"objects\"");
-    CHECK(with(R"("instances": [{"of": "bell"}])") == "there is no object or group \"bell\"");
-    CHECK(with(R"("groups": {"a": [{"of": "b"}], "b": [{"of": "a"}]})") == "the group \"a\" is made of itself");
+          "\"instances\" requires \"objects\"");
+    CHECK(with(R"("instances": [{"of": "bell"}])") == "unknown object or group \"bell\"");
+    CHECK(with(R"("groups": {"a": [{"of": "b"}], "b": [{"of": "a"}]})") == "the group \"a\" contains itself");
     // Whether a group stands before or after those of which it is made.
     for (const bool is_outermost_first : {false, true})
         for (const int depth : {32, 33}) {
@@ -198,15 +199,13 @@ TEST_CASE("what is wrong with objects is said") {
                           fmt::format(R"("g{}": [{{"of": "{}"}}])", n, n > 1 ? "g" + std::to_string(n - 1) : "ball");
             }
             CHECK(with("\"groups\": {" + groups + "}, \"instances\": [{\"of\": \"g1\"}]") ==
-                  (depth > 32 ? "more than 32 groups are nested" : ""));
+                  (depth > 32 ? "groups are nested more than 32 levels deep" : ""));
         }
     CHECK(with(R"("groups": {"a": [{"of": "ball"}]})") ==
-          "no object stands anywhere: all are in groups, and there are no \"instances\"");
+          "the scene is empty: all objects are in groups, and there are no \"instances\"");
     CHECK(with(R"("instances": [{"of": "ball", "transforms": [[1, 2]]}])") ==
-          "a place is [x, y, z], where the origin goes, or a list of 12 numbers");
-    const std::string flat =
-        "the transform makes what stands there flat, or takes it too far away, or makes it too "
-        "large or too small";
+          "an instance must be [x, y, z], the image of the origin, or a list of 12 numbers");
+    const std::string flat = "the transform is singular, or moves or scales the object beyond what can be traced";
     CHECK(with(R"("instances": [{"of": "ball", "transforms": [[1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0]]}])") == flat);
     CHECK(with(R"("instances": [{"of": "ball", "transform": {"affine": {"x": [0, 1, 0]}}}])") == flat);
     CHECK(with(R"("instances": [{"of": "ball", "transform": {"translate": {"by": [0, 0, 1e16]}}}])") == flat);
@@ -227,24 +226,24 @@ TEST_CASE("files of places are checked to the last byte") {
     };
     write_places("good", 2, two_places);
     CHECK(error("good").empty());
-    CHECK(error("none") == "\"none\" is no file that can be read");
-    CHECK(error(".") == "\".\" is no file that can be read");
+    CHECK(error("none") == "\"none\" is not a readable file");
+    CHECK(error(".") == "\".\" is not a readable file");
     write_places("magic", 2, two_places, "PTPLACED");
-    CHECK(error("magic") == "\"magic\" is no file of places: it does not begin with PTPLACES and a number");
+    CHECK(error("magic") == "\"magic\" is not a file of instances: it does not begin with PTPLACES and a number");
     write_text(folder() / "short", "PTPLACES123");
-    CHECK(error("short") == "\"short\" is no file of places: it does not begin with PTPLACES and a number");
+    CHECK(error("short") == "\"short\" is not a file of instances: it does not begin with PTPLACES and a number");
     write_places("cut", 3, two_places);
-    CHECK(error("cut") == "\"cut\" says that it has 3 places, which take 160 bytes, but it has 112 bytes");
+    CHECK(error("cut") == "\"cut\" declares 3 instances, which take 160 bytes, but has 112 bytes");
     write_places("long", 1, two_places);
-    CHECK(error("long") == "\"long\" says that it has 1 places, which take 64 bytes, but it has 112 bytes");
+    CHECK(error("long") == "\"long\" declares 1 instances, which take 64 bytes, but has 112 bytes");
     write_places("huge", ~std::uint64_t{0}, two_places);
-    CHECK(error("huge") == "\"huge\" has 18446744073709551615 places; at most 20000000 can be read");
+    CHECK(error("huge") == "\"huge\" has 18446744073709551615 instances; the limit is 20000000");
     write_places("empty", 0, {});
-    CHECK(error("empty") == "\"empty\" has no places");
+    CHECK(error("empty") == "\"empty\" has no instances");
     std::vector<float> bad = two_places;
     bad[14] = std::numeric_limits<float>::quiet_NaN();
     write_places("nan", 2, bad);
-    CHECK(error("nan").starts_with("\"nan\" has a place, number 1 from 0, that cannot be used"));
+    CHECK(error("nan").starts_with("\"nan\" has an unusable instance, number 1 counted from 0"));
 }
 
 TEST_CASE("overlaps are found, and touching is none") {

@@ -16,7 +16,7 @@ inline CLI::Option* add_build_quality(CLI::App& command, BuildQuality& quality) 
     return command
         .add_option_function<std::string>(
             "--build-quality", choose,
-            "low, for a quick look, or medium (default): how much is built before rays are traced")
+            "low prepares the object faster, for previews; medium, the default, traces rays faster")
         ->option_text("NAME");
 }
 

@@ -69,14 +69,14 @@ void add_carved(nlohmann::ordered_json& json, const std::vector<CarvedPart>& par
 void print_carved(const std::vector<CarvedPart>& parts) {
     for (const CarvedPart& part : parts) {
         const CarvedBounds& c = part.bounds;
-        const std::string name = part.name.empty() ? "the whole" : part.name;
+        const std::string name = part.name.empty() ? "whole object" : part.name;
         if (c.box.empty()) {
-            put("{:<14}{}: nothing is left of it\n", "carved", name);
+            put("{:<14}{}: empty\n", "carved", name);
             continue;
         }
-        put("{:<14}{}: {} planes, volume {:.4g}, {:.0f} % of its box's; {} evaluations{}\n", "carved", name,
+        put("{:<14}{}: {} planes, volume {:.4g}, {:.0f} % of its bounding box; {} evaluations{}\n", "carved", name,
             c.planes.size(), c.volume, 100 * c.volume / volume_of(c.box), c.evaluations,
-            c.is_within_tolerance ? "" : ", larger than it need be");
+            c.is_within_tolerance ? "" : "; not within the tolerance");
     }
 }
 

@@ -19,10 +19,10 @@ void add_cells(nlohmann::ordered_json& json, const CellStatistics& s) {
 
 void print_cells(const CellStatistics& s) {
     put("{:<14}{} with {} different programs\n", "cells", s.cells, s.routines);
-    put("{:<14}{} instructions or fewer in half of the cells, {} in nine of ten, {} at most\n", "  programs",
-        s.median_instructions, s.percentile90_instructions, s.most_instructions);
+    put("{:<14}median {} instructions, 90th percentile {}, maximum {}\n", "  programs", s.median_instructions,
+        s.percentile90_instructions, s.most_instructions);
     put("{:<14}{}\n", "  bytes", s.bytes);
-    if (s.is_coarser) put("{:<14}rays are slower than with more of it (--max-memory)\n", "  memory");
+    if (s.is_coarser) put("{:<14}limited; tracing is faster with a larger --max-memory\n", "  memory");
     put("{:<14}{:.3f} s\n", "  build time", s.build_seconds);
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include "command/empty_object.hpp"
+#include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/not_shown_report.hpp"
 #include "command/overlap_report.hpp"
@@ -31,28 +32,30 @@ int check_without_camera(const Document& document, const std::string& shown) {
     const SceneModel model = read_scene_without_camera(document);
     warn_of_unused_names(document, model.phases, phases_of(model.object, model.placed));
     if (has_meshes_alone(document)) {
-        put("{}: the meshes are sound, for info; the scene has no \"camera\", so it cannot be rendered\n", shown);
-        return only_a_tree;
+        put("{}: the meshes are valid and can be used by info; without a \"camera\" the scene cannot be rendered\n",
+            shown);
+        return exit_code::tree_only;
     }
     if (!model.placed.empty()) {
         warn_of_unplaced_groups(document, model.placed);
         warn_of_overlaps(document, model.placed);
-        put("{}: the objects are sound, for eval, info and trace; the scene has no \"camera\", so it cannot be "
-            "rendered\n",
+        put("{}: the objects are valid and can be used by eval, info and trace; without a \"camera\" the scene cannot "
+            "be rendered\n",
             shown);
-        return only_a_tree;
+        return exit_code::tree_only;
     }
     const SceneTree tree{model.phases, model.object};
     const Evaluator evaluator(record_tree(document, tree.object));
-    std::string rays = "eval, info, trace and programs that trace rays";
+    std::string uses = "eval, info, trace and other programs";
     const Bounds b = bounds(tree.object);
     if (!b.empty() && b.finite())
         print_warning(shown, made_of_tree(document, [&] { return prepare_to_trace(tree.object); }).warning);
     else if (!b.empty())
-        rays = "eval and info; it is unbounded, so rays cannot be traced";
+        uses = "eval and info, but not traced, because it is unbounded";
     if (is_empty(tree.object, evaluator)) say("{}\n", empty_object_warning(document));
-    put("{}: the tree is sound, for {}; the scene has no \"camera\", so it cannot be rendered\n", shown, rays);
-    return only_a_tree;
+    put("{}: the tree is valid and can be used by {}; without a \"camera\" the scene cannot be rendered\n", shown,
+        uses);
+    return exit_code::tree_only;
 }
 
 int check(const SceneFile& file) {
@@ -80,12 +83,11 @@ int check(const SceneFile& file) {
 }  // namespace
 
 void add_check(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand(
-        "check", "Validate a scene file: silent and 0 if all is well, else warnings and 0, or the error and 2");
+    CLI::App* command = app.add_subcommand("check", "Validate a scene file");
     command->footer(
-        "What render would refuse is an error, and so are mistakes in what render would not look\n"
-        "at. A scene without a camera is checked as far as it goes; then what it is good for is\n"
-        "said and the exit code is 3.");
+        "If the scene is valid, check exits with 0 and prints nothing but warnings. Otherwise it\n"
+        "prints the error and exits with 2. Parts that render ignores must be valid, too. For a\n"
+        "valid scene without a camera, check prints what it can be used for and exits with 3.");
     const auto file = add_scene_file(*command);
     command->callback([file, &run] { run = [file] { return check(*file); }; });
 }

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "command/option_error.hpp"
+#include "command/errors.hpp"
 #include "command/streams.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
@@ -19,18 +19,18 @@ auto as_option(F&& f) {
     try {
         return f();
     } catch (const DenoiseError& e) {
-        throw OptionError(fmt::format("--denoise: {}", e.what()));
+        throw UsageError(fmt::format("--denoise: {}", e.what()));
     }
 }
 
 }  // namespace
 
 void add_denoise(CLI::App& command, std::optional<std::string>& denoise) {
-    command.add_flag("--denoise{best}", denoise,
-                     "Take noise out of the finished picture, guided by what the surfaces are like that it shows; the "
-                     "result is smoother and biased. A .exr keeps what was sampled as noisy.R, noisy.G and noisy.B. By "
-                     "Open Image Denoise where phasetree was "
-                     "built with it, or --denoise=regression, which gives the same bits everywhere");
+    command.add_flag(
+        "--denoise{best}", denoise,
+        "Denoise the finished picture, which makes it smoother but biased. An .exr keeps the noisy picture "
+        "as noisy.R, noisy.G and noisy.B. Uses Open Image Denoise if phasetree was built with it; "
+        "--denoise=regression gives the same bits on every machine");
 }
 
 Denoiser denoiser_of(const std::string& text) {
@@ -43,14 +43,14 @@ void check_denoising(const std::string& denoise, int samples) {
 }
 
 void check_denoising(const Planes::Choice& kept, bool has_pictures) {
-    if (!has_pictures) throw OptionError("--denoise is for pictures, and all outputs are .part files");
+    if (!has_pictures) throw UsageError("--denoise needs a picture to write, but all outputs are .part files");
     if ((kept & denoising_planes()) != denoising_planes())
-        throw OptionError("--denoise needs parts that were rendered with --denoise");
+        throw UsageError("--denoise needs parts that were rendered with --denoise; render them again with it");
 }
 
 void denoise_picture(Image& image, const Denoising& how) {
     if (how.was_interrupted) {
-        say("phasetree: interrupted; the image is not denoised\n");
+        say("phasetree: interrupted; the picture is not denoised\n");
         return;
     }
     LateProgress progress(ProgressOutput::standard_error(how.quiet), "denoising");
@@ -60,9 +60,9 @@ void denoise_picture(Image& image, const Denoising& how) {
     job.progress = [&](double done) { progress.tell(done); };
     job.cancelled = [] { return interrupted(); };
     try {
-        if (!denoise_in_place(image, job)) say("phasetree: interrupted; the image is not denoised\n");
+        if (!denoise_in_place(image, job)) say("phasetree: interrupted; the picture is not denoised\n");
     } catch (const DenoiseError& e) {
-        say("phasetree: the image is not denoised: {}\n", e.what());
+        say("phasetree: warning: the picture is not denoised: {}\n", e.what());
     }
 }
 

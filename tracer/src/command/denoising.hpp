@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "denoise/as_asked.hpp"
+#include "denoise/apply.hpp"
 #include "film/image.hpp"
 #include "film/planes.hpp"
 
@@ -16,13 +16,13 @@ namespace phasetree::tracer {
 
 // Adds the option --denoise. Without it, pictures are not denoised.
 void add_denoise(CLI::App& command, std::optional<std::string>& denoise);
-// Parses the option's value. Throws OptionError.
+// Parses the option's value. Throws UsageError.
 Denoiser denoiser_of(const std::string& text);
 
 // Checks that a picture with this many samples per pixel, over all shares, can be denoised as requested. Throws
-// OptionError.
+// UsageError.
 void check_denoising(const std::string& denoise, int samples);
-// Checks that a film with these planes can be denoised, and that a picture is to be written. Throws OptionError.
+// Checks that a film with these planes can be denoised, and that a picture is to be written. Throws UsageError.
 void check_denoising(const Planes::Choice& kept, bool has_pictures);
 
 struct Denoising {

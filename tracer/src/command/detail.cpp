@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "command/option_error.hpp"
+#include "command/errors.hpp"
 #include "phasetree/tree/levels_of_detail.hpp"
 
 namespace phasetree::tracer {
@@ -28,7 +28,7 @@ float least_pixel_angle(const Camera& camera, const FilmSettings& film) {
 
 void choose_levels_of_detail(Scene& scene, float pixels) {
     if (std::holds_alternative<OrthographicParameters>(scene.camera))
-        throw OptionError("--detail needs a camera whose rays start in one place, not an orthographic one");
+        throw UsageError("--detail needs a camera whose rays start at one point, so it cannot be orthographic");
     const Camera camera(scene.camera, {scene.film.width, scene.film.height});
     const float angle = pixels * least_pixel_angle(camera, scene.film);
     scene.object = with_levels_of_detail(scene.object, {.position = position_of(scene.camera), .angle = angle});

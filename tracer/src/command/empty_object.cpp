@@ -27,7 +27,8 @@ bool is_empty(const Phased& object, const Evaluator& evaluator) {
 }
 
 std::string empty_object_warning(const Document& document) {
-    return document.error(model_in(document), "warning: the object is empty: nothing of it is left, so no ray meets it")
+    return document
+        .error(model_in(document), "warning: the object is empty: everything has been cut away, so no ray hits it")
         .what();
 }
 

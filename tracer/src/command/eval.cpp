@@ -44,18 +44,19 @@ int eval(const SceneFile& file, const std::optional<std::string>& object) {
 }  // namespace
 
 void add_eval(CLI::App& app, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("eval", "Read points \"x y z\" and write the phase and all distances there as CSV");
+    CLI::App* command = app.add_subcommand("eval", "Print the phase and the distances at points, as CSV");
     command->footer(
-        "Standard input: one point per line, three numbers with blanks or commas between them; #\n"
-        "begins a comment. Or CSV with a header that names the columns x, y and z, such as this\n"
-        "command's own output.\n"
-        "Standard output: x,y,z,phase,phi.vacuum,phi.NAME…, one line per point. phi is the signed\n"
-        "distance to a phase, negative inside it; empty for phases that the object never has. With\n"
-        "several objects, object,copy follow phase: the name of the object that holds the point, and\n"
-        "the number of its copy.\n"
-        "The whole scene file is checked, but needs no camera and no lights, and the files of lights,\n"
-        "meshes, textures and voxels are not opened.");
+        "Reads one point per line, \"x y z\", from standard input, separated by blanks or commas; #\n"
+        "begins a comment. Also reads CSV with a header that names the columns x, y and z, such as\n"
+        "the output of this command.\n"
+        "\n"
+        "Writes one line per point, x,y,z,phase,phi.vacuum,phi.NAME…, to standard output. phi is the\n"
+        "signed distance to a phase, negative inside it. It is empty for phases that the object never\n"
+        "has. With several objects, the columns object,copy follow phase: the name of the object that\n"
+        "contains the point, and the number of its copy.\n"
+        "\n"
+        "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
+        "lights, meshes, textures and voxels are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "command/commands.hpp"
+#include "command/errors.hpp"
+#include "command/exit_codes.hpp"
 #include "command/export_mesh.hpp"
 #include "command/load.hpp"
 #include "command/looks.hpp"
@@ -97,14 +99,16 @@ int export_page(const SceneFile& file, const ExportOptions& chosen) {
             const std::string page = make_page(title, shader, bounds, looks, view, floor);
             if (page.size() > largest_page) continue;
             write_file(page, path);
-            return 0;
+            return exit_code::success;
         }
     } catch (const BuildCancelled&) {
-        say("phasetree: interrupted; nothing is written\n");
-        return 1;
+        say("phasetree: interrupted; no file was written\n");
+        return code_of_interruption(false);
     }
-    throw OutputError(
-        fmt::format("cannot write \"{}\": the page would be larger than {} kB", chosen.output, largest_page / 1000));
+    throw UsageError(
+        fmt::format("cannot write \"{}\": the object is too complex for a page of at most {} kB; export a "
+                    "simpler one",
+                    chosen.output, largest_page / 1000));
 }
 
 int export_shader(const SceneFile& file, const ExportOptions& chosen) {
@@ -130,19 +134,19 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
         if (!shader.numbers.empty()) write_file(numbers_as_bytes(shader.numbers), numbers_path);
         write_file(shader.text, path);
     } catch (const BuildCancelled&) {
-        say("phasetree: interrupted; nothing is written\n");
-        return 1;
+        say("phasetree: interrupted; no file was written\n");
+        return code_of_interruption(false);
     }
-    return 0;
+    return exit_code::success;
 }
 
 // Rejects options that do not apply to files with this extension.
 void check_options(const CLI::App& command, const std::string& extension) {
     const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
-    if (extension != ".glsl" && is_given("--grid")) throw InputError("--grid is for .glsl");
+    if (extension != ".glsl" && is_given("--grid")) throw UsageError("--grid is for .glsl files only");
     for (const char* name : {"--spacing", "--scale", "--phase", "--max-memory"})
         if (!is_mesh_extension(extension) && is_given(name))
-            throw InputError(fmt::format("{} is for triangles, and {} has none", name, extension));
+            throw UsageError(fmt::format("{} is for triangles, and {} files have none", name, extension));
 }
 
 // A validator for CLI11: returns an empty string if the text is a finite number above 0.
@@ -157,50 +161,49 @@ std::function<std::string(const std::string&)> is_positive(const std::string& wh
 }  // namespace
 
 void add_export(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("export", "Write a scene's object for other programs");
+    CLI::App* command = app.add_subcommand("export", "Write the object as triangles, a web page or a shader");
     command->footer(
-        "The extension of FILE says what is written.\n"
-        ".glsl: functions in GLSL ES 3.00 (WebGL 2) and GLSL 3.30 for the distances, the label,\n"
-        "normals and rays from phase to phase; comments at its top say how they are called. If it\n"
-        "has more numbers than a shader can hold they are in FILE with the extension .f32: 32-bit\n"
-        "floats, lowest byte first, for a texture of format RGBA32F that is 1024 texels wide.\n"
-        ".html: a page of at most 500 kB that shows the object in a browser with WebGL 2, from disk\n"
-        "and without a net. Drag to turn, with shift or the right button to move, scroll to zoom;\n"
-        "arrows, +, - and 0 do the same; phases can be hidden, and a plane cuts the object open.\n"
-        ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface; where two touch they\n"
-        "share its triangles' corners, so there are neither gaps nor overlaps. .3mf, for printers, and\n"
-        ".obj and .glb have an object of its own for each phase, with its colour; .obj has a file .mtl\n"
-        "beside it; a unit of length is a millimetre in .3mf, a metre in .glb. .stl has what bounds\n"
-        "all phases together or, with {phase} in the name of FILE, a file for each. .ply has each\n"
-        "triangle once, with the phases on both of its sides. Another --max-memory may change last\n"
-        "digits.");
+        "The extension of FILE selects the format.\n"
+        "\n"
+        ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface. Neighbouring phases\n"
+        "share vertices, so there are no gaps or overlaps. .3mf, .obj and .glb have one coloured object\n"
+        "per phase; an .obj comes with an .mtl. The unit of length is a millimetre in .3mf and a metre\n"
+        "in .glb. An .stl has the outer surface of all phases; with {phase} in its name, one file per\n"
+        "phase is written. A .ply has each triangle once, with the phases on both sides. Another\n"
+        "--max-memory may change the last digits of coordinates.\n"
+        "\n"
+        ".html: a page of at most 500 kB that shows the object in a browser with WebGL 2, offline. It\n"
+        "can be rotated, moved and zoomed; phases can be hidden, and a plane cuts the object open.\n"
+        "\n"
+        ".glsl: functions in GLSL ES 3.00 (WebGL 2) and GLSL 3.30 for distances, labels, normals and\n"
+        "rays from phase to phase. Comments at the top explain how to call them. If there are more\n"
+        "numbers than a shader can hold, they are written to FILE with the extension .f32, as\n"
+        "little-endian 32-bit floats for an RGBA32F texture that is 1024 texels wide.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<ExportOptions>();
     add_object(*command, options->object);
-    command->add_option("-o,--output", options->output, "The file to write")->required()->option_text("FILE");
+    command->add_option("-o,--output", options->output, "Output file")->required()->option_text("FILE");
     command
         ->add_option("--grid", options->grid,
-                     "Of a shader: divide the object's bounds into boxes, this many along the longest side, and "
-                     "evaluate in each "
-                     "only what matters there; 0 for none (default: 0)")
+                     "Shaders: divide the bounds into boxes, this many along the longest side, and evaluate in each "
+                     "box only the nodes that matter there; 0 turns this off (default: 0)")
         ->check(CLI::Range(0, 64))
         ->option_text("N");
     command
         ->add_option("--spacing", options->mesh.spacing,
-                     "Of triangles: the distance of the grid's points, about the size of the smallest that is kept "
-                     "(default: a 256th of the longest side)")
+                     "Triangles: distance between grid points. Smaller details are lost (default: 1/256 of the longest "
+                     "side)")
         ->check(is_positive("a length such as 0.1"), "", "length")
         ->option_text("LENGTH");
     command
         ->add_option(
             "--scale", options->mesh.scale,
-            "Of triangles: how much larger they are than the scene, such as 25.4 for a scene in inches that is "
-            "to be printed (default: 1)")
+            "Triangles: enlarge the object by this factor, such as 25.4 to print a scene in inches (default: 1)")
         ->check(is_positive("a factor such as 25.4"), "", "factor")
         ->option_text("FACTOR");
     command
         ->add_option("--phase", options->mesh.phases,
-                     "Of triangles: a phase that is to be written; may be repeated (default: all but the vacuum)")
+                     "Triangles: write only this phase; may be repeated (default: all but the vacuum)")
         ->option_text("NAME");
     add_max_memory(*command, options->mesh.most_bytes);
     command->callback([=, &run] {
@@ -215,9 +218,9 @@ void add_export(CLI::App& app, Run& run) {
                 options->mesh.object = options->object;
                 return export_mesh(*file, options->mesh);
             }
-            throw OutputError(fmt::format(
-                "cannot write \"{}\": {}, and an export is .3mf, .stl, .obj, .glb, .ply, .html or .glsl",
-                options->output, extension.empty() ? "it has no extension" : "its extension is \"" + extension + "\""));
+            throw OutputNameError(fmt::format(
+                "cannot write \"{}\": {}; use .3mf, .stl, .obj, .glb, .ply, .html or .glsl", options->output,
+                extension.empty() ? "its name has no extension" : "unknown format \"" + extension + "\""));
         };
     });
 }

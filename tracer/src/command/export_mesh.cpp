@@ -5,6 +5,8 @@
 #include <memory>
 #include <set>
 
+#include "command/errors.hpp"
+#include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/looks.hpp"
 #include "command/numbers.hpp"
@@ -45,10 +47,10 @@ PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
     for (const std::string& name : wanted.phases) {
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.begin())
-            throw InputError("--phase vacuum: the vacuum is all around, and has no surface of its own");
+            throw UsageError("--phase vacuum: the vacuum surrounds the object and cannot be exported");
         if (found == names.end()) {
             const auto meant = closest(name, names);
-            throw InputError(fmt::format("--phase: there is no phase \"{}\"{}", name,
+            throw UsageError(fmt::format("--phase: unknown phase \"{}\"{}", name,
                                          meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
         }
         chosen = chosen | PhaseSet::of(Phase{static_cast<std::uint8_t>(found - names.begin())});
@@ -95,8 +97,8 @@ std::vector<std::pair<Phase, path>> stl_files(const MeshExport& wanted, PhaseSet
         const Phase phase{static_cast<std::uint8_t>(i)};
         const path file = file_of_phase(wanted.output, names[phase]);
         if (!taken.insert(file).second)
-            throw InputError(
-                fmt::format("two phases would be written to \"{}\": choose one with --phase", file.string()));
+            throw UsageError(
+                fmt::format("two phases would be written to \"{}\"; choose one with --phase", file.string()));
         files.emplace_back(phase, file);
     });
     return files;
@@ -124,17 +126,19 @@ void say_what_is_lost(const MeshedObject& object) {
     const PhaseMesh& mesh = object.mesh;
     for (const Phase phase : object.phases())
         if (!(surface_of(mesh, PhaseSet::of(phase)).volume() > 0))
-            say("phasetree: \"{}\" is so much thinner than the spacing of {:.4g} that its surface is inside out\n",
+            say("phasetree: warning: the surface of \"{}\" is inside out, because it is much thinner than the spacing "
+                "of "
+                "{:.4g}; reduce --spacing\n",
                 object.look(phase).name, mesh.spacing);
     for_each_phase(object.chosen.bits & ~mesh.phases().bits, [&](int i) {
-        say("phasetree: \"{}\" has no triangles: it is nowhere, or thinner than the spacing of {:.4g}\n",
+        say("phasetree: warning: \"{}\" has no triangles: it is absent, or thinner than the spacing of {:.4g}\n",
             object.looks[static_cast<std::size_t>(i)].name, mesh.spacing);
     });
     const double share =
         mesh.crossings > 0 ? static_cast<double>(mesh.passed_over) / static_cast<double>(mesh.crossings) : 0;
     if (share > share_of_edges)
-        say("phasetree: {:.0f} in 100 crossings along the grid are passed over, at edges and where phases are thinner "
-            "than the spacing of {:.4g}\n",
+        say("phasetree: warning: {:.0f} % of the crossings along the grid were missed, at edges and where phases are "
+            "thinner than the spacing of {:.4g}; reduce --spacing\n",
             100 * share, mesh.spacing);
 }
 
@@ -164,12 +168,12 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     MeshOptions options;
     options.spacing = wanted.spacing;
     options.cancelled = [] { return interrupted(); };
-    LateProgress meshing(ProgressOutput::standard_error(false), "making the mesh");
+    LateProgress meshing(ProgressOutput::standard_error(false), "meshing the object");
     options.progress = [&](float done) { meshing.tell(done); };
     try {
         object.mesh = mesh_of(bounds, embree::line_tracer(prepared->scene()), options);
     } catch (const ModelError& e) {
-        throw InputError(fmt::format("--spacing: {}", e.what()));
+        throw UsageError(fmt::format("--spacing: {}", e.what()));
     }
     return object;
 }
@@ -181,13 +185,13 @@ void check_scale(const PhaseMesh& mesh, float scale) {
     for (const glm::vec3& v : mesh.vertices)
         farthest = std::max({farthest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (farthest * scale > most || mesh.spacing * scale < 1 / most)
-        throw InputError(fmt::format("--scale {}: what is written would be too {}", scale,
+        throw UsageError(fmt::format("--scale {}: the coordinates would be too {} for other programs", scale,
                                      farthest * scale > most ? "large" : "small"));
 }
 
-int said_interrupted() {
-    say("phasetree: interrupted; nothing is written\n");
-    return 1;
+int report_interruption() {
+    say("phasetree: interrupted; no file was written\n");
+    return code_of_interruption(false);
 }
 
 }  // namespace
@@ -199,7 +203,8 @@ bool is_mesh_extension(std::string_view extension) {
 int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     const AvailableThreads threads;
     if (is_file_for_each_phase(wanted) && path(wanted.output).extension() != ".stl")
-        throw InputError(fmt::format("{} is for .stl: the other formats have all phases in one file", phase_in_name));
+        throw UsageError(
+            fmt::format("{} requires an .stl file; the other formats store all phases in one file", phase_in_name));
     const Document document = read_document(file);
     const SceneTree tree = read_model(document, wanted.object);
     const InterruptGuard guard;
@@ -207,13 +212,14 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     try {
         object = meshed(file, wanted, document, tree);
     } catch (const BuildCancelled&) {
-        return said_interrupted();
+        return report_interruption();
     } catch (const MeshingCancelled&) {
-        return said_interrupted();
+        return report_interruption();
     }
     if (object.phases().empty())
-        throw OutputError(fmt::format("cannot write \"{}\": there would be no triangles in it, at a spacing of {:.4g}",
-                                      wanted.output, object.mesh.spacing));
+        throw UsageError(
+            fmt::format("cannot write \"{}\": there are no triangles at a spacing of {:.4g}; reduce --spacing",
+                        wanted.output, object.mesh.spacing));
     say_what_is_lost(object);
     check_scale(object.mesh, wanted.scale);
     for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
@@ -221,9 +227,9 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
     try {
         write_mesh(object, wanted, tree.phases);
     } catch (const std::length_error& e) {
-        throw OutputError(fmt::format("cannot write \"{}\": {}", wanted.output, e.what()));
+        throw UsageError(fmt::format("cannot write \"{}\": {}", wanted.output, e.what()));
     }
-    return 0;
+    return exit_code::success;
 }
 
 }  // namespace phasetree::tracer

@@ -5,9 +5,9 @@
 
 #include "command/commands.hpp"
 #include "command/denoising.hpp"
+#include "command/errors.hpp"
 #include "command/farm_scripts.hpp"
 #include "command/load.hpp"
-#include "command/option_error.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
 
@@ -23,7 +23,7 @@ struct FarmOptions {
     std::string folder, program = "phasetree";
 };
 
-// Parses what follows "--" as `render` would. Throws OptionError.
+// Parses the options after "--" as `render` would. Throws UsageError.
 RenderOptions render_options(const FarmOptions& options) {
     CLI::App app;
     RenderOptions render;
@@ -34,15 +34,16 @@ RenderOptions render_options(const FarmOptions& options) {
     try {
         app.parse(words);
     } catch (const CLI::ParseError& e) {
-        throw OptionError(fmt::format("what follows -- is for render, which says: {}", e.what()));
+        throw UsageError(fmt::format("options after -- are for render, which reports: {}", e.what()));
     }
     if (!render.outputs.empty() || render.share || render.checkpoint || render.resume || render.stats)
-        throw OptionError(
-            "what follows -- is for every share: --output, --samples, --checkpoint, --resume and --stats are not");
+        throw UsageError(
+            "--output, --sample-range, --checkpoint, --resume and --stats are not allowed after --, because the same "
+            "options go to every share");
     if (render.frames)
-        throw OptionError("a farm shares the samples of one picture: name its time by --at, before the --");
-    if (render.scene->at) throw OptionError("--at is for before the --");
-    if (render.time_seconds > 0) throw OptionError("--time is not for shares, which have all of their samples");
+        throw UsageError("--frames is not allowed: a farm renders one picture; put --at before -- to choose its time");
+    if (render.scene->at) throw UsageError("--at is not allowed after --; put it before --");
+    if (render.time_seconds > 0) throw UsageError("--time is not allowed: a share needs all of its samples");
     return render;
 }
 
@@ -57,32 +58,33 @@ void check_limits(const Farm& farm) {
     constexpr std::size_t longest_name = 255, longest_line = (128 << 10) - 1;
     const std::string part = std::filesystem::path(part_of_share(farm, farm.shares - 1)).filename().string();
     if (part.size() > longest_name)
-        throw OptionError(
-            fmt::format("the parts' names would have {} bytes, such as \"{}\"; file systems allow {}, so "
-                        "give the scene file a shorter name",
-                        part.size(), part, longest_name));
+        throw UsageError(
+            fmt::format("names of parts such as \"{}\" would have {} bytes, and file systems allow {}; give the scene "
+                        "file a shorter name",
+                        part, part.size(), longest_name));
     if (const std::size_t bytes = longest_merge_line(farm); bytes > longest_line)
-        throw OptionError(
-            fmt::format("--merge-width {}: the command line of a merge would have {} bytes, and Linux "
-                        "allows {}; let a merge read fewer parts",
-                        farm.most_parts, bytes, longest_line));
+        throw UsageError(fmt::format(
+            "--merge-width {}: the command line of a merge would have {} bytes, and Linux allows {}; choose "
+            "a smaller number",
+            farm.most_parts, bytes, longest_line));
 }
 
 int write_farm(const FarmOptions& options) {
     if (options.kind != "slurm" && options.kind != "list")
-        throw OptionError(fmt::format("a farm is \"slurm\" or \"list\", not \"{}\"", options.kind));
+        throw UsageError(fmt::format("the kind of farm must be slurm or list, but is \"{}\"", options.kind));
     if (options.kind != "slurm" && options.most_running > 0)
-        throw OptionError(
-            "--max-running is for slurm; whatever runs a list decides how many of its commands run at a time");
-    if (options.scene->is_standard_input()) throw OptionError("the scene of a farm must be a file that all can read");
+        throw UsageError(
+            "--max-running is for slurm only; the program that runs a list decides how many run at a time");
+    if (options.scene->is_standard_input())
+        throw UsageError("the scene must be a file that all machines can read, not standard input");
     const RenderOptions render = render_options(options);
     Scene scene = load_scene(read_document(*options.scene));
     apply(render, scene);
     (void)pixels_of(render, scene);
     if (scene.settings.noise > 0)
-        throw OptionError(
-            "a farm and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
-            "some; -- --noise 0 turns off what the scene says");
+        throw UsageError(
+            "a farm cannot be combined with a noise limit: a share does not have all samples of a pixel, so it cannot "
+            "decide when to stop; -- --noise 0 turns off the scene's limit");
     Farm farm;
     farm.program = options.program;
     farm.scene = as_file(options.scene->name);
@@ -101,15 +103,16 @@ int write_farm(const FarmOptions& options) {
     farm.outputs = options.outputs;
     if (farm.outputs.empty()) farm.outputs = {stem.string() + ".exr", stem.string() + ".png"};
     for (std::string& output : farm.outputs) output = as_file(output);
-    check_outputs(farm.outputs);
+    check_outputs(farm.outputs,
+                  layers_of_picture(film_settings(scene), subjects_of(scene), render.denoise.has_value()));
     farm.sbatch_options = options.sbatch;
     farm.samples = scene.settings.samples;
     farm.shares = options.shares;
     farm.most_parts = options.most_parts;
     farm.most_running = options.most_running;
     if (farm.shares > farm.samples)
-        throw OptionError(
-            fmt::format("--shares {}: there are only {} samples a pixel to share", farm.shares, farm.samples));
+        throw UsageError(
+            fmt::format("--shares {}: must be at most the number of samples per pixel, {}", farm.shares, farm.samples));
     for (const auto& [name, value] :
          {std::pair("--display", render.display), std::pair("--view", render.view),
           std::pair("--exposure", render.exposure ? std::optional(fmt::format("{}", *render.exposure)) : std::nullopt)})
@@ -124,7 +127,7 @@ int write_farm(const FarmOptions& options) {
     std::vector<std::string> all{farm.program, farm.scene, farm.parts};
     for (const auto* words : {&farm.render_options, &farm.outputs, &farm.sbatch_options})
         all.insert(all.end(), words->begin(), words->end());
-    if (std::ranges::any_of(all, has_line_feed)) throw OptionError("no word of a farm may have a line feed in it");
+    if (std::ranges::any_of(all, has_line_feed)) throw UsageError("arguments of a farm must not contain newlines");
     put(text);
     return 0;
 }
@@ -132,42 +135,42 @@ int write_farm(const FarmOptions& options) {
 }  // namespace
 
 void add_farm(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("farm", "Write how many machines render a scene: for Slurm, or as a list");
+    CLI::App* command = app.add_subcommand("farm", "Write the commands that render a scene on many machines");
     auto o = std::make_shared<FarmOptions>();
     command
         ->add_option("kind", o->kind,
-                     "slurm: a script for bash that submits job arrays and a merge; list: one command per line, the "
-                     "merge last, for OpenCue, GNU parallel, nq")
+                     "slurm: a bash script that submits job arrays and a merge. list: one command per line, the merge "
+                     "last, for OpenCue, GNU parallel or nq")
         ->required();
     o->scene = add_scene_file(*command);
-    command->add_option("render", o->render_words, "Behind --: options of render, for every share");
-    command->add_option("--shares", o->shares, "Among how many the samples a pixel are divided")
+    command->add_option("render", o->render_words, "After --: options of render, for every share");
+    command->add_option("--shares", o->shares, "Number of shares into which the samples of each pixel are divided")
         ->required()
         ->check(CLI::Range(1, 1 << 20));
     command
         ->add_option("--merge-width", o->most_parts,
-                     "How many parts one merge reads at most: of more shares neighbours are merged first, several at a "
-                     "time (default: 64)")
+                     "Maximum number of parts per merge; more shares are merged in several steps (default: 64)")
         ->check(CLI::Range(2, 1 << 20))
         ->option_text("PARTS");
     command
         ->add_option(
             "--max-running", o->most_running,
-            "For slurm: run at most this many shares at a time, and as many merges (default: any number). Beyond "
-            "the longest array that Slurm allows, each array waits for the one before it")
+            "Slurm: run at most this many shares, or merges, at a time (default: no limit). If the shares need several "
+            "job arrays, each array waits for the one before it")
         ->check(CLI::Range(1, 1 << 20))
         ->option_text("N");
     add_outputs(*command, o->outputs, "the scene's name, .exr and .png");
-    command->add_option("--parts", o->folder, "The folder, which must be there, for the parts (default: this one)")
+    command->add_option("--parts", o->folder, "Existing folder for the parts (default: the current one)")
         ->option_text("DIR");
     command
         ->add_option("--sbatch", o->sbatch,
-                     "Option of sbatch, for both jobs, as in --sbatch=--time=60; may be repeated")
+                     "Option of sbatch for all jobs, as in --sbatch=--time=60; may be repeated")
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false)  // otherwise it consumes a following "--"
         ->option_text("OPTION");
-    command->add_option("--program", o->program, "How the machines of the farm call phasetree (default: phasetree)")
+    command
+        ->add_option("--program", o->program, "The phasetree command on the machines of the farm (default: phasetree)")
         ->option_text("PATH");
     command->callback([o, &run] { run = [o] { return write_farm(*o); }; });
 }

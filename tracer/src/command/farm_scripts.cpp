@@ -81,7 +81,7 @@ std::string merges_in_bash(const Farm& farm, const std::vector<int>& steps, std:
                            const std::string& options) {
     return fmt::format(
         R"bash(
-# Merges neighbours, so that no merge has more than {most} parts to read.
+# Merges neighbouring parts, so that no merge reads more than {most} parts.
 merge_of_step_{step}() {{
     echo '#!/bin/bash'
     echo "i=\$(($1 + SLURM_ARRAY_TASK_ID)) parts=()"
@@ -115,7 +115,7 @@ longest=$(scontrol show config 2>/dev/null | sed -n 's/^MaxArraySize *= *\([0-9]
 [ "${{longest:-0}}" -gt 0 ] || longest=1001
 most_running={most_running}
 
-# submit_arrays COUNT WRITER [OPTION...]: submits tasks 0 to COUNT - 1, after what is in `jobs`, and puts their arrays there.
+# submit_arrays COUNT WRITER [OPTION...]: submits tasks 0 to COUNT - 1, which wait for `jobs`, and sets `jobs` to their arrays.
 # "WRITER FIRST" writes the script of the array whose first task is FIRST.
 submit_arrays() {{
     local count=$1 writer=$2 before=$jobs first size job dependency
@@ -180,8 +180,9 @@ std::string command_list(const Farm& farm) {
     std::string list;
     for (int i = 0; i < farm.shares; ++i) {
         const std::string part = shell_word(part_of_share(farm, i));
-        list += fmt::format("{} --samples {}:{} --checkpoint {} --resume {} --or-start -o {}{}\n", render_head(farm),
-                            first_of_share(farm, i), first_of_share(farm, i + 1), part, part, part, render_tail(farm));
+        list +=
+            fmt::format("{} --sample-range {}:{} --checkpoint {} --resume {} --or-start -o {}{}\n", render_head(farm),
+                        first_of_share(farm, i), first_of_share(farm, i + 1), part, part, part, render_tail(farm));
     }
     const std::vector<int> steps = parts_of_steps(farm);
     for (std::size_t step = 1; step < steps.size(); ++step) list += merges_of_step(farm, steps, step);
@@ -195,11 +196,11 @@ std::string slurm_script(const Farm& farm) {
     for (std::size_t step = 1; step < steps.size(); ++step) steps_between += merges_in_bash(farm, steps, step, options);
     return fmt::format(
         R"bash(#!/bin/bash
-# Run this where sbatch is. It submits {shares} shares of {samples} samples per pixel, and merges that wait for them, and prints the
-# number of the last job, which makes the picture.
+# Run this on a machine with sbatch. It submits {shares} shares of {samples} samples per pixel and the merges that wait for them. It
+# prints the number of the last job, which makes the picture.
 set -eu
 {submitting}
-# A share resumes where it was when it is preempted, requeued or near its time limit. Slurm may send SIGTERM to this script
+# A share that is preempted, requeued or near its time limit resumes where it stopped. Slurm may send SIGTERM to this script
 # alone or to all of its processes. So the render ignores SIGTERM, and the script sends it one SIGHUP instead.
 share() {{
     echo '#!/bin/bash'
@@ -213,7 +214,7 @@ stop() {{
     is_stopped=yes
     kill -HUP "$render"
 }}
-(trap '' TERM; exec {head} --samples "$first:$last" --checkpoint "$part" --resume "$part" --or-start -o "$part"{tail}{threads}) &
+(trap '' TERM; exec {head} --sample-range "$first:$last" --checkpoint "$part" --resume "$part" --or-start -o "$part"{tail}{threads}) &
 render=$!
 trap stop TERM
 code=0
@@ -222,8 +223,8 @@ if [ "$is_stopped" = yes ]; then
     code=0
     wait "$render" || code=$?
 fi
-# 75: there is a checkpoint to resume. Above 128: a signal came before the first checkpoint, or it was another signal, such as
-# the system's when memory runs out; then the share is tried again, up to three times.
+# 75: there is a checkpoint to resume. Above 128: a signal came before the first checkpoint, or another signal did, such as the
+# system's when memory runs out; then the share is tried again, up to three times.
 if [ "$code" = 75 ] || {{ [ "$code" -gt 128 ] && {{ [ "$is_stopped" = yes ] || [ "${{SLURM_RESTART_COUNT:-0}}" -lt 3 ]; }}; }}; then
     scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"
 fi

@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Everything that the picture depends on, under user-visible names. The properties of the object's cells come last.
+// All settings that the picture depends on, under user-visible names. The properties of the object's cells come last.
 std::vector<std::pair<std::string, std::string>> settings_of(const RenderOptions& options, const Document& document,
                                                              const Scene& scene, const PixelRange& pixels) {
     const Planes::Choice chosen = film_settings(scene).planes;

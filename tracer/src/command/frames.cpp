@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "command/option_error.hpp"
+#include "command/errors.hpp"
 #include "command/streams.hpp"
 #include "output/layers.hpp"
 #include "phasetree/io/read_kind.hpp"
@@ -23,12 +23,11 @@ struct FrameRange {
 };
 
 FrameRange range_of_frames(const std::string& text) {
-    const std::vector<int> ends = integers(text, ':', 2, "--frames", "FIRST:LAST, the last excluded");
+    const std::vector<int> ends = integers(text, ':', 2, "--frames", "FIRST:LAST, where LAST is excluded");
     const FrameRange range{ends[0], ends[1]};
     if (range.first < 0 || range.first >= range.last || range.last > most_frames)
-        throw OptionError(
-            fmt::format("--frames {}: they must be numbers from 0 to {}, the last, which is excluded, above the first",
-                        text, most_frames));
+        throw UsageError(
+            fmt::format("--frames {}: the range must not be empty and must lie within 0:{}", text, most_frames));
     return range;
 }
 
@@ -41,10 +40,8 @@ RenderOptions options_of_frame(const RenderOptions& options, int frame, bool is_
         if (const auto numbered = name_of_frame(name, frame))
             name = *numbered;
         else if (!is_alone)
-            throw OptionError(
-                fmt::format("{} {}: each frame needs a file of its own, so there must be #### in the "
-                            "name, which becomes the frame's number",
-                            option, name));
+            throw UsageError(fmt::format(
+                "{} {}: each frame needs its own file; put #### in the name for the frame number", option, name));
     };
     for (std::string& output : one.outputs) put_number(output, "--output");
     if (one.stats) put_number(*one.stats, "--stats");
@@ -82,12 +79,11 @@ std::optional<std::string> name_of_frame(const std::string& name, int frame) {
 int render_frames(const RenderOptions& options, const std::function<int(const RenderOptions&)>& render) {
     const FrameRange range = range_of_frames(*options.frames);
     const int count = range.last - range.first;
-    if (options.scene->at) throw OptionError("--frames says when each frame is, so --at cannot");
+    if (options.scene->at) throw UsageError("--frames and --at cannot be combined: each frame has its own time");
     if (options.outputs.empty())
-        throw OptionError(
-            "--frames needs names for its files: -o name.####.exr, where #### becomes the frame's number");
+        throw UsageError("--frames needs -o with #### for the frame number, as in -o name.####.exr");
     if (count > 1 && options.scene->is_standard_input())
-        throw OptionError("--frames: the scene of several frames cannot come from standard input");
+        throw UsageError("--frames: the scene of several frames must be a file, not standard input");
     (void)options_of_frame(options, range.first, count == 1);
     int skipped = 0;
     for (int frame = range.first; frame < range.last; ++frame) {
@@ -99,7 +95,7 @@ int render_frames(const RenderOptions& options, const std::function<int(const Re
         if (!options.quiet && count > 1) say("frame {} ({} of {})\n", frame, frame - range.first + 1, count);
         try {
             if (const int code = render(one); code != 0) {
-                say("phasetree: it was frame {}\n", frame);
+                say("phasetree: stopped at frame {}\n", frame);
                 return code;
             }
         } catch (...) {
@@ -107,7 +103,7 @@ int render_frames(const RenderOptions& options, const std::function<int(const Re
             throw;
         }
     }
-    if (skipped > 0 && !options.quiet) say("{} of {} frames were there already\n", skipped, count);
+    if (skipped > 0 && !options.quiet) say("skipped {} of {} frames, whose files exist\n", skipped, count);
     return 0;
 }
 

@@ -19,7 +19,7 @@ double seconds_of_frame(const Document& document, int frame);
 std::optional<std::string> name_of_frame(const std::string& name, int frame);
 
 /// Calls `render`, which returns an exit code, for each frame of --frames in order. Stops at the first exit code other
-/// than 0 and returns it. If a frame throws, reports which one and rethrows. Throws OptionError for options that cannot
+/// than 0 and returns it. If a frame throws, reports which one and rethrows. Throws UsageError for options that cannot
 /// be combined with frames.
 int render_frames(const RenderOptions& options, const std::function<int(const RenderOptions&)>& render);
 

@@ -6,6 +6,7 @@
 #include "command/cells_report.hpp"
 #include "command/commands.hpp"
 #include "command/empty_object.hpp"
+#include "command/errors.hpp"
 #include "command/load.hpp"
 #include "command/max_memory.hpp"
 #include "command/meshes_report.hpp"
@@ -39,14 +40,14 @@ struct InfoOptions {
 // Prints the information on a scene of several objects of which none was chosen.
 int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const SceneModel& model) {
     if (chosen.with_cells || chosen.with_carving)
-        throw InputError(
-            fmt::format("{} is for one object: choose it with --object", chosen.with_cells ? "--cells" : "--carve"));
+        throw UsageError(fmt::format("{} needs a single object; choose one with --object",
+                                     chosen.with_cells ? "--cells" : "--carve"));
     if (chosen.as_json) {
         nlohmann::ordered_json json;
         json["scene"] = file.shown();
         json["copies"] = model.placed.copies();
         json["groups"] = model.placed.groups.size();
-        json["places"] = model.placed.places.size();
+        json["instances"] = model.placed.instances.size();
         json["objects"] = objects_as_json(model);
         put("{}\n", json.dump(2));
         return 0;
@@ -59,10 +60,10 @@ int info_of_objects(const SceneFile& file, const InfoOptions& chosen, const Scen
 // Prints the information on a scene without objects.
 int info_of_meshes(const SceneFile& file, const InfoOptions& chosen, const Document& document) {
     if (chosen.with_cells || chosen.with_carving || chosen.object)
-        throw InputError(fmt::format("{} is for objects, but the scene has only meshes", chosen.with_cells ? "--cells"
-                                                                                         : chosen.with_carving
-                                                                                             ? "--carve"
-                                                                                             : "--object"));
+        throw UsageError(fmt::format("{} needs an object, but the scene has only meshes", chosen.with_cells ? "--cells"
+                                                                                          : chosen.with_carving
+                                                                                              ? "--carve"
+                                                                                              : "--object"));
     (void)read_scene_without_camera(document);
     const MeshGroup group = read_meshes(document, document.root().find("meshes").value());
     if (chosen.as_json) {
@@ -144,7 +145,7 @@ int info(const SceneFile& file, const InfoOptions& chosen) {
         put("{:<14}[{}, {}, {}] to [{}, {}, {}]\n", "bounds", b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z);
     else
         put("{:<14}{}\n", "bounds", b.empty() ? "none" : "unbounded");
-    if (nothing_left) put("{:<14}{}\n", "empty", "nothing of the object is left: it is vacuum everywhere");
+    if (nothing_left) put("{:<14}{}\n", "empty", "yes, the object is vacuum everywhere");
     put("{:<14}{}\n", "instructions", program.instructions.size());
     put("{:<14}{}\n", "program bytes", evaluator.bytes());
     put("{:<14}{}\n", "SIMD", simd_target());
@@ -156,23 +157,23 @@ int info(const SceneFile& file, const InfoOptions& chosen) {
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("info", "Print a scene's nodes, phases, bytes, bounds and instructions");
+    CLI::App* command = app.add_subcommand("info", "Print the nodes, phases, bounds and memory of a scene");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<InfoOptions>();
     command->footer(
-        "For a scene of several objects, info lists them; --object chooses one. For a scene of\n"
-        "meshes alone, it lists the meshes. The whole scene file is checked, but needs no camera and\n"
-        "no lights, and the files of lights, meshes, textures and voxels are not opened.");
+        "If the scene has several objects, info lists them; --object chooses one. If it has only\n"
+        "meshes, info lists those. The whole scene file is checked, but it may lack a camera and\n"
+        "lights, and the files of lights, meshes, textures and voxels are not opened.");
     add_object(*command, options->object);
-    command->add_flag("--json", options->as_json, "As JSON");
-    auto* const with_cells = command->add_flag(
-        "--cells", options->with_cells, "Also build the cells in which a render traces rays, and say what they are");
+    command->add_flag("--json", options->as_json, "Print JSON");
+    auto* const with_cells =
+        command->add_flag("--cells", options->with_cells,
+                          "Also build the cells in which a render traces rays, and print their statistics");
     add_build_quality(*command, options->cells.quality)->needs(with_cells);
     add_max_memory(*command, options->cells.most_bytes)->needs(with_cells);
-    auto* const with_carving =
-        command->add_flag("--carve", options->with_carving,
-                          "Also carve convex bounds around the object and each of its phases, and say what they are");
-    command->add_option("--planes", options->most_planes, "The most planes of each of these bounds (default: 40)")
+    auto* const with_carving = command->add_flag(
+        "--carve", options->with_carving, "Also carve convex bounds around the object and each phase, and print them");
+    command->add_option("--planes", options->most_planes, "Maximum number of planes of each bound (default: 40)")
         ->check(CLI::Range(6, 256))
         ->option_text("N")
         ->needs(with_carving);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "command/numbers.hpp"
+#include "command/errors.hpp"
 #include "command/streams.hpp"
 #include "film_file/write.hpp"
 #include "output/error.hpp"
@@ -25,7 +25,8 @@ Program record_tree(const Document& document, const Phased& object) {
 
 Document read_document_beside_input(const SceneFile& file) {
     if (file.is_standard_input())
-        throw InputError("<stdin>: the scene cannot come from standard input, which is read for something else");
+        throw InputError(
+            "<stdin>: the scene must be a file, because this command reads other data from standard input");
     return read_document(file);
 }
 
@@ -46,8 +47,8 @@ SceneTree tree_of_model(const Document& document, const SceneModel& model, const
         if (one.name == *object) return {model.phases, one.tree};
         names.push_back(one.name);
     }
-    throw InputError(names.empty() ? "--object: the scene has one tree, and no \"objects\""
-                                   : fmt::format("--object: there is no object \"{}\"; the objects are {}", *object,
+    throw UsageError(names.empty() ? "--object: the scene has a single \"tree\" and no \"objects\""
+                                   : fmt::format("--object: unknown object \"{}\" (choose from {})", *object,
                                                  fmt::join(names, ", ")));
 }
 
@@ -110,9 +111,11 @@ Scene load_scene(const Document& document, NodePlaces* places) {
     const Phase phase = phase_at(document, scene, position_of(scene.camera));
     if (!is_clear(scene.materials[phase.index]))
         throw document.error(*document.root().find("camera"),
-                             fmt::format("the camera is inside \"{}\", which is opaque", scene.phases[phase]));
+                             fmt::format("the camera is inside the phase \"{}\", which is opaque; move the camera",
+                                         scene.phases[phase]));
     if (scene.lights.empty() && !scene.shines())
-        throw document.error(document.root(), "the scene has no lights, so every image of it would be black");
+        throw document.error(document.root(),
+                             "the scene has no lights, so every picture would be black; add one to \"lights\"");
     return scene;
 }
 

@@ -3,8 +3,9 @@
 #include <new>
 
 #include "command/commands.hpp"
+#include "command/errors.hpp"
+#include "command/exit_codes.hpp"
 #include "command/numbers.hpp"
-#include "command/option_error.hpp"
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
 #include "command/version_report.hpp"
@@ -21,19 +22,18 @@ using namespace phasetree;
 using tracer::say;
 
 int run_command(int argc, char** argv) {
-    CLI::App app("Multiphase signed distance fields, path traced.", "phasetree");
-    app.set_version_flag("--version", tracer::version_report, "Print the build, and which libraries it was built with");
+    CLI::App app("Path-trace scenes of multiphase signed distance fields.", "phasetree");
+    app.set_version_flag("--version", tracer::version_report, "Print the build and the versions of its libraries");
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 for success; 1 if the run was interrupted or something could not be written;\n"
-        "2 for a scene, input or arguments that are wrong; 3 of check for a scene that is only a tree;\n"
-        "75 of a render that SIGTERM or SIGHUP ended and that --resume goes on with; 130 if Ctrl-C ended it.");
+    std::string footer = "Exit codes:";
+    for (const tracer::ExitCode& e : tracer::exit_codes) footer += fmt::format("\n  {:<5}{}", e.code, e.meaning);
+    app.footer(footer);
     tracer::Run run;
     tracer::add_commands(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return tracer::exit_code(app, e);
+        return tracer::report_parse_error(app, e);
     }
     try {
         return run();
@@ -45,13 +45,11 @@ int run_command(int argc, char** argv) {
         say("{}\n", e.what());
     } catch (const ModelError& e) {
         say("phasetree: {}\n", e.what());
-    } catch (const tracer::OptionError& e) {
+    } catch (const tracer::UsageError& e) {
         say("phasetree: {}\n", e.what());
     } catch (const tracer::view::MissingLibraryError& e) {
         say("phasetree: {}\n", e.what());
-    } catch (const CellsFileError& e) {
-        say("phasetree: {}\n", e.what());
-    } catch (const tracer::OutputError& e) {
+    } catch (const tracer::OutputNameError& e) {
         say("phasetree: {}\n", e.what());
     } catch (const tracer::FilmFileError& e) {
         say("phasetree: {}\n", e.what());
@@ -59,12 +57,12 @@ int run_command(int argc, char** argv) {
         say("phasetree: {}\n", e.what());
     } catch (const std::bad_alloc&) {
         say("phasetree: out of memory\n");
-        return 1;
-    } catch (const std::exception& e) {
+        return tracer::exit_code::failure;
+    } catch (const std::exception& e) {  // OutputError among others
         say("phasetree: {}\n", e.what());
-        return 1;
+        return tracer::exit_code::failure;
     }
-    return 2;
+    return tracer::exit_code::usage;
 }
 
 }  // namespace
@@ -77,9 +75,9 @@ int main(int argc, char** argv) {
         return code;
     } catch (const tracer::StandardOutputError& e) {
         if (!e.is_broken_pipe()) say("phasetree: {}\n", e.what());
-        return 1;
+        return tracer::exit_code::failure;
     } catch (const std::bad_alloc&) {  // while the command line was parsed
         say("phasetree: out of memory\n");
-        return 1;
+        return tracer::exit_code::failure;
     }
 }

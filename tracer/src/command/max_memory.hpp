@@ -42,8 +42,8 @@ inline CLI::Option* add_max_memory(CLI::App& command, std::size_t& most_bytes) {
     return command
         .add_option_function<std::string>(
             "--max-memory", choose,
-            "About how much memory the prepared object may take, such as 512M or 4G; where that is not enough, rays "
-            "find the same more slowly (default: 2G, or a quarter of the memory that there is, if that is less)")
+            "Memory limit for the prepared object, such as 512M or 4G. With less memory, tracing is slower (default: "
+            "2G, or a quarter of the machine's memory if that is less)")
         ->option_text("SIZE");
 }
 

@@ -5,8 +5,9 @@
 
 #include "command/commands.hpp"
 #include "command/denoising.hpp"
+#include "command/errors.hpp"
+#include "command/exit_codes.hpp"
 #include "command/load.hpp"
-#include "command/option_error.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -84,10 +85,10 @@ bool write_pictures(const MergeOptions& options, const Parts& parts, const std::
     std::string written;
     for (const std::string& output : images)
         if (writing([&] { write_image(joined.image, output, metadata, display); }))
-            written += fmt::format("{} ({}x{}, {} samples a pixel, of {} parts)\n", output, joined.image.width,
+            written += fmt::format("{} ({}x{}, {} samples per pixel, {} parts)\n", output, joined.image.width,
                                    joined.image.height, metadata.samples_per_pixel, options.parts.size());
     if (!options.quiet) say(written);
-    return writing.all_is_well();
+    return writing.has_succeeded();
 }
 
 // Opens all parts, reading only the beginning and end of each.
@@ -103,15 +104,15 @@ int merge_parts(const MergeOptions& options) {
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
     const Parts parts = opened(options);
+    check_outputs(images, layers_of_picture(parts.header().film, parts.header().subjects, options.denoise.has_value()));
     if (!options.quiet && parts.header().build() != build_id())
-        say("phasetree: the parts were rendered by phasetree {}, and are joined by {}\n", parts.header().build(),
+        say("phasetree: note: the parts were rendered by build {} and are merged by build {}\n", parts.header().build(),
             build_id());
     if (const std::string missing = parts.missing(); !missing.empty() && !images.empty() && !options.may_have_gaps)
-        throw FilmFileError(
-            fmt::format("{} of the {} of each pixel; --allow-gaps makes a picture of those that there are", missing,
-                        parts.header().samples_in_all));
+        throw FilmFileError(fmt::format("{} of {} per pixel; --allow-gaps makes a picture of the others", missing,
+                                        parts.header().samples_in_all));
     if (!film_files.empty() && !parts.are_joined())
-        throw OptionError("a .part cannot be made of parts between which something is missing");
+        throw UsageError("cannot write a .part: samples are missing between the parts, or a part is unfinished");
     const Denoiser denoiser = denoiser_of(options.denoise.value_or("best"));
     if (options.denoise) check_denoising(parts.header().film.planes, !images.empty());
     const std::optional<std::string> view = options.view ? options.view : parts.header().view;
@@ -123,28 +124,28 @@ int merge_parts(const MergeOptions& options) {
     Joined joined = join(parts, film_files, !images.empty(), progress);
     progress.finish();
     if (!joined.is_complete) {
-        say("phasetree: interrupted; nothing is written\n");
-        return interrupting_signal() == SIGINT ? interrupted_by_person : 1;
+        say("phasetree: interrupted; no file was written\n");
+        return code_of_interruption(false);
     }
     say_faults(joined.faults);
     if (options.denoise) denoise_picture(joined.image, {denoiser, threads.count(), options.quiet});
-    return write_pictures(options, parts, images, joined, display) ? 0 : 1;
+    return write_pictures(options, parts, images, joined, display) ? exit_code::success : exit_code::failure;
 }
 
 }  // namespace
 
 void add_merge(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("merge", "Join the parts of a picture that were rendered by themselves");
+    CLI::App* command = app.add_subcommand("merge", "Merge the parts of a picture that were rendered separately");
     auto o = std::make_shared<MergeOptions>();
-    command->add_option("parts", o->parts, "The parts, in any order, as render --samples writes them")->required();
+    command->add_option("parts", o->parts, "The .part files that render --sample-range wrote, in any order")
+        ->required();
     add_outputs(*command, o->outputs, "none");
     command->get_option("--output")->required();
-    command->add_flag(
-        "--allow-gaps", o->may_have_gaps,
-        "Make a picture of the samples that there are, though some are missing or parts are not finished");
+    command->add_flag("--allow-gaps", o->may_have_gaps,
+                      "Make a picture although samples are missing or parts are unfinished");
     add_denoise(*command, o->denoise);
     add_display_options(*command, o->exposure, o->display, o->view);
-    command->add_flag("--quiet", o->quiet, "No progress, errors only");
+    command->add_flag("--quiet", o->quiet, "Print no progress, only errors");
     command->callback([o, &run] { run = [o] { return merge_parts(*o); }; });
 }
 

@@ -21,14 +21,13 @@ std::vector<ReferencePage> pages_from(const std::filesystem::path& folder) {
 }  // namespace
 
 void add_nodes(CLI::App& app, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("nodes", "Print all that a scene file can say, with parameters, units, limits and defaults");
+    CLI::App* command = app.add_subcommand("nodes", "Print the reference of the scene format");
     auto folder = std::make_shared<std::string>();
     auto schema = std::make_shared<bool>(false);
     auto* first = command->add_option("--markdown", *folder,
                                       "Write the pages of scenes/reference to this folder, from the examples in it");
     first->type_name("FOLDER");
-    command->add_flag("--json-schema", *schema, "The JSON Schema of scene files, scenes/scene.schema.json")
+    command->add_flag("--json-schema", *schema, "Print a JSON Schema for editors, scenes/scene.schema.json")
         ->excludes(first);
     command->callback([folder, schema, &run] {
         run = [folder, schema] {

@@ -1,22 +1,16 @@
+// Numbers that `eval` and `trace` read and write.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <iosfwd>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "phasetree/io/number_table.hpp"
 
 namespace phasetree::tracer {
-
-// An error in the command's input or options. what() begins with its location, "<stdin>: " or "--option: ".
-class InputError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 // Reads a table with these columns, at most six. Calls `use` with the numbers of each row, and with the table, which
 // can create errors located at a cell. The input may be output of `eval`. Throws SceneError located in "<stdin>" if the

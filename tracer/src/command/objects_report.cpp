@@ -7,20 +7,20 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The number of copies of each object. Groups are counted first, because lists of places refer to earlier groups.
+// The number of copies of each object. Groups are counted first, because lists of instances refer to earlier groups.
 std::vector<std::uint64_t> copies_of_objects(const PlacedObjects& placed) {
     std::vector<std::vector<std::uint64_t>> of_groups;
-    const auto count = [&](const std::vector<Place>& list) {
+    const auto count = [&](const std::vector<Instance>& list) {
         std::vector<std::uint64_t> copies(placed.objects.size(), 0);
-        for (const Place& place : list) {
-            if (!place.is_group) ++copies[place.of];
-            if (place.is_group)
-                for (std::size_t i = 0; i < copies.size(); ++i) copies[i] += of_groups[place.of][i];
+        for (const Instance& instance : list) {
+            if (!instance.is_group) ++copies[instance.of];
+            if (instance.is_group)
+                for (std::size_t i = 0; i < copies.size(); ++i) copies[i] += of_groups[instance.of][i];
         }
         return copies;
     };
-    for (const PlacedGroup& group : placed.groups) of_groups.push_back(count(group.places));
-    return count(placed.places);
+    for (const PlacedGroup& group : placed.groups) of_groups.push_back(count(group.instances));
+    return count(placed.instances);
 }
 
 std::vector<std::string> names_of_phases(const SceneModel& model, const Phased& tree) {
@@ -50,8 +50,8 @@ nlohmann::ordered_json objects_as_json(const SceneModel& model) {
 
 void print_objects(const SceneModel& model) {
     const auto copies = copies_of_objects(model.placed);
-    put("{:<14}{} of {} objects, in {} groups and {} places\n", "copies", model.placed.copies(),
-        model.placed.objects.size(), model.placed.groups.size(), model.placed.places.size());
+    put("{:<14}{} of {} objects, in {} groups and {} instances\n", "copies", model.placed.copies(),
+        model.placed.objects.size(), model.placed.groups.size(), model.placed.instances.size());
     for (std::size_t i = 0; i < copies.size(); ++i) {
         const PlacedObject& object = model.placed.objects[i];
         const TreeStatistics s = statistics(object.tree);

@@ -25,11 +25,10 @@ void warn_of_overlaps(const Document& document, const PlacedObjects& placed) {
         say("{}\n", document.error(model_in(document), "warning: " + what).what());
     };
     for (const Overlap& o : overlaps.found)
-        warn(fmt::format("{} and {} overlap, at [{}, {}, {}] for example; {} is there", named(placed, o.first),
+        warn(fmt::format("{} and {} overlap, for example at [{}, {}, {}]; {} takes precedence", named(placed, o.first),
                          named(placed, o.second), o.at.x, o.at.y, o.at.z, named(placed, o.first)));
-    if (overlaps.has_more) warn("further copies of these may overlap, too: they were not looked at");
-    if (overlaps.is_cut_short)
-        warn("there are too many objects to look at all that are near each other; others may overlap");
+    if (overlaps.has_more) warn("more copies of these objects may overlap; they were not checked");
+    if (overlaps.is_cut_short) warn("too many objects are close to each other to check them all; others may overlap");
 }
 
 }  // namespace phasetree::tracer

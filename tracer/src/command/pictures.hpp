@@ -1,13 +1,17 @@
 // Writing of results at the end of long renders: a failure to write one file does not affect the others.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "command/option_error.hpp"
+#include "command/errors.hpp"
 #include "command/streams.hpp"
 #include "film/faults.hpp"
+#include "film/film.hpp"
 #include "film_file/write.hpp"
 #include "output/file.hpp"
 #include "output/write.hpp"
@@ -27,32 +31,39 @@ class Writing {
         } catch (const std::exception& e) {
             say("phasetree: {}\n", e.what());
         }
-        all_is_well_ = false;
+        has_succeeded_ = false;
         return false;
     }
-    bool all_is_well() const { return all_is_well_; }
+    bool has_succeeded() const { return has_succeeded_; }
 
   private:
-    bool all_is_well_ = true;
+    bool has_succeeded_ = true;
 };
 
-// Checks that all outputs can be written before rendering starts. Throws OutputError and
-// OptionError.
-inline void check_outputs(const std::vector<std::string>& outputs) {
+// The layers of a picture with these planes, each of which "{plane}" writes to a file of its own.
+inline std::vector<std::string> layers_of_picture(const FilmSettings& film, const PlaneSubjects& subjects,
+                                                  bool is_denoised) {
+    Image pixel = FilmTile({0, 0, 1, 1}, film.planes, subjects).image(film);
+    if (is_denoised) pixel.further.push_back({"noisy.R", {0.0f}});
+    return layer_names(pixel);
+}
+
+// Checks before rendering starts that all outputs can be written, with the files of these layers. Throws OutputError.
+inline void check_outputs(const std::vector<std::string>& outputs, std::span<const std::string> layers = {}) {
     for (const std::string& output : outputs) {
         if (is_film_file(output) && is_for_each_plane(output))
-            throw OptionError("a .part has all planes in one file, so {plane} is not for it");
-        is_film_file(output) ? check_file_writable(output) : check_writable(output);
+            throw OutputNameError(
+                fmt::format("cannot write \"{}\": {{plane}} requires an .exr file; a .part holds all planes", output));
+        is_film_file(output) ? check_file_writable(output) : check_writable(output, layers);
     }
 }
 
-// Reports faults, which a valid scene never causes.
+// Reports invalid samples, which a valid scene never produces.
 inline void say_faults(const FilmFaults& faults) {
     if (faults.not_finite > 0)
-        say("phasetree: {} values of samples were not finite numbers and count as black; please report this scene\n",
+        say("phasetree: {} sample values were not finite and count as black; please report this scene as a bug\n",
             faults.not_finite);
-    if (faults.too_large > 0)
-        say("phasetree: {} values of samples were larger than 10^12 and are cut to that\n", faults.too_large);
+    if (faults.too_large > 0) say("phasetree: {} sample values above 10^12 were clamped\n", faults.too_large);
 }
 
 }  // namespace phasetree::tracer

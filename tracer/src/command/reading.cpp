@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "command/commands.hpp"
+#include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "output/late_progress.hpp"
 #include "phasetree_support/reading.hpp"
@@ -36,8 +36,8 @@ auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
 EndingAtOnce ending_at_once(std::string_view what, bool can_resume) {
     // Erases a progress bar, if one is drawn.
     const char* start = ProgressOutput::standard_error(false).terminal ? "\r\x1b[K" : "";
-    return {{interrupted_by_person, can_resume ? resume_me : 1},
-            fmt::format("{}phasetree: interrupted while {}; nothing is written\n", start, what)};
+    return {{exit_code::interrupted, can_resume ? exit_code::resumable : exit_code::failure},
+            fmt::format("{}phasetree: interrupted while {}; no file was written\n", start, what)};
 }
 
 Document read_document_showing(const SceneFile& file, bool quiet) {
@@ -47,11 +47,13 @@ Document read_document_showing(const SceneFile& file, bool quiet) {
 }
 
 Scene load_scene_showing(const Document& document, bool quiet) {
-    return showing("reading its files", bytes_of_named_files(document), quiet, [&] { return load_scene(document); });
+    return showing("reading the scene's files", bytes_of_named_files(document), quiet,
+                   [&] { return load_scene(document); });
 }
 
 std::uint64_t fingerprint_showing(const Document& document, bool quiet) {
-    return showing("checking its files", bytes_of_named_files(document), quiet, [&] { return fingerprint(document); });
+    return showing("checking the scene's files", bytes_of_named_files(document), quiet,
+                   [&] { return fingerprint(document); });
 }
 
 }  // namespace phasetree::tracer

@@ -1,11 +1,10 @@
 #include "render/render.hpp"
-#include "command/option_error.hpp"
+#include "command/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "command/cells_report.hpp"
@@ -14,6 +13,7 @@
 #include "command/denoising.hpp"
 #include "command/detail.hpp"
 #include "command/empty_object.hpp"
+#include "command/exit_codes.hpp"
 #include "command/film_header.hpp"
 #include "command/frames.hpp"
 #include "command/load.hpp"
@@ -64,7 +64,8 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
 }
 
 // Returns the names of the outputs. First checks, before rendering starts, that all files can be written.
-std::vector<std::string> checked_outputs(const RenderOptions& options, const SampleRange& samples) {
+std::vector<std::string> checked_outputs(const RenderOptions& options, const SampleRange& samples,
+                                         const std::vector<std::string>& layers) {
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) {
         const std::string stem =
@@ -74,16 +75,16 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Sam
         else
             outputs = {stem + ".exr", stem + ".png"};
     }
-    check_outputs(outputs);
+    check_outputs(outputs, layers);
     const auto keeps_planes = [&](const std::string& output) {
         if (is_film_file(output)) return true;
         const Format format = format_of(output);
         return format == Format::exr || (options.planes == "alpha" && format != Format::jpeg);
     };
     if (options.planes && std::ranges::none_of(outputs, keeps_planes))
-        throw OptionError(
-            "--planes needs an output that can hold them: name a .exr or .part file with -o, or for alpha alone a .png "
-            "or .tif file");
+        throw UsageError(
+            "--planes needs an output that can store planes: an .exr or .part file, or for alpha alone a .png or .tif "
+            "file");
     if (options.stats) check_file_writable(*options.stats);
     if (options.checkpoint) check_file_writable(*options.checkpoint);
     return outputs;
@@ -102,8 +103,8 @@ std::optional<FilmFile> film_to_resume(const RenderOptions& options, const FilmF
         const bool has_too_many =
             found.last > wanted.last && file.most_samples_of_pixel() > static_cast<std::uint32_t>(wanted.size());
         if (found.first != wanted.first || has_too_many)
-            throw file.error(fmt::format("it is of the samples {}:{}, and this render is of {}:{}", found.first,
-                                         found.last, wanted.first, wanted.last));
+            throw file.error(fmt::format("it has the samples {}:{}, but this render has {}:{}", found.first, found.last,
+                                         wanted.first, wanted.last));
         return file;
     } catch (const FilmFileMissing&) {
         if (!options.may_start) throw;
@@ -111,7 +112,7 @@ std::optional<FilmFile> film_to_resume(const RenderOptions& options, const FilmF
     }
 }
 
-struct Everything {
+struct FinishedRender {
     const RenderOptions& options;
     const Scene& scene;
     const World& world;
@@ -129,7 +130,7 @@ bool is_unfinished_frame(const RenderOptions& options, const Rendering& r) {
 }
 
 // Returns whether all files were written.
-bool write_all(const Everything& e, Rendering& rendering) {
+bool write_all(const FinishedRender& e, Rendering& rendering) {
     Metadata metadata;
     metadata.scene = e.header.scene;
     metadata.samples_per_pixel = rendering.samples;
@@ -155,19 +156,13 @@ bool write_all(const Everything& e, Rendering& rendering) {
                                     ? write_film_file(output)
                                     : writing([&] { write_image(rendering.image, output, metadata, e.display); });
         if (is_written)
-            written += fmt::format("{} ({}x{}, {} samples a pixel, {:.1f} s)\n", output, rendering.image.width,
+            written += fmt::format("{} ({}x{}, {} samples per pixel, {:.1f} s)\n", output, rendering.image.width,
                                    rendering.image.height, rendering.samples, rendering.seconds);
     }
     if (e.options.stats) writing([&] { write_stats(*e.options.stats, e.options, e.world, rendering); });
     say_faults(rendering.faults);
     if (!e.options.quiet) say(written);
-    return writing.all_is_well();
-}
-
-// The exit code of a run ended by a signal.
-int code_of_interruption(bool can_resume) {
-    if (interrupting_signal() == SIGINT) return interrupted_by_person;
-    return can_resume ? resume_me : 1;
+    return writing.has_succeeded();
 }
 
 // Whether running the same command line again resumes the render, or starts it.
@@ -219,8 +214,11 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
         }
         return true;
     } catch (const BuildCancelled&) {
-        say("phasetree: interrupted while {}; nothing is written\n", while_preparing);
+        say("phasetree: interrupted while {}; no file was written\n", while_preparing);
         return false;
+    } catch (const CellsFileError& e) {
+        if (e.reason() == CellsFileError::Reason::foreign) throw UsageError(fmt::format("--cells: {}", e.what()));
+        throw OutputError(e.what());
     }
 }
 
@@ -230,7 +228,7 @@ void warn_of_object(const RenderOptions& options, const Document& document, cons
         say("{}\n", empty_object_warning(document));
     if (options.quiet) return;
     if (world.geometry().statistics().is_coarser)
-        say("phasetree: the object would take more memory than --max-memory allows: rays are slower\n");
+        say("phasetree: warning: --max-memory is too small for the whole object, so tracing is slower\n");
     for (const auto& object : world.geometry().objects()) print_warning(document.name(), object->warning());
     warn_of_unplaced_groups(document, scene.placed);
     warn_of_overlaps(document, scene.placed);
@@ -267,16 +265,15 @@ bool has_samples(const Film& film) {
 // Reports what is missing from a render that ended early.
 void say_what_is_missing(const RenderOptions& options, const Scene& scene, const Rendering& r, int wanted) {
     if (is_unfinished_frame(options, r)) {
-        say("phasetree: interrupted after {} of {} samples a pixel; the frame's picture is not written\n", r.samples,
-            wanted);
+        say("phasetree: interrupted after {} of {} samples per pixel; the frame was not written\n", r.samples, wanted);
     } else if (r.cancelled) {
-        say("phasetree: interrupted; the image has {} of {} samples a pixel{}\n", r.samples, wanted,
-            wanted == 1 ? ", in part" : "");
+        say("phasetree: interrupted; the picture has {} of {} samples per pixel{}\n", r.samples, wanted,
+            wanted == 1 ? ", and only in some pixels" : "");
     } else if (r.noisy_blocks > 0 && !options.quiet) {
-        say("phasetree: {:.1f} % of the picture is noisier than {} {}\n",
+        say("phasetree: {:.1f} % of the picture is still noisier than {} {}\n",
             100.0 * static_cast<double>(r.noisy_blocks) / static_cast<double>(r.blocks), scene.settings.noise,
-            r.is_out_of_time ? "after the time that --time allows"
-                             : fmt::format("with {} samples a pixel; --spp allows more", wanted));
+            r.is_out_of_time ? "at the end of --time"
+                             : fmt::format("after {} samples per pixel; raise --spp to continue", wanted));
     }
 }
 
@@ -285,8 +282,7 @@ void warn_of_alpha(const Scene& scene, const std::string& name, const std::vecto
     if (!scene.film.planes[Planes::place<AlphaPlane>()] || scene.lights.is_background_black()) return;
     for (const std::string& output : outputs)
         if (!is_film_file(output) && (format_of(output) == Format::png || format_of(output) == Format::tiff))
-            say("{}: warning: {} gets no alpha, because the background is not black, as \"background\": [0, 0, 0] "
-                "makes it\n",
+            say("{}: warning: {} has no alpha, because the background is not black; set \"background\": [0, 0, 0]\n",
                 name, output);
 }
 
@@ -299,14 +295,14 @@ int render_scene(const RenderOptions& options) {
     const Document& document = read_scene.document;
     Scene& scene = read_scene.scene;
     apply(options, scene);
-    const Planes::Choice wanted_planes = film_settings(scene).planes;
+    const FilmSettings wanted_film = film_settings(scene);
     if (options.denoise) {
         check_denoising(*options.denoise, scene.settings.samples);
         scene.film.planes |= denoising_planes();
     }
     if (!scene.placed.empty() && (options.detail || options.cells))
-        throw OptionError(fmt::format("{} is for scenes of one tree, and this one has \"objects\"",
-                                      options.detail ? "--detail" : "--cells"));
+        throw UsageError(fmt::format("{} needs a scene with a single \"tree\", and this one has \"objects\"",
+                                     options.detail ? "--detail" : "--cells"));
     if (options.detail) made_of_tree(document, [&] { choose_levels_of_detail(scene, *options.detail); });
     RenderJob job;
     job.pixels = pixels_of(options, scene);
@@ -316,13 +312,14 @@ int render_scene(const RenderOptions& options) {
                                    std::chrono::duration<double>(options.time_seconds));
     job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
-    const std::vector<std::string> outputs = checked_outputs(options, *job.samples);
+    const std::vector<std::string> outputs = checked_outputs(
+        options, *job.samples, layers_of_picture(wanted_film, subjects_of(scene), options.denoise.has_value()));
     warn_of_alpha(scene, document.name(), outputs);
     std::optional<DisplayTransform> display;
     if (need_display(outputs) || options.display || options.view)
         display = display_of(document, scene.settings, options.display, options.view, options.exposure);
     if (threads.count() < threads.wanted())
-        say("phasetree: only {} of {} threads can be started\n", threads.count(), threads.wanted());
+        say("phasetree: warning: only {} of {} threads can be started\n", threads.count(), threads.wanted());
     auto [header, found] = read_checkpoint(options, document, scene, job);
 
     std::optional<World> world;
@@ -343,18 +340,18 @@ int render_scene(const RenderOptions& options) {
     // Interrupted before the first path, for example while guiding was learned. Keep the picture of an earlier render
     // rather than write a black one.
     if (rendering.cancelled && !has_samples(film)) {
-        say("phasetree: interrupted before the first sample; nothing is written\n");
+        say("phasetree: interrupted before the first sample; no file was written\n");
         return code_of_interruption(can_resume(options));
     }
     // A render that runs out of time counts as one with the number of samples reached by then.
     if (rendering.is_out_of_time && scene.settings.noise == 0)
         header.samples.last = header.samples_in_all = header.samples.first + rendering.samples;
     const bool is_finished = !rendering.cancelled && scene.settings.noise > 0;
-    const bool all_is_well =
-        write_all({options, scene, *world, display, outputs, header, film, wanted_planes, is_finished}, rendering);
+    const bool has_written =
+        write_all({options, scene, *world, display, outputs, header, film, wanted_film.planes, is_finished}, rendering);
     say_what_is_missing(options, scene, rendering, job.samples->size());
-    if (!all_is_well) return 1;
-    if (!rendering.cancelled) return 0;
+    if (!has_written) return exit_code::failure;
+    if (!rendering.cancelled) return exit_code::success;
     return code_of_interruption(options.checkpoint || (!options.frame && std::ranges::any_of(outputs, is_film_file)));
 }
 

@@ -10,8 +10,9 @@
 #include "command/build_quality.hpp"
 #include "command/denoising.hpp"
 #include "command/duration.hpp"
+#include "command/errors.hpp"
 #include "command/max_memory.hpp"
-#include "command/option_error.hpp"
+#include "command/streams.hpp"
 #include "film/chosen_planes.hpp"
 
 namespace phasetree::tracer {
@@ -29,7 +30,7 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
         from = to + 1;
     }
     if (values.size() != count || from != text.size() + 1)
-        throw OptionError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
+        throw UsageError(fmt::format("{} must be {}, but is \"{}\"", option, form, text));
     return values;
 }
 
@@ -47,7 +48,7 @@ Planes::Choice planes_of(const std::string& list) {
     try {
         return chosen_planes(names);
     } catch (const std::invalid_argument& e) {
-        throw OptionError(fmt::format("--planes: {}", e.what()));
+        throw UsageError(fmt::format("--planes: {}", e.what()));
     }
 }
 
@@ -59,14 +60,15 @@ void apply(const RenderOptions& options, Scene& scene) {
     if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
     // CLI11's range check accepts NaN.
-    if (options.noise && !(*options.noise >= 0)) throw OptionError("--noise must be a number from 0 to 1");
+    if (options.noise && !(*options.noise >= 0)) throw UsageError("--noise must be a number from 0 to 1");
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
         const std::vector<int> size = integers(*options.size, 'x', 2, "--size", "WIDTHxHEIGHT in pixels");
         for (const int n : size)
             if (n < 1 || n > 32768)
-                throw OptionError(fmt::format("--size {}: a side is 1 to 32768 pixels", *options.size));
+                throw UsageError(
+                    fmt::format("--size {}: width and height must be from 1 to 32768 pixels", *options.size));
         scene.film.width = size[0];
         scene.film.height = size[1];
     }
@@ -79,8 +81,8 @@ PixelRange pixels_of(const RenderOptions& options, const Scene& scene) {
     range = {c[0], c[1], c[2], c[3]};
     if (range.x0 < 0 || range.y0 < 0 || range.x1 > scene.film.width || range.y1 > scene.film.height ||
         range.x0 >= range.x1 || range.y0 >= range.y1)
-        throw OptionError(fmt::format("--crop {} is not a part of the {}x{} image", *options.crop, scene.film.width,
-                                      scene.film.height));
+        throw UsageError(fmt::format("--crop {}: the region must not be empty and must lie within the {}x{} picture",
+                                     *options.crop, scene.film.width, scene.film.height));
     return range;
 }
 
@@ -88,16 +90,18 @@ SampleRange samples_of(const RenderOptions& options, const Scene& scene) {
     SampleRange range{0, scene.settings.samples};
     if (!options.share) return range;
     if (options.time_seconds > 0)
-        throw OptionError("--samples and --time: a share has to have all of its samples, however long that takes");
+        throw UsageError(
+            "--sample-range cannot be combined with --time: a share needs all of its samples, however long they take");
     if (scene.settings.noise > 0)
-        throw OptionError(
-            "--samples and --noise: where a pixel may stop is decided by all of its samples, of which a share has only "
-            "some; --noise 0 turns off what the scene says");
-    const std::vector<int> ends = integers(*options.share, ':', 2, "--samples", "FIRST:LAST, the last excluded");
+        throw UsageError(
+            "--sample-range cannot be combined with a noise limit: a share does not have all samples of a pixel, so it "
+            "cannot decide when to stop; --noise 0 turns off the scene's limit");
+    const std::vector<int> ends =
+        integers(*options.share, ':', 2, "--sample-range", "FIRST:LAST, where LAST is excluded");
     range = {ends[0], ends[1]};
     if (range.first < 0 || range.first >= range.last || range.last > scene.settings.samples)
-        throw OptionError(fmt::format("--samples {}: they must be some of the {} samples a pixel, from 0 on",
-                                      *options.share, scene.settings.samples));
+        throw UsageError(fmt::format("--sample-range {}: the range must not be empty and must lie within 0:{}",
+                                     *options.share, scene.settings.samples));
     return range;
 }
 
@@ -105,9 +109,8 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
     command
         .add_option(
             "-o,--output", outputs,
-            "File to write: an image, the extension choosing the format: .exr .png .jpg .tif, where {plane} in the "
-            "name of a .exr makes a file for each plane; or .part, which merge joins with others; may be "
-            "repeated (default: " +
+            "Output file, whose extension selects the format: .exr, .png, .jpg, .tif, or .part for merge. {plane} in "
+            "the name of an .exr writes one file per plane. May be repeated (default: " +
                 by_default + ")")
         ->take_all()
         ->expected(1)
@@ -116,77 +119,86 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
 
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
                          std::optional<std::string>& view) {
-    command.add_option("--exposure", exposure, "Stops by which display images are brighter; EXR stays as it is")
+    command.add_option("--exposure", exposure, "Brighten display images by this many stops; .exr files do not change")
         ->check(CLI::Range(-50.0, 50.0));
-    command.add_option("--display", display, "OpenColorIO display");
-    command.add_option("--view", view, "OpenColorIO view");
+    command.add_option("--display", display, "OpenColorIO display (default: that of the configuration)");
+    command.add_option("--view", view, "OpenColorIO view (default: that of the scene or the configuration)");
 }
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
     o.scene = add_scene_file(command);
     add_outputs(command, o.outputs, "the scene's name, .exr and .png");
-    command.add_option("--spp", o.samples_in_all, "Samples a pixel")->check(CLI::Range(1, most_samples));
+    command.add_option("--spp", o.samples_in_all, "Samples per pixel (default: that of the scene)")
+        ->check(CLI::Range(1, most_samples));
     add_duration(command, "--time", o.time_seconds,
-                 "Stop at the last whole pass that ends within such a time as 90s, 5m or 1h from the start of the "
-                 "command, preparing included; without --spp no number of samples ends it");
+                 "Time limit, such as 90s, 5m or 1h, from the start of the command, including preparation. Rendering "
+                 "stops after the last whole pass that fits. Without --spp the number of samples is not limited");
     command
         .add_option(
             "--noise", o.noise,
-            "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
-            "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops. Where bright paths are "
-            "rare and were missed a block stops too soon, so the picture gets a little darker")
+            "Stop sampling each block of 8x8 pixels once its estimated relative error is at most this, such as 0.02; 0 "
+            "turns this off. Adds the planes noise and samples. A block that missed rare bright paths stops too early, "
+            "so the picture gets slightly darker")
         ->check(CLI::Range(0.0, 1.0))
         ->option_text("ERROR");
-    command
-        .add_option("--samples", o.share,
-                    "Only those of the samples a pixel that have these numbers, from 0, the last excluded: a share of "
-                    "the work, which goes to a .part and is joined with the others by merge")
-        ->option_text("FIRST:LAST");
+    CLI::Option* const range = command.add_option(
+        "--sample-range", o.share,
+        "Render only these samples of each pixel, numbered from 0, with LAST excluded: a share of the work. Write it "
+        "to a .part and join the parts with merge");
+    range->option_text("FIRST:LAST");
+    const auto use_old_name = [&share = o.share](const std::string& text) {
+        say("phasetree: warning: --samples is deprecated; use --sample-range instead\n");
+        share = text;
+    };
+    command.add_option_function<std::string>("--samples", use_old_name, "Old name of --sample-range")
+        ->group("")  // not listed
+        ->excludes(range);
     // Keep the pointer: looking an option up by name may throw where CLI11 allows no exception.
     CLI::Option* const frames = command.add_option(
         "--frames", o.frames,
-        "Frames of a film by their numbers, from 0, the last excluded; each is at its number over the "
-        "scene's \"frames_per_second\". In the names of files #### becomes the number");
+        "Render these frames of an animation, numbered from 0, with LAST excluded. Frame N shows the time N / "
+        "\"frames_per_second\". #### in file names stands for the frame number");
     frames->option_text("FIRST:LAST");
-    command.add_flag("--skip-existing", o.skips_existing, "With --frames: leave out frames whose files are all there")
+    command.add_flag("--skip-existing", o.skips_existing, "With --frames: skip frames whose output files all exist")
         ->needs(frames);
-    command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels");
-    command.add_option("--crop", o.crop, "X0,Y0,X1,Y1: only these pixels, from the top left, the last excluded");
-    command.add_option("--threads", o.threads, "Threads (default: one a core); the image does not depend on it")
+    command.add_option("--size", o.size, "WIDTHxHEIGHT of the picture in pixels (default: that of the scene)");
+    command.add_option("--crop", o.crop,
+                       "X0,Y0,X1,Y1: render only these pixels, counted from the top left, with X1 and Y1 excluded");
+    command
+        .add_option("--threads", o.threads,
+                    "Number of threads (default: one per core); the picture does not depend on it")
         ->check(CLI::Range(1, 1024));
     add_build_quality(command, o.quality);
     add_max_memory(command, o.most_bytes);
     command.add_option("--cells", o.cells,
-                       "File that keeps the prepared object for the next time: read if it is there and of this "
-                       "object, else written");
+                       "Keep the prepared object in this file for the next run. The file is read if it belongs to this "
+                       "object and this build, and otherwise written");
     command
         .add_option("--checkpoint", o.checkpoint,
-                    "File that keeps what is done, from which --resume goes on: written every few minutes, when "
-                    "SIGUSR1 arrives, and on exit, whatever the cause")
+                    "File for the finished samples, from which --resume continues. It is written every few minutes, on "
+                    "SIGUSR1, and on exit, whatever the cause")
         ->option_text("FILE");
     add_duration(command, "--checkpoint-interval", o.checkpoint_seconds,
-                 "Time from one checkpoint to the next, such as 90s, 5m or 1h (default: 5m)");
+                 "Time between checkpoints, such as 90s, 5m or 1h (default: 5m)");
     command
-        .add_option(
-            "--resume", o.resume,
-            "Go on from this checkpoint, which must be of the same picture; it may be the file of --checkpoint, "
-            "too")
+        .add_option("--resume", o.resume,
+                    "Continue from this checkpoint of the same picture; it may be the file of --checkpoint")
         ->option_text("FILE");
-    command.add_flag("--or-start", o.may_start, "With --resume: start again if there is no such file");
-    command.add_option("--seed", o.seed, "Seed of the sampling");
+    command.add_flag("--or-start", o.may_start, "With --resume: start a new render if the file does not exist");
+    command.add_option("--seed", o.seed, "Seed of the random numbers; another seed gives other noise");
     command
         .add_option("--detail", o.detail,
-                    "Lets coarser levels of detail stand where their errors look no larger than this many pixels; "
-                    "without it the finest stand everywhere")
+                    "Use coarser levels of detail where their error is at most this many pixels (default: the finest "
+                    "level everywhere)")
         ->check(CLI::Range(1e-3, 1e3))
         ->option_text("PIXELS");
     add_display_options(command, o.exposure, o.display, o.view);
     command.add_option("--planes", o.planes,
-                       "Planes that .exr files hold beside the picture: names with commas between them, such as "
-                       "depth,normal,crypto_phase, or all");
+                       "Planes to add to .exr files: names separated by commas, such as depth,normal,crypto_phase, or "
+                       "all");
     add_denoise(command, o.denoise);
-    command.add_option("--stats", o.stats, "Write what rendering cost, as JSON");
-    command.add_flag("--quiet", o.quiet, "No progress, errors only");
+    command.add_option("--stats", o.stats, "Write counters and times of the render to this file, as JSON");
+    command.add_flag("--quiet", o.quiet, "Print no progress, only errors");
 }
 
 }  // namespace phasetree::tracer

@@ -46,7 +46,7 @@ void add_display_options(CLI::App& command, std::optional<float>& exposure, std:
 
 // Applies the options to the scene.
 void apply(const RenderOptions& options, Scene& scene);
-// The pixels and the samples to render. Throw OptionError.
+// The pixels and the samples to render. Throw UsageError.
 PixelRange pixels_of(const RenderOptions& options, const Scene& scene);
 SampleRange samples_of(const RenderOptions& options, const Scene& scene);
 

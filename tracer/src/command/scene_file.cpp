@@ -31,15 +31,13 @@ std::string standard_input(const std::string& shown) {
 
 std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
     auto file = std::make_shared<SceneFile>();
-    command.add_option("scene", file->name, "The scene file; - for standard input")->required();
+    command.add_option("scene", file->name, "Scene file; - reads standard input")->required();
     command
         .add_option("--assets-within", file->assets_within,
-                    "Refuse files that the scene names outside of this folder, links followed: for scenes of strangers "
-                    "(default: any file that the user may read)")
+                    "Reject files that the scene names outside this folder, after following links. Use this for "
+                    "untrusted scenes (default: any file may be named)")
         ->option_text("DIR");
-    command
-        .add_option("--at", file->at,
-                    "The time, in seconds, at which the scene is read, where it changes with time (default: 0)")
+    command.add_option("--at", file->at, "Time, in seconds, at which to read an animated scene (default: 0)")
         ->check([](const std::string& text) {
             double seconds = 0;
             const bool is_time = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
@@ -52,8 +50,8 @@ std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
 void add_object(CLI::App& command, std::optional<std::string>& object) {
     command
         .add_option("--object", object,
-                    "Of a scene of several objects this one alone, in its own space (default: all of them, in their "
-                    "places)")
+                    "Use only this object of a scene with several, in its own space (default: all of them, placed in "
+                    "the scene)")
         ->option_text("NAME");
 }
 

@@ -25,7 +25,7 @@ void say(std::string_view text) {
 }
 
 StandardOutputError::StandardOutputError(int error_number)
-    : std::runtime_error("standard output cannot be written: " + std::generic_category().message(error_number)),
+    : std::runtime_error("cannot write standard output: " + std::generic_category().message(error_number)),
       is_broken_pipe_(error_number == EPIPE) {}
 
 void put(std::string_view text) {

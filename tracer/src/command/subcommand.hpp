@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "command/exit_codes.hpp"
 #include "command/streams.hpp"
 #include "phasetree/io/suggest.hpp"
 
@@ -23,7 +24,8 @@ inline std::optional<std::string> meant_option(const CLI::App& subcommand, std::
         {"samples", "spp"}, {"sample", "spp"}, {"resolution", "size"}, {"width", "size"}, {"height", "size"}};
     std::vector<std::string> names;
     for (const CLI::Option* option : subcommand.get_options())
-        names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+        if (!option->get_group().empty())  // deprecated names are hidden
+            names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
     word = word.substr(2, word.find('=') - 2);
     for (const auto& [other, name] : others)
         if (word == other && std::ranges::find(names, name) != names.end()) return std::string(name);
@@ -38,33 +40,33 @@ inline bool explain_unknown_option(const CLI::App& app) {
     if (word == remaining.end() || app.get_subcommands().empty()) return false;
     const CLI::App& subcommand = *app.get_subcommands().front();
     const std::optional<std::string> meant = meant_option(subcommand, *word);
-    say("{} {}: there is no option {}{}\nRun with --help for those there are.\n", app.get_name(), subcommand.get_name(),
-        word->substr(0, word->find('=')), meant ? fmt::format("; did you mean --{}?", *meant) : "");
+    say("{} {}: unknown option {}{}\nRun \"{} {} --help\" for a list of options.\n", app.get_name(),
+        subcommand.get_name(), word->substr(0, word->find('=')),
+        meant ? fmt::format(" (did you mean --{}?)", *meant) : "", app.get_name(), subcommand.get_name());
     return true;
 }
 
-// Reports the error and returns the exit code: 2, or 0 if only help was requested. For an unknown subcommand CLI11 only
-// says that one is required; this names it, and either suggests the nearest one or lists all.
-inline int exit_code(const CLI::App& app, const CLI::ParseError& error) {
+// Reports the error and returns the exit code, which is success if only help was requested. For an unknown subcommand
+// CLI11 only says that one is required. This names it and suggests the closest one, or lists all.
+inline int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> remaining = app.remaining();
     const bool is_unknown = dynamic_cast<const CLI::RequiredError*>(&error) && app.get_subcommands().empty() &&
                             !remaining.empty() && !remaining.front().starts_with('-');
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) && explain_unknown_option(app)) return 2;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && explain_unknown_option(app)) return exit_code::usage;
     if (!is_unknown) {
         std::ostringstream out, err;
         const bool is_help = app.exit(error, out, err) == 0;
         put(out.str());
         say(err.str());
-        return is_help ? 0 : 2;
+        return is_help ? exit_code::success : exit_code::usage;
     }
     std::vector<std::string> names;
     for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(subcommand->get_name());
     const auto meant = closest(remaining.front(), names);
-    say("{}: unknown subcommand \"{}\"; {}\n", app.get_name(), remaining.front(),
-        meant ? fmt::format("did you mean \"{}\"?", *meant)
-              : fmt::format("the subcommands are {}", fmt::join(names, ", ")));
-    return 2;
+    say("{}: unknown subcommand \"{}\" ({})\n", app.get_name(), remaining.front(),
+        meant ? fmt::format("did you mean \"{}\"?", *meant) : fmt::format("choose from {}", fmt::join(names, ", ")));
+    return exit_code::usage;
 }
 
 }  // namespace phasetree::tracer

@@ -36,7 +36,7 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
     for_each_row(std::cin, columns, [&](const std::array<float, 6>& v, const NumberTable& table) {
         const glm::vec3 origin(v[0], v[1], v[2]), given(v[3], v[4], v[5]);
         const double length = glm::length(glm::dvec3(given));
-        if (!(length > 0)) throw table.error(3, "the ray's direction is zero; give it any other length");
+        if (!(length > 0)) throw table.error(3, "the direction must not be zero; any other length will do");
         const glm::vec3 direction(glm::dvec3(given) / length);
         // After the first interface, positions are computed from there. Restarting the ray at each interface would
         // round at each of them, and at grazing angles these errors would keep it there.
@@ -68,22 +68,23 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
 }  // namespace
 
 void add_trace(CLI::App& app, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("trace", "Read rays \"ox oy oz dx dy dz\" and write every interface along each as CSV");
+    CLI::App* command = app.add_subcommand("trace", "Print the interfaces along rays, as CSV");
     command->footer(
-        "Standard input: one ray per line, its origin and its direction of any length, six numbers\n"
-        "with blanks or commas between them; # begins a comment. Or CSV with a header that names the\n"
-        "columns ox, oy, oz, dx, dy and dz.\n"
-        "Standard output: ray,t,from,to,nx,ny,nz. Rays count from 0. Each begins with a line that\n"
-        "says where it starts: t is 0, \"from\" and the normal are empty, and \"to\" is the phase at\n"
-        "its origin. Then comes a line for each interface in its order. The interface is at origin\n"
-        "+ t·direction, where t is the near end of the bracket that was found, which is still in\n"
-        "\"from\"; the far end, in \"to\", is within the resolution behind it. The normal is of unit\n"
-        "length and points out of \"from\" into \"to\", which is along the ray: normal·direction ≥ 0.\n"
-        "With several objects, to_object,to_copy come last: the object that \"to\" belongs to, and the\n"
-        "number of its copy.\n"
-        "The whole scene file is checked, but needs no camera and no lights, and the files of lights,\n"
-        "meshes, textures and voxels are not opened.");
+        "Reads one ray per line, \"ox oy oz dx dy dz\", from standard input, separated by blanks or\n"
+        "commas; # begins a comment. The direction may have any length. Also reads CSV with a header\n"
+        "that names the columns ox, oy, oz, dx, dy and dz.\n"
+        "\n"
+        "Writes ray,t,from,to,nx,ny,nz to standard output. Rays are numbered from 0. The first line of\n"
+        "each ray describes its origin: t is 0, \"from\" and the normal are empty, and \"to\" is the\n"
+        "phase there. Then comes one line per interface, in order. The interface lies at origin +\n"
+        "t·direction. t is the near end of the bracket that was found, which is still in \"from\"; the\n"
+        "far end, in \"to\", is less than the resolution away. The normal has unit length and points\n"
+        "from \"from\" into \"to\", so along the ray: normal·direction ≥ 0. With several objects, the\n"
+        "columns to_object,to_copy come last: the object that \"to\" belongs to, and the number of its\n"
+        "copy.\n"
+        "\n"
+        "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
+        "lights, meshes, textures and voxels are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

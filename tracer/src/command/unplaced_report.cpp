@@ -30,14 +30,15 @@ std::vector<std::string> warnings_of_unplaced_groups(const Document& document, c
     for (const auto& [number, lost] : unplaced.found) {
         const PlacedGroup& group = placed.groups[number];
         std::string warning =
-            fmt::format("warning: the group \"{}\" stands nowhere, because no instance names it", group.name);
+            fmt::format("warning: the group \"{}\" is not in the scene, because no instance refers to it", group.name);
         if (!lost.empty())
-            warning += fmt::format("; so {} {} not there", names_of(placed, lost), lost.size() == 1 ? "is" : "are");
+            warning += fmt::format("; so {} {} missing from the scene", names_of(placed, lost),
+                                   lost.size() == 1 ? "is" : "are");
         warnings.emplace_back(document.error(group.offset, warning).what());
     }
     if (unplaced.more > 0)
         warnings.push_back(
-            fmt::format("{}: warning: {} more of its groups stand nowhere", document.name(), unplaced.more));
+            fmt::format("{}: warning: {} more groups are not in the scene", document.name(), unplaced.more));
     return warnings;
 }
 

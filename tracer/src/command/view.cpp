@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "command/commands.hpp"
+#include "command/errors.hpp"
 #include "command/max_memory.hpp"
-#include "command/option_error.hpp"
 #include "command/streams.hpp"
 #include "command/viewed_file.hpp"
 #include "output/interrupt.hpp"
@@ -39,14 +39,14 @@ void open_browser(const std::string& url) {
     posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
     pid_t browser = 0;
     if (::posix_spawnp(&browser, program.c_str(), &quiet, nullptr, arguments, environ) != 0)
-        say("phasetree: xdg-open cannot be started; open the address by hand\n");
+        say("phasetree: warning: cannot start xdg-open; open the address yourself\n");
     posix_spawn_file_actions_destroy(&quiet);
 }
 
 int view_scene(const ViewOptions& options) {
     view::require_server();
     if (options.scene->is_standard_input())
-        throw OptionError("view: the scene must be a file, which is read again when it is saved");
+        throw UsageError("view: the scene must be a file, because it is read again whenever it is saved");
     const AvailableThreads threads(options.threads);
     const ViewedFile file = options.file();
     const view::SessionOptions session_options{
@@ -68,7 +68,7 @@ int view_scene(const ViewOptions& options) {
                               [&](const std::string& url) {
                                   put("{}\n", url);
                                   finish_output();
-                                  say("phasetree: serving {} there until Ctrl-C\n", options.scene->shown());
+                                  say("phasetree: serving {} until Ctrl-C\n", options.scene->shown());
                                   if (options.opens) open_browser(url);
                               }});
     return 0;
@@ -77,24 +77,26 @@ int view_scene(const ViewOptions& options) {
 }  // namespace
 
 void add_view(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("view", "Show a scene in the browser, to be turned and edited live");
+    CLI::App* command = app.add_subcommand("view", "Show a scene in the browser and edit it live");
     command->footer(
-        "Prints the address of a page on this machine, and serves it until Ctrl-C. Whoever has the\n"
-        "address may look; it is another one each time. The picture is refined while one looks,\n"
-        "and the scene is read again when one of its files is saved.");
+        "Prints the address of a page on this machine and serves it until Ctrl-C. The address is\n"
+        "different each time, and anyone on this machine who knows it can use the page. The picture\n"
+        "keeps improving, and the scene is read again when one of its files is saved.");
     auto o = std::make_shared<ViewOptions>();
     o->scene = add_scene_file(*command);
-    command->add_flag("--open", o->opens, "Open the page in the desktop's browser, by xdg-open");
-    command->add_option("--port", o->port, "Port of 127.0.0.1 (default: any that is free)")
-        ->check(CLI::Range(1, 65535));
-    command->add_option("--spp", o->samples, "Samples a pixel in the end")->check(CLI::Range(1, 1 << 24));
-    command->add_option("--width", o->width, "Pixels across; the height follows (default: the scene's)")
+    command->add_flag("--open", o->opens, "Open the page in the desktop's browser with xdg-open");
+    command->add_option("--port", o->port, "Port on 127.0.0.1 (default: any free one)")->check(CLI::Range(1, 65535));
+    command->add_option("--spp", o->samples, "Final number of samples per pixel (default: that of the scene)")
+        ->check(CLI::Range(1, 1 << 24));
+    command
+        ->add_option("--width", o->width,
+                     "Width of the picture in pixels; the height keeps the proportions (default: that of the scene)")
         ->check(CLI::Range(1, 8192));
-    command->add_option("--threads", o->threads, "Threads that render (default: one a core)")
+    command->add_option("--threads", o->threads, "Number of threads (default: one per core)")
         ->check(CLI::Range(1, 1024));
     add_max_memory(*command, o->most_bytes);
-    command->add_option("--display", o->display, "OpenColorIO display");
-    command->add_option("--view", o->view, "OpenColorIO view");
+    command->add_option("--display", o->display, "OpenColorIO display (default: that of the configuration)");
+    command->add_option("--view", o->view, "OpenColorIO view (default: that of the scene or the configuration)");
     command->callback([o, &run] { run = [o] { return view_scene(*o); }; });
 }
 

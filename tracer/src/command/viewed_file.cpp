@@ -59,12 +59,12 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
 }
 
 view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
-                              const view::Reading& wished) {
-    const view::NumberEdits& numbers = wished.numbers;
+                              const view::Reading& desired) {
+    const view::NumberEdits& numbers = desired.numbers;
     files.add(file.scene.name);
     kept->start();
     SceneFile at_time = file.scene;
-    if (wished.seconds) at_time.at = wished.seconds;
+    if (desired.seconds) at_time.at = desired.seconds;
     const Document in_file = read_document(at_time);
     const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
@@ -108,9 +108,9 @@ view::ReadScene ViewedFile::reader() const {
     const auto first = std::make_shared<First>();
     const auto kept = std::make_shared<KeptNodes>();
     first->scene = read_viewed(*this, kept, first->files, {});
-    return [file = *this, first, kept](view::WatchedFiles& files, const view::Reading& wished) {
+    return [file = *this, first, kept](view::WatchedFiles& files, const view::Reading& desired) {
         std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
-        if (!known || !wished.numbers.empty() || wished.seconds) return read_viewed(file, kept, files, wished);
+        if (!known || !desired.numbers.empty() || desired.seconds) return read_viewed(file, kept, files, desired);
         files = first->files;
         return std::move(*known);
     };

@@ -56,7 +56,7 @@ void check_halves(std::span<const float> samples, std::span<const float> in_firs
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (in_first[i] < 1 || samples[i] - in_first[i] < 1)
             throw DenoiseError(
-                fmt::format("denoising needs {} samples in each pixel at least", fewest_samples_to_denoise));
+                fmt::format("denoising needs at least {} samples in every pixel", fewest_samples_to_denoise));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ Planes::Choice chosen_planes(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const auto found = std::ranges::find(Planes::names, name);
         if (found == Planes::names.end())
-            throw std::invalid_argument(fmt::format("there is no plane \"{}\"; the planes are {}, and \"all\"", name,
-                                                    fmt::join(Planes::names, ", ")));
+            throw std::invalid_argument(
+                fmt::format("unknown plane \"{}\"; choose from {}, or \"all\"", name, fmt::join(Planes::names, ", ")));
         choice[static_cast<std::size_t>(found - Planes::names.begin())] = true;
     }
     return choice;

@@ -21,14 +21,14 @@ void write_text(ByteWriter& out, std::string_view text) {
 
 std::string read_text(ByteReader& in) {
     const auto length = in.number<std::uint32_t>();
-    if (length > longest_text) throw BytesError("it has a text of impossible length");
+    if (length > longest_text) throw BytesError("it contains a string of invalid length");
     const std::span<const std::byte> bytes = in.take(length);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::size_t read_count(ByteReader& in, std::size_t most) {
     const auto count = in.number<std::uint32_t>();
-    if (count > most) throw BytesError("it has a list of impossible length");
+    if (count > most) throw BytesError("it contains a list of invalid length");
     return count;
 }
 
@@ -39,7 +39,7 @@ void write_int(ByteWriter& out, int value) {
 int read_int(ByteReader& in, int low, int high) {
     const auto value = in.number<std::uint32_t>();
     if (value < static_cast<std::uint32_t>(low) || value > static_cast<std::uint32_t>(high))
-        throw BytesError("it has a number that is out of range");
+        throw BytesError("it contains a number out of range");
     return static_cast<int>(value);
 }
 
@@ -59,7 +59,7 @@ Planes::Choice read_planes(ByteReader& in) {
     for (std::size_t i = 0; i < count; ++i) {
         const std::string name = read_text(in);
         const auto found = std::ranges::find(Planes::names, name);
-        if (found == Planes::names.end()) throw BytesError("it has a plane that this version does not know");
+        if (found == Planes::names.end()) throw BytesError("it contains a plane that this version does not know");
         planes[static_cast<std::size_t>(found - Planes::names.begin())] = true;
     }
     return planes;
@@ -135,7 +135,7 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
     h.scene = read_text(in);
     h.seed = in.number<std::uint32_t>();
     h.exposure_ev = in.real();
-    if (!std::isfinite(h.exposure_ev)) throw BytesError("it has a number that is out of range");
+    if (!std::isfinite(h.exposure_ev)) throw BytesError("it contains a number out of range");
     if (in.number<std::uint8_t>() != 0) h.view = read_text(in);
     return h;
 }
@@ -143,11 +143,11 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
 std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found) {
     for (std::size_t i = 0; i < wanted.settings.size(); ++i) {
         if (i >= found.settings.size() || wanted.settings[i].first != found.settings[i].first)
-            return "it is of another version of phasetree";
+            return "it was written by another version of phasetree";
         const auto& [name, value] = wanted.settings[i];
         const std::string& other = found.settings[i].second;
         if (value == other || name == "commit") continue;
-        if (name == "scene") return "it is of another scene: the scene, or a file that it names, is not the same";
+        if (name == "scene") return "it belongs to another scene: the scene file, or a file that it names, has changed";
         if (name == "version")
             return fmt::format("it was rendered by {}, not by {}; render all samples of a picture with the same build",
                                build_and_commit(found), build_and_commit(wanted));
@@ -160,7 +160,7 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
     if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
         wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
         !same_range(wanted.shown, found.shown) || wanted.subjects != found.subjects)
-        return "it is of another picture";
+        return "it belongs to another picture";
     return "";
 }
 

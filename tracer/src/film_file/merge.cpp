@@ -22,7 +22,7 @@ Parts::Parts(const std::vector<std::filesystem::path>& paths, bool may_have_gaps
     for (const FilmFile& file : files_) {
         file.check_picture(files_.front().header());
         if (file.header().samples_in_all != files_.front().header().samples_in_all)
-            throw file.error(fmt::format("it is a share of {} samples a pixel, \"{}\" of {}",
+            throw file.error(fmt::format("it belongs to a render with {} samples per pixel, but \"{}\" to one with {}",
                                          file.header().samples_in_all, files_.front().path().string(),
                                          files_.front().header().samples_in_all));
     }
@@ -39,7 +39,7 @@ void Parts::check_ranges(bool may_have_gaps) {
         if (!file.is_finished()) {
             are_joined_ = false;
             if (!may_have_gaps)
-                throw file.error(fmt::format("it is not finished: {} of {} samples a pixel",
+                throw file.error(fmt::format("it is unfinished: it has {} of {} samples per pixel",
                                              file.samples() / file.header().area.size(), range.size()));
         }
         if (i == 0) continue;

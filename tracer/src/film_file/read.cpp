@@ -21,7 +21,7 @@ class Input {
         std::error_code problem;
         const auto status = std::filesystem::status(path, problem);
         if (status.type() == std::filesystem::file_type::not_found)
-            throw FilmFileMissing(fmt::format("cannot read \"{}\": there is no such file", path.string()));
+            throw FilmFileMissing(fmt::format("cannot read \"{}\": no such file", path.string()));
         if (problem) throw FilmFileError(fmt::format("cannot read \"{}\": {}", path.string(), problem.message()));
         if (status.type() != std::filesystem::file_type::regular) throw error("it is not a regular file");
         stream_.open(path, std::ios::binary);
@@ -80,11 +80,11 @@ FilmFile::FilmFile(const std::filesystem::path& path) : path_(path) {
     bytes_ = input.bytes();
     const std::vector<std::byte> magic = input.read(0, std::min<std::uint64_t>(bytes_, film_file_magic.size()));
     if (!equal(magic, film_file_magic.substr(0, magic.size())) || magic.empty())
-        throw error("it is no part and no checkpoint");
+        throw error("it is neither a part nor a checkpoint");
     if (bytes_ < start_bytes + end_bytes + 2 * around_block) throw error("it is truncated");
     const std::vector<std::byte> format = input.read(8, 4);
     if (ByteReader(format).number<std::uint32_t>() != film_file_format)
-        throw error("it is of another version of phasetree");
+        throw error("it was written by another version of phasetree");
     const std::vector<std::byte> end = input.read(bytes_ - end_bytes, end_bytes);
     if (!equal(std::span(end).subspan(8), film_file_end)) throw error("it is truncated");
     try {

@@ -47,10 +47,10 @@ Accessor::Rows Accessor::rows_in(std::string_view bytes, std::size_t stride, std
     // 0 is what programs write that mean none.
     if (stride == 0) stride = row;
     if (stride < row) item.fail("has rows that overlap");
-    if (offset > bytes.size()) item.fail("is beyond the end of its bytes");
+    if (offset > bytes.size()) item.fail("extends beyond the end of its bytes");
     bytes.remove_prefix(offset);
     if (count > 0 && (bytes.size() < row || (bytes.size() - row) / stride < count - 1))
-        item.fail("is beyond the end of its bytes");
+        item.fail("extends beyond the end of its bytes");
     return {bytes, stride, type};
 }
 
@@ -73,7 +73,7 @@ Accessor::Accessor(Accessors& all, std::size_t index, const Item& from) : Access
         values_ = rows_in(bytes, stride, item_.index("byteOffset").value_or(0), rows_, values_.type, columns_, item_);
         has_values_ = true;
     } else if (rows_ > most_rows_of_zeros) {
-        fail("has more than 10 million rows, but no \"bufferView\" that has them");
+        fail("has more than 10 million rows but no \"bufferView\" for them");
     }
     if (sparse) read_replacements(all, index, *sparse);
 }
@@ -88,10 +88,10 @@ Accessor::Accessor(const Document& document, std::size_t index, const Item& from
 
 void Accessor::read_replacements(Accessors& all, std::size_t index, const Item& sparse) {
     const auto indices = sparse.item("indices"), values = sparse.item("values");
-    if (!indices || !values) sparse.fail("should have \"indices\" and \"values\"");
+    if (!indices || !values) sparse.fail("must have \"indices\" and \"values\"");
     Replacements r;
     r.count = sparse.needed_index("count");
-    if (r.count > rows_) sparse.fail("has a \"count\" larger than that of its accessor");
+    if (r.count > rows_) sparse.fail("has a larger \"count\" than its accessor");
     const auto type = type_of(indices->needed_index("componentType"));
     if (type != Type::uint8 && type != Type::uint16 && type != Type::uint32)
         indices->fail("has a \"componentType\" other than 5121, 5123 and 5125");
@@ -104,9 +104,9 @@ void Accessor::read_replacements(Accessors& all, std::size_t index, const Item& 
     if (all.must_check(index, r.count))
         for (std::size_t i = 0; i < r.count; ++i) {
             const std::size_t row = r.indices.whole_number(i);
-            if (row >= rows_) indices->fail("names a row beyond those of its accessor");
+            if (row >= rows_) indices->fail("refers to a row beyond the end of its accessor");
             if (i > 0 && row <= r.indices.whole_number(i - 1))
-                indices->fail("should increase strictly, but a number is not larger than the one before it");
+                indices->fail("must increase strictly, but a number is not larger than the one before it");
         }
     replacements_ = r;
 }
@@ -175,13 +175,13 @@ double Accessor::number(std::size_t row, std::size_t column) const {
 
 double Accessor::finite_number(std::size_t row, std::size_t column) const {
     const double value = number(row, column);
-    if (!(std::abs(value) <= most_magnitude)) fail("has something that is no number, or is beyond 10¹⁵");
+    if (!(std::abs(value) <= most_magnitude)) fail("has a value that is not a number, or beyond 10¹⁵");
     return value;
 }
 
 std::uint32_t Accessor::index(std::size_t row) const {
     if (values_.type != Type::uint8 && values_.type != Type::uint16 && values_.type != Type::uint32)
-        fail("has indices that are not whole numbers from 0");
+        fail("has indices that are not whole numbers of at least 0");
     const Place place = place_of(row);
     return place.rows ? place.rows->whole_number(place.row) : 0;
 }

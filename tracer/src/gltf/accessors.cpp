@@ -45,13 +45,13 @@ constexpr std::array attribute_names{"POSITION",   "NORMAL",     "TANGENT",    "
 }  // namespace
 
 void Accessors::count(std::size_t bytes) {
-    if (bytes > bytes_left_) throw GltfError("its compressed data are larger than 1 GiB in all");
+    if (bytes > bytes_left_) throw GltfError("its compressed data exceed 1 GiB in total");
     bytes_left_ -= bytes;
 }
 
 bool Accessors::must_check(std::size_t accessor, std::size_t indices) {
     if (!checked_.insert(accessor).second) return false;
-    if (indices > indices_left_) throw GltfError("its sparse accessors replace more than 200 million rows in all");
+    if (indices > indices_left_) throw GltfError("its sparse accessors replace more than 200 million rows in total");
     indices_left_ -= indices;
     return true;
 }
@@ -66,8 +66,8 @@ std::string_view Accessors::bytes_of_view(std::size_t index, const Item& from) {
         const auto fallback = buffer.extension(meshopt_name);
         if (buffer.has("uri") || !fallback || !fallback->flag("fallback")) return document_.view(index, from);
         view.fail(
-            "is compressed by EXT_meshopt_compression, which this build does not read; export without meshopt "
-            "compression, or install libmeshoptimizer-dev and build again");
+            "is compressed with EXT_meshopt_compression, which this build cannot read; export it without meshopt "
+            "compression, or install libmeshoptimizer-dev and rebuild");
     }
     const auto known = views_.find(index);
     if (known != views_.end()) return known->second;
@@ -75,7 +75,7 @@ std::string_view Accessors::bytes_of_view(std::size_t index, const Item& from) {
     const std::string_view bytes = document_.bytes_in_buffer(*compressed);
     count(bytes.size());
     std::optional<std::string> decoded = decode_meshopt(bytes, layout);
-    if (!decoded) compressed->fail("has invalid data; export the file again, or without meshopt compression");
+    if (!decoded) compressed->fail("contains invalid data; export the file again, or without meshopt compression");
     count(decoded->size());
     if (view.needed_index("byteLength") != decoded->size())
         view.fail(fmt::format("has a \"byteLength\" other than the {} bytes of its compressed data", decoded->size()));
@@ -120,8 +120,8 @@ std::map<std::string, Accessor> Accessors::decoded(const Item& primitive, const 
     const std::size_t vertices = element(positions).needed_index("count"),
                       indices = element(primitive.needed_index("indices")).needed_index("count");
     if (mesh.vertices != vertices || mesh.indices.size() != indices)
-        compressed->fail(fmt::format("has {} vertices and {} indices, but its accessors say {} and {}", mesh.vertices,
-                                     mesh.indices.size(), vertices, indices));
+        compressed->fail(fmt::format("has {} vertices and {} indices, but its accessors declare {} and {}",
+                                     mesh.vertices, mesh.indices.size(), vertices, indices));
     for (std::size_t i = 0; i < names.size(); ++i)
         all.emplace(names[i], Accessor(document_, attributes.needed_index(names[i]), attributes, mesh.attributes[i]));
     const std::string_view bytes_of_indices(reinterpret_cast<const char*>(mesh.indices.data()),

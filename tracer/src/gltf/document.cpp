@@ -62,7 +62,7 @@ void Item::fail(std::string_view what) const {
 }
 
 const Json* Item::find(std::string_view key) const {
-    if (!json_->is_object()) fail("should be an object");
+    if (!json_->is_object()) fail("must be an object");
     const auto found = json_->find(key);
     return found == json_->end() ? nullptr : &*found;
 }
@@ -82,7 +82,7 @@ std::vector<Item> Item::items(std::string_view key) const {
     std::vector<Item> all;
     const Json* list = find(key);
     if (!list) return all;
-    if (!list->is_array()) fail(fmt::format("should have a list \"{}\"", key));
+    if (!list->is_array()) fail(fmt::format("must have a list \"{}\"", key));
     for (const Json& json : *list)
         all.emplace_back(json, fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, all.size()));
     return all;
@@ -91,7 +91,7 @@ std::vector<Item> Item::items(std::string_view key) const {
 std::size_t Item::index_of(const Json& json, std::string_view key) const {
     // Files hold no more than 4 GB, so no valid index or count is larger.
     if (!json.is_number_unsigned() || json.get<std::uint64_t>() > 0xFFFFFFFF)
-        fail(fmt::format("should have a whole number \"{}\"", key));
+        fail(fmt::format("must have a whole number \"{}\"", key));
     return json.get<std::size_t>();
 }
 
@@ -111,7 +111,7 @@ std::vector<std::size_t> Item::indices(std::string_view key) const {
     std::vector<std::size_t> all;
     const Json* list = find(key);
     if (!list) return all;
-    if (!list->is_array()) fail(fmt::format("should have a list \"{}\"", key));
+    if (!list->is_array()) fail(fmt::format("must have a list \"{}\"", key));
     for (const Json& json : *list) all.push_back(index_of(json, key));
     return all;
 }
@@ -119,12 +119,12 @@ std::vector<std::size_t> Item::indices(std::string_view key) const {
 std::optional<std::vector<float>> Item::numbers(std::string_view key, std::size_t count) const {
     const Json* list = find(key);
     if (!list) return std::nullopt;
-    if (!list->is_array() || list->size() != count) fail(fmt::format("should have {} numbers in \"{}\"", count, key));
+    if (!list->is_array() || list->size() != count) fail(fmt::format("must have {} numbers in \"{}\"", count, key));
     std::vector<float> all;
     for (const Json& json : *list) {
         const double value = json.is_number() ? json.get<double>() : std::nan("");
         if (!(std::abs(value) <= most_magnitude))
-            fail(fmt::format("should have numbers in \"{}\", each at most 10¹⁵ in magnitude", key));
+            fail(fmt::format("must have numbers in \"{}\", each at most 10¹⁵ in magnitude", key));
         all.push_back(static_cast<float>(value));
     }
     return all;
@@ -135,7 +135,7 @@ float Item::number(std::string_view key, float otherwise) const {
     if (!found) return otherwise;
     const double value = found->is_number() ? found->get<double>() : std::nan("");
     if (!(std::abs(value) <= most_magnitude))
-        fail(fmt::format("should have a number \"{}\", at most 10¹⁵ in magnitude", key));
+        fail(fmt::format("must have a number \"{}\", at most 10¹⁵ in magnitude", key));
     return static_cast<float>(value);
 }
 
@@ -178,12 +178,12 @@ Document::Document(std::string_view content, ReadFile read_file) : read_file_(st
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     std::string_view text = content;
     if (content.starts_with("glTF")) {
-        if (number_at(content, 4) != 2) throw GltfError("it is not of version 2 of glTF");
+        if (number_at(content, 4) != 2) throw GltfError("it is not glTF version 2");
         content = content.substr(0, number_at(content, 8));
         content.remove_prefix(std::min<std::size_t>(12, content.size()));
         std::uint32_t type = 0;
         text = next_chunk(content, type);
-        if (type != json_chunk) throw GltfError("it does not begin with a document");
+        if (type != json_chunk) throw GltfError("it does not begin with a JSON document");
         if (content.size() >= 8) {
             const std::string_view chunk = next_chunk(content, type);
             if (type == bytes_chunk) bytes_ = chunk;
@@ -193,13 +193,13 @@ Document::Document(std::string_view content, ReadFile read_file) : read_file_(st
     }
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{')
-        throw GltfError("it is no glTF file: it begins neither with \"glTF\" nor with a document");
-    if (text.size() > most_bytes_of_json) throw GltfError("its document is larger than 64 MiB");
+        throw GltfError("it is not a glTF file: it begins neither with \"glTF\" nor with a JSON document");
+    if (text.size() > most_bytes_of_json) throw GltfError("its JSON document is larger than 64 MiB");
     // Each level costs memory in the parser.
     if (depth_of(text) > most_depth)
-        throw GltfError(fmt::format("its document is deeper than {} brackets", most_depth));
+        throw GltfError(fmt::format("its JSON document is nested more than {} levels deep", most_depth));
     json_ = Json::parse(text, nullptr, false);
-    if (!json_.is_object()) throw GltfError("its document is not JSON in UTF-8");
+    if (!json_.is_object()) throw GltfError("its document is not valid JSON in UTF-8");
     check_version();
     read_buffers();
 }
@@ -207,8 +207,7 @@ Document::Document(std::string_view content, ReadFile read_file) : read_file_(st
 void Document::check_version() const {
     const auto asset = root().item("asset");
     const std::string version = asset ? asset->text("version") : "", least = asset ? asset->text("minVersion") : "";
-    if (!version.starts_with("2.") || (!least.empty() && least != "2.0"))
-        throw GltfError("it is not of version 2.0 of glTF");
+    if (!version.starts_with("2.") || (!least.empty() && least != "2.0")) throw GltfError("it is not glTF version 2.0");
 }
 
 std::size_t Document::count(const char* list) const {
@@ -216,7 +215,8 @@ std::size_t Document::count(const char* list) const {
 }
 
 Item Document::element(const char* list, std::size_t index, const Item& from) const {
-    if (index >= count(list)) from.fail(fmt::format("refers to {}[{}], but there are {}", list, index, count(list)));
+    if (index >= count(list))
+        from.fail(fmt::format("refers to {}[{}], but there are only {}", list, index, count(list)));
     return {json_[list][index], fmt::format("{}[{}]", list, index)};
 }
 
@@ -235,7 +235,7 @@ void Document::read_buffers() {
         const Item buffer = element("buffers", i, root());
         if (!buffer.has("uri")) continue;
         buffers_[i] = bytes_of(buffer);
-        if (buffers_[i].size() > left) throw GltfError("its buffers are larger than 1 GiB in all");
+        if (buffers_[i].size() > left) throw GltfError("its buffers exceed 1 GiB in total");
         left -= buffers_[i].size();
     }
 }
@@ -251,7 +251,7 @@ std::string_view Document::bytes_in_buffer(const Item& view) const {
     if (!has_uri && number != 0) buffer.fail("has no bytes");
     const std::string_view bytes = has_uri ? std::string_view(buffers_[number]) : bytes_;
     const std::size_t offset = view.index("byteOffset").value_or(0), length = view.needed_index("byteLength");
-    if (offset > bytes.size() || length > bytes.size() - offset) view.fail("is beyond the end of its buffer");
+    if (offset > bytes.size() || length > bytes.size() - offset) view.fail("extends beyond the end of its buffer");
     return bytes.substr(offset, length);
 }
 

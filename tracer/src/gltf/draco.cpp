@@ -16,7 +16,7 @@ namespace phasetree::tracer::gltf {
 
 namespace {
 
-constexpr std::string_view invalid = "has invalid data of Draco; export the file again, or without Draco compression";
+constexpr std::string_view invalid = "contains invalid Draco data; export the file again, or without Draco compression";
 
 // The library allocates what the data ask for. So this looks at the numbers of triangles, vertices and attributes
 // before it does. `Decoder` is one of the library's decoders of meshes.
@@ -71,7 +71,7 @@ void decode(std::string_view compressed, const DracoLimits& limits, draco::Mesh&
     const draco::DecoderOptions options;
     const bool is_good = decoder.Decode(options, &buffer, &mesh).ok();
     if (decoder.is_beyond_limits())
-        throw GltfError("has more triangles, vertices or numbers in its data of Draco than its accessors say");
+        throw GltfError("has more triangles, vertices or numbers in its Draco data than its accessors declare");
     if (!is_good) throw GltfError(std::string(invalid));
 }
 
@@ -82,7 +82,8 @@ void decode_mesh(std::string_view compressed, const DracoLimits& limits, draco::
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok() || header.encoder_type != draco::TRIANGULAR_MESH)
         throw GltfError(std::string(invalid));
     if ((header.flags & METADATA_FLAG_MASK) != 0)
-        throw GltfError("has metadata in its data of Draco, which are not read; export the file again without them");
+        throw GltfError(
+            "has metadata in its Draco data, which phasetree cannot read; export the file again without them");
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
         decode<draco::MeshEdgebreakerDecoder>(compressed, limits, mesh);
     else
@@ -103,10 +104,11 @@ std::string rows_of(const draco::PointAttribute& attribute, std::size_t points, 
 
 std::string rows_of(const draco::Mesh& mesh, const DracoAttribute& wanted) {
     const draco::PointAttribute* const found = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(wanted.id));
-    if (!found) throw GltfError(fmt::format("has no attribute {} in its data of Draco", wanted.id));
+    if (!found) throw GltfError(fmt::format("has no attribute {} in its Draco data", wanted.id));
     if (static_cast<std::size_t>(found->num_components()) != wanted.columns)
-        throw GltfError(fmt::format("has rows of {} numbers in attribute {} of its data of Draco, but its accessor {}",
-                                    found->num_components(), wanted.id, wanted.columns));
+        throw GltfError(
+            fmt::format("has rows of {} numbers in attribute {} of its Draco data, but its accessor declares {}",
+                        found->num_components(), wanted.id, wanted.columns));
     switch (wanted.component_type) {
         case 5120:
             return rows_of<std::int8_t>(*found, mesh.num_points(), wanted.columns);

@@ -79,10 +79,10 @@ constexpr std::array known_extensions{
     Extension{"KHR_materials_anisotropy", Use::refused, "anisotropic reflections"},
     Extension{"KHR_materials_clearcoat", Use::refused, "clear coats"},
     Extension{"KHR_materials_diffuse_roughness", Use::refused, "the roughness of diffuse reflection"},
-    Extension{"KHR_materials_diffuse_transmission", Use::refused, "light that shines through thin surfaces"},
+    Extension{"KHR_materials_diffuse_transmission", Use::refused, "transmission through thin surfaces"},
     Extension{"KHR_materials_dispersion", Use::refused, "dispersion"},
     Extension{"KHR_materials_iridescence", Use::refused, "thin films"},
-    Extension{"KHR_materials_pbrSpecularGlossiness", Use::refused, "colours given by specular and glossiness",
+    Extension{"KHR_materials_pbrSpecularGlossiness", Use::refused, "colours of the specular-glossiness workflow",
               "export metallic-roughness materials"},
     Extension{"KHR_materials_sheen", Use::refused, "sheen of cloth"},
     Extension{"KHR_materials_specular", Use::refused, "the strength and colour of specular reflection"},
@@ -120,10 +120,10 @@ bool is_of_materials(std::string_view name) {
 
 [[noreturn]] void refuse_without(std::string_view name, std::string_view library, std::string_view package,
                                  std::string_view compression) {
-    throw GltfError(fmt::format(
-        "it requires {}, which this build does not read because it lacks {}; export without {} compression, "
-        "or install {} and build again",
-        name, library, compression, package));
+    throw GltfError(
+        fmt::format("it requires {}, which this build cannot read without {}; export it without {} compression, or "
+                    "install {} and rebuild",
+                    name, library, compression, package));
 }
 
 }  // namespace
@@ -138,8 +138,8 @@ void check_required_extensions(const Document& document, bool has_materials) {
         if (extension && extension->use != Use::refused) continue;
         const bool is_material = is_of_materials(name);
         if (is_material && !has_materials) continue;
-        throw GltfError(fmt::format("it requires {}, which this program does not read; {}{}",
-                                    is_name(name) ? name : "an extension of glTF",
+        throw GltfError(fmt::format("it requires {}, which phasetree cannot read; {}{}",
+                                    is_name(name) ? name : "a glTF extension",
                                     extension ? extension->remedy : "export without it",
                                     is_material ? ", or give the mesh a \"material\" here" : ""));
     }
@@ -162,7 +162,7 @@ std::string sentence_about_unread(const std::set<std::string>& used, bool has_ma
     }
     if (others > 0)
         list += fmt::format("{}{} {}", listed == 0 ? "" : " and ", others, listed == 0 ? "unknown" : "more");
-    return list.empty() ? list : "uses extensions that are not read: " + list;
+    return list.empty() ? list : "uses unsupported extensions: " + list;
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -24,7 +24,7 @@ bool repeats(const Document& document, const Item& source) {
 
 // glTF's coordinates have (0, 0) at the upper left corner of an image, and v grows downwards. KHR_texture_transform
 // scales them, then turns them counter-clockwise as such axes show it, then moves them. (The matrix in its
-// specification turns the other way; issue 1563 of KhronosGroup/glTF says so, and programs agree with that.)
+// specification turns the other way, which issue 1563 of KhronosGroup/glTF confirms; other programs do the same.)
 Coordinates coordinates_of(const Item& texture) {
     Coordinates c;
     c.set = texture.index("texCoord").value_or(0);
@@ -62,7 +62,7 @@ std::optional<ReadImage> Images::read(const Item& texture, ImageMeaning meaning)
         }
         if (read.image->pixels() > pixels_left_)
             throw GltfError(
-                fmt::format("its images have more than {} million pixels in all", most_pixels_ / 1'000'000));
+                fmt::format("its images have more than {} million pixels in total", most_pixels_ / 1'000'000));
         pixels_left_ -= read.image->pixels();
         read.mean = read.image->mean();
         read.green = read.image->range(1);

@@ -67,7 +67,7 @@ class Materials::Maker {
         }
         if (const auto extensions = item_.item("extensions")) made_.extensions = extensions->keys();
         if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
-            note_loss("says its colour by specular and glossiness, which is not read; here it is a white metal");
+            note_loss("uses the specular-glossiness workflow, which is not supported; it is rendered as a white metal");
         // What is laid first is laid by the mesh's first coordinates, as a map of normals has to be for its tangents.
         std::optional<Glowing> glowing = emission();
         const std::optional<NormalMap> normals = glowing ? std::nullopt : normal_map();
@@ -97,13 +97,13 @@ class Materials::Maker {
         if (!texture) return std::nullopt;
         const auto read = images_.read(*texture, meaning);
         if (!read && meaning != ImageMeaning::alpha)
-            note_loss("has an image of a kind that is not read, which is ignored; PNG and JPEG are read");
+            note_loss("has an image in an unsupported format, which is ignored; use PNG or JPEG");
         return read;
     }
     // How an image lies on meshes. The first one of a material decides which coordinates the meshes have; others are
     // laid by these, too, or by a second set.
     ImageCoordinates lay(const Item& texture, const ReadImage& image) {
-        if (!image.repeats) note_loss("has an image that does not repeat in the file; here it does");
+        if (!image.repeats) note_loss("has an image that must not repeat; it is rendered as repeating");
         const Coordinates wanted = coordinates_of(texture);
         if (!made_.coordinates) made_.coordinates = wanted;
         const Coordinates& first = *made_.coordinates;
@@ -112,7 +112,7 @@ class Materials::Maker {
             return {.is_second = false, .transform = glm::mat3x2(wanted.transform * glm::inverse(first.transform))};
         if (!made_.second_set) made_.second_set = wanted.set;
         if (*made_.second_set != wanted.set) {
-            note_loss("uses more than two sets of texture coordinates; an image lies by another set than in the file");
+            note_loss("uses more than two sets of texture coordinates; one image is mapped by another set");
             return {};
         }
         ImageCoordinates second{.is_second = true};
@@ -133,7 +133,7 @@ class Materials::Maker {
             if (const auto read = image(transmission->item("transmissionTexture"), ImageMeaning::numbers))
                 part *= read->mean.x;
         if (part >= 0.5f) return true;
-        if (part > 0) note_loss("lets some light through in the file; here it lets none");
+        if (part > 0) note_loss("is partly transmissive; it is rendered as opaque");
         return false;
     }
 
@@ -203,7 +203,7 @@ class Materials::Maker {
         const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
         if (!(radiance > 0)) return std::nullopt;
         if (radiance < faintest_radiance) {
-            note_loss("shines a little in the file; here it is dark");
+            note_loss("is faintly emissive; it is rendered without emission");
             return std::nullopt;
         }
         TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
@@ -213,13 +213,13 @@ class Materials::Maker {
         if (texture && !read) return std::nullopt;
         if (read) {
             if (read->lit_share < 0.5f) {
-                if (read->lit_share > 0) note_loss("shines in some places; here it is dark");
+                if (read->lit_share > 0) note_loss("is emissive in some places; it is rendered without emission");
                 return std::nullopt;
             }
             light.image = read->image;
             light.coordinates = lay(*texture, *read);
         }
-        if (item_.has("normalTexture")) note_loss("shines and has a map of normals, which is ignored");
+        if (item_.has("normalTexture")) note_loss("is emissive and has a normal map, which is ignored");
         return Glowing{.light = light, .radiance = radiance};
     }
 

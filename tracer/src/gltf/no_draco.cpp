@@ -1,4 +1,4 @@
-// Stands in for draco.cpp in builds without the library.
+// Replaces draco.cpp in builds without the library.
 #include "gltf/document.hpp"
 #include "gltf/draco.hpp"
 
@@ -10,8 +10,8 @@ bool has_draco() {
 
 DracoMesh decode_draco(std::string_view, const std::vector<DracoAttribute>&, const DracoLimits&) {
     throw GltfError(
-        "is compressed by Draco, which this build does not read; export without Draco compression, or install "
-        "libdraco-dev and build again");
+        "is compressed with Draco, which this build cannot read; export it without Draco compression, or install "
+        "libdraco-dev and rebuild");
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -1,4 +1,4 @@
-// Stands in for meshopt.cpp in builds without the library.
+// Replaces meshopt.cpp in builds without the library.
 #include "gltf/meshopt.hpp"
 
 namespace phasetree::tracer::gltf {

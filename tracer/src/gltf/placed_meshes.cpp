@@ -40,9 +40,9 @@ class Instances {
             std::optional<Accessor> found;
             if (!attributes->has(name)) return found;
             found.emplace(accessors.read(attributes->needed_index(name), *attributes));
-            if (found->columns() != columns) found->fail("has rows of another length than instances have");
+            if (found->columns() != columns) found->fail("has rows of the wrong length for instances");
             if (count_ && *count_ != found->rows())
-                found->fail("has another number of rows than the others of the instances");
+                found->fail("has a different number of rows than the other attributes of the instances");
             count_ = found->rows();
             return found;
         };
@@ -112,7 +112,7 @@ class Scene {
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             const Item node = document_.element("nodes", *child, parent);
             // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
-            if (placements_[*child]) node.fail("is at two places of the tree of nodes");
+            if (placements_[*child]) node.fail("occurs twice in the node hierarchy");
             placements_[*child] = placement;
             next_.push_back({*child, node, placement, is_visible});
         }

@@ -49,8 +49,8 @@ std::optional<Accessor> attribute(const Attributes& attributes, const std::strin
                                   std::size_t least_columns) {
     std::optional<Accessor> found = attributes.find(name);
     if (!found) return found;
-    if (found->rows() != positions.rows()) found->fail("has another number of rows than the positions");
-    if (found->columns() < least_columns) found->fail("has rows of too few numbers");
+    if (found->rows() != positions.rows()) found->fail("has a different number of rows than the positions");
+    if (found->columns() < least_columns) found->fail("has too few numbers per row");
     return found;
 }
 
@@ -71,13 +71,13 @@ class Reader {
 
     GltfFile read() {
         check_required_extensions(document_, has_materials_);
-        if (document_.count("animations") > 0) say("has animations, which are not read; nothing moves");
+        if (document_.count("animations") > 0) say("has animations, which are ignored");
         const PlacedMeshes all = placed_meshes(accessors_, limits_.primitives);
         for (const PlacedMesh& placed : all.meshes) {
             const Item mesh = document_.element("meshes", placed.mesh, document_.root());
             primitives_ += mesh.count("primitives");
             if (primitives_ > limits_.primitives)
-                throw GltfError(fmt::format("there are more primitives than {}", limits_.primitives));
+                throw GltfError(fmt::format("it has more than {} primitives", limits_.primitives));
             for (const Item& primitive : mesh.items("primitives")) add(primitive, placed);
         }
         for (auto& [key, begun] : parts_) finish(begun);
@@ -116,11 +116,11 @@ class Reader {
 
     std::string why_there_is_nothing(const PlacedMeshes& placed) const {
         if (!clear_materials_.empty() && !has_empty_)
-            return "all of it is clear, and meshes are opaque; give it a \"material\", or model it as a clear phase in "
-                   "\"tree\"";
+            return "all its materials are clear, but meshes must be opaque; give it a \"material\", or model it as a "
+                   "clear phase in \"tree\"";
         if (placed.meshes.empty() && placed.has_hidden)
             return "all of its meshes are hidden (KHR_node_visibility); make some visible and export it again";
-        return "it has no triangles in its scene";
+        return "its scene has no triangles";
     }
 
     void say_which_extensions_are_not_read() {
@@ -133,7 +133,7 @@ class Reader {
 
     void add(const Item& primitive, const PlacedMesh& placed) {
         std::size_t mode = primitive.index("mode").value_or(triangles);
-        if (mode < triangles) return say("has points or lines, which are not shown");
+        if (mode < triangles) return say("has points or lines, which are ignored");
         if (mode > fan) primitive.fail("has an unknown \"mode\"");
         const auto item = primitive.item("attributes");
         if (!item || !item->has("POSITION")) primitive.fail("has no positions");
@@ -141,7 +141,7 @@ class Reader {
         // What was compressed as a strip is decoded to triangles.
         if (!attributes.decoded.empty()) mode = triangles;
         const Accessor positions = attributes.find("POSITION").value();
-        if (positions.columns() != 3) positions.fail("has positions that are not of three numbers");
+        if (positions.columns() != 3) positions.fail("has positions that do not have three numbers");
 
         const Key key{has_materials_ ? primitive.index("material") : std::nullopt,
                       has_materials_ && item->has("COLOR_0")};
@@ -165,7 +165,7 @@ class Reader {
                       std::nullopt,
                       placed,
                       mode};
-        if (source.joints && item->has("JOINTS_1")) say("has vertices with more than four joints; four count");
+        if (source.joints && item->has("JOINTS_1")) say("has vertices with more than four joints; only four are used");
         // Tangents without normals mean nothing.
         begun.drops_tangents = begun.drops_tangents || !source.tangents || !source.normals;
         if (const auto decoded = attributes.decoded.find("indices"); decoded != attributes.decoded.end())
@@ -174,7 +174,7 @@ class Reader {
             source.indices.emplace(accessors_.read(primitive.needed_index("indices"), primitive));
         if ((!source.texture || (begun.second_set && !source.second_texture)) && begun.has_images &&
             !begun.lacks_texture)
-            say(fmt::format("\"{}\" has images, and somewhere no coordinates for them", begun.part.name));
+            say(fmt::format("\"{}\" has images, but some of its meshes have no texture coordinates", begun.part.name));
         begun.lacks_texture = begun.lacks_texture || !source.texture;
         if (placed.weights) add_targets(primitive, source);
         add_triangles(primitive, source, begun);
@@ -204,7 +204,7 @@ class Reader {
     // False if the material is clear.
     bool begin(const Key& key, const Item& primitive) {
         if (parts_.size() + clear_materials_.size() >= limits_.materials)
-            throw GltfError(fmt::format("there are more materials than {}", limits_.materials));
+            throw GltfError(fmt::format("it has more than {} materials", limits_.materials));
         if (!has_materials_) {
             parts_[key].part.name = "all";
             return true;
@@ -213,9 +213,10 @@ class Reader {
         extensions_.insert(made.extensions.begin(), made.extensions.end());
         for (const std::string& sentence : made.not_shown) say(fmt::format("\"{}\" {}", made.name, sentence));
         if (made.is_clear) {
-            say(fmt::format(
-                "\"{}\" is clear, and is left out: meshes are opaque; model it as a clear phase in \"tree\"",
-                made.name));
+            say(
+                fmt::format("\"{}\" is clear and therefore ignored, because meshes must be opaque; model it as a clear "
+                            "phase in \"tree\"",
+                            made.name));
             clear_materials_.insert(key.material);
             return false;
         }
@@ -263,7 +264,7 @@ class Reader {
         const std::size_t count = source.mode == triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
         triangles_ += count;
         if (triangles_ > limits_.triangles)
-            throw GltfError(fmt::format("there are more triangles than {} million", limits_.triangles / 1'000'000));
+            throw GltfError(fmt::format("it has more than {} million triangles", limits_.triangles / 1'000'000));
         ++primitive_number_;
         if (vertices_in_part_.size() < source.positions.rows()) vertices_in_part_.resize(source.positions.rows());
         // Only vertices that triangles have are taken: primitives may share one list of positions.
@@ -272,7 +273,7 @@ class Reader {
         };
         const auto vertex = [&](std::size_t corner) {
             const std::size_t i = vertex_of(corner);
-            if (i >= source.positions.rows()) primitive.fail("has an index beyond its vertices");
+            if (i >= source.positions.rows()) primitive.fail("has an index beyond the last vertex");
             if (vertices_in_part_[i].primitive != primitive_number_) {
                 vertices_in_part_[i] = {primitive_number_, static_cast<std::uint32_t>(begun.part.mesh.vertices.size()),
                                         is_mirrored(placement_of_vertex(i, source))};
@@ -348,9 +349,9 @@ class Reader {
             const double joint = source.joints->number(i, k), weight = source.weights->number(i, k);
             if (weight == 0) continue;
             if (!(weight > 0 && weight <= 1e6))
-                source.weights->fail("has a weight that is negative, no number, or beyond 10⁶");
+                source.weights->fail("has a weight that is negative, not a number, or beyond 10⁶");
             if (!(joint < static_cast<double>(source.placed.joints->size())))
-                source.joints->fail("names a joint that its skin has not");
+                source.joints->fail("refers to a joint that its skin does not have");
             sum += weight * (*source.placed.joints)[static_cast<std::size_t>(std::max(joint, 0.0))];
             weights += weight;
         }
@@ -373,8 +374,7 @@ class Reader {
     template <int count>
     static glm::vec<count, float> finite(const glm::vec<count, double>& v, const Accessor& accessor) {
         for (int k = 0; k < count; ++k)
-            if (!(std::abs(v[k]) <= most_magnitude))
-                accessor.fail("has something that is no number, or is beyond 10¹⁵");
+            if (!(std::abs(v[k]) <= most_magnitude)) accessor.fail("has a value that is not a number, or beyond 10¹⁵");
         return glm::vec<count, float>(v);
     }
 

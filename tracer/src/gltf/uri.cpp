@@ -55,7 +55,7 @@ std::string from_base64(std::string_view text) {
         if (c == '=') break;
         if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
         const int value = value_in_base64(c);
-        if (value < 0) throw GltfError("has data that are not of base 64");
+        if (value < 0) throw GltfError("has data that are not valid base64");
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         count += 6;
         if (count < 8) continue;
@@ -82,25 +82,25 @@ bool is_data(std::string_view uri) {
 
 std::string path_of_uri(std::string_view uri) {
     if (is_data(uri)) return {};
-    if (has_scheme(uri)) throw GltfError("is in another place than the folder of the document; nothing is fetched");
+    if (has_scheme(uri)) throw GltfError("is outside the folder of the document; files are never downloaded");
     std::string path = without_percents(uri);
     // As programs write them on Windows.
     std::ranges::replace(path, '\\', '/');
     const std::filesystem::path relative(path);
     const bool leaves = std::ranges::find(relative, std::filesystem::path("..")) != relative.end();
     if (path.empty() || path.find('\0') != std::string::npos || relative.is_absolute() || leaves)
-        throw GltfError("must name a file in the folder of the document, or in one within it");
+        throw GltfError("must name a file in the folder of the document or in a subfolder");
     return path;
 }
 
 std::string bytes_of_uri(std::string_view uri, const ReadFile& read_file) {
     if (!is_data(uri)) {
         const std::string path = path_of_uri(uri);
-        if (!read_file) throw GltfError("is in a file of its own");
+        if (!read_file) throw GltfError("is in a separate file");
         return read_file(path);
     }
     const std::size_t comma = uri.find(',');
-    if (comma == std::string_view::npos) throw GltfError("has data without a comma before them");
+    if (comma == std::string_view::npos) throw GltfError("has no comma before its data");
     std::string data = without_percents(uri.substr(comma + 1));
     return has_ending(uri.substr(0, comma), ";base64") ? from_base64(data) : data;
 }

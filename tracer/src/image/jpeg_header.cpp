@@ -42,16 +42,16 @@ class JpegMarkers {
     explicit JpegMarkers(const NextBytes& next) : next_(next) {}
 
     JpegHeader read() {
-        if (byte() != 0xFF || byte() != start_of_image) throw std::runtime_error("it is no JPEG");
+        if (byte() != 0xFF || byte() != start_of_image) throw std::runtime_error("it is not a JPEG file");
         for (int marker; (marker = next_marker()) != end_of_image;) {
             if (stands_alone(marker)) continue;
-            if (marker == start_of_image) throw std::runtime_error("there is another image within it");
+            if (marker == start_of_image) throw std::runtime_error("it contains another image");
             std::uint64_t left = number();
-            if (left < 2) throw std::runtime_error("a part of it has an impossible length");
+            if (left < 2) throw std::runtime_error("one of its segments has an invalid length");
             left -= 2;
             if (is_frame(marker)) left -= read_frame(marker, left);
             if (marker == start_of_scan && ++header_.scans > most_scans)
-                throw std::runtime_error("it has more than a hundred scans; save it as a JPEG of one scan");
+                throw std::runtime_error("it has more than 100 scans; save it as a baseline JPEG");
             skip(left);
         }
         if (header_.components == 0 || header_.scans == 0) throw std::runtime_error("it has no image");
@@ -61,7 +61,7 @@ class JpegMarkers {
   private:
     void need_bytes() {
         if (block_.empty()) block_ = next_();
-        if (block_.empty()) throw std::runtime_error("it ends before its image does");
+        if (block_.empty()) throw std::runtime_error("its image data are truncated");
     }
     int byte() {
         need_bytes();
@@ -101,7 +101,7 @@ class JpegMarkers {
     std::uint64_t read_frame(int marker, std::uint64_t length) {
         if (header_.components != 0) throw std::runtime_error("it has more than one frame");
         constexpr std::uint64_t before_components = 6, of_component = 3;
-        if (length < before_components) throw std::runtime_error("its frame is too short");
+        if (length < before_components) throw std::runtime_error("its frame header is too short");
         header_.bits = byte();
         header_.height = number();
         header_.width = number();
@@ -111,7 +111,7 @@ class JpegMarkers {
             throw std::runtime_error("it is empty");
         const auto components = static_cast<std::size_t>(header_.components);
         if (length != before_components + of_component * components)
-            throw std::runtime_error("its frame has another length than it says");
+            throw std::runtime_error("its frame header has the wrong length");
         read_sampling(components, marker >= arithmetic_frame);
         return length;
     }
@@ -126,7 +126,7 @@ class JpegMarkers {
             down[i] = sampling & 15;
             (void)byte();  // quantisation table
             if (across[i] < 1 || across[i] > 4 || down[i] < 1 || down[i] > 4)
-                throw std::runtime_error("its frame has an impossible sampling");
+                throw std::runtime_error("its frame has an invalid sampling factor");
         }
         const int most_across = *std::ranges::max_element(across), most_down = *std::ranges::max_element(down);
         const auto blocks = [](int size, int part, int of) {

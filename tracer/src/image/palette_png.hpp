@@ -51,7 +51,7 @@ inline std::optional<PaletteHeader> palette_header(std::string_view first) {
     const std::uint32_t width = png::number(first.substr(16)), height = png::number(first.substr(20));
     const int bits = static_cast<unsigned char>(first[24]);
     constexpr auto most = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
-    if (width < 1 || height < 1 || width > most || height > most) throw std::runtime_error("its size is impossible");
+    if (width < 1 || height < 1 || width > most || height > most) throw std::runtime_error("its size is invalid");
     if (bits != 1 && bits != 2 && bits != 4 && bits != 8)
         throw std::runtime_error("its palette has indices of " + std::to_string(bits) + " bits, not of 1, 2, 4 or 8");
     return PaletteHeader{static_cast<int>(width), static_cast<int>(height), bits};
@@ -60,7 +60,7 @@ inline std::optional<PaletteHeader> palette_header(std::string_view first) {
 /// The bytes of a greyscale PNG file whose values are the indices of this file. Throws std::runtime_error for a
 /// truncated file. Takes at most about twice the memory of the decoded indices.
 inline std::string as_grey_png(const std::filesystem::path& path, const PaletteHeader& header) {
-    constexpr const char* cut_off = "it ends before its image does";
+    constexpr const char* cut_off = "its image data are truncated";
     std::ifstream file(path, std::ios::binary);
     std::string grey(png::header_end, '\0');
     if (!file.read(grey.data(), static_cast<std::streamsize>(grey.size()))) throw std::runtime_error(cut_off);

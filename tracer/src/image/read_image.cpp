@@ -44,7 +44,7 @@ bool is_jpeg(std::string_view first) {
     return first.starts_with("\xff\xd8");
 }
 
-constexpr const char* too_short = "it is too short for the size that it claims";
+constexpr const char* too_short = "it is too short for the image size in its header";
 
 // Keeps values as stored. By default, OpenImageIO multiplies colours by the alpha channel, even in their encoded form.
 // Here alpha is a separate number, and colours are those in the file.
@@ -247,7 +247,7 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
     if (std::string_view(input.format_name()) == "tiff" &&
         (spec.full_width != spec.width || spec.full_height != spec.height))
         throw std::runtime_error(fmt::format(
-            "its {} × {} pixels are a part of a picture of {} × {}; save the whole picture, or the part as OpenEXR",
+            "its {} × {} pixels are a crop of a {} × {} picture; save the whole picture, or save the crop as OpenEXR",
             spec.width, spec.height, spec.full_width, spec.full_height));
     const Window shown = display_window(input);
     check_windows(spec, shown);
@@ -288,7 +288,7 @@ void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add
     const auto input = source.open();
     const ImageHeader decoded = header_of(*input);
     if (decoded.width != header.width || decoded.height != header.height || decoded.channels != header.channels)
-        throw std::runtime_error("it decodes to another size than its header says");
+        throw std::runtime_error("the decoded image has a different size than its header declares");
     read_values(*input, channels, source.bytes, add);
 }
 
@@ -304,7 +304,7 @@ void read(const Source& source, const BeginImage& begin, const AddRows& add) {
 void read(const std::filesystem::path& path, const BeginImage& begin, const AddRows& add) {
     // The library's messages for these two cases are long and refer to formats and plug-ins.
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
+    if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("no such file");
     if (!std::filesystem::is_regular_file(path, ignored)) throw std::runtime_error("it is not a file");
     const std::string first = beginning(path);
     if (const auto kind = decoded_when_opened(first))

@@ -81,7 +81,7 @@ class TakenImage {
             throw std::runtime_error(fmt::format("it is larger than {0} × {0}", largest_texture_image));
         header_ = read;
         if (meaning_ != ImageMeaning::alpha) return static_cast<int>(channels());
-        if (read.channels % 2 != 0) throw std::runtime_error("it has no alpha");
+        if (read.channels % 2 != 0) throw std::runtime_error("it has no alpha channel");
         return {read.channels < 4 ? 1 : 3, 1};
     }
     void add(std::span<const float> values) {

@@ -51,9 +51,9 @@ class TextureImage {
 
 inline constexpr int largest_texture_image = 4096;
 inline constexpr Parameter image_file_parameter{
-    "file", "", "An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels."};
+    "file", "", "Image file in any format that OpenImageIO reads, at most 4096 × 4096 pixels."};
 inline constexpr Parameter repeat_parameter{
-    "repeat", "", "How often the image stands side by side, and one above the other.", limits::any, true};
+    "repeat", "", "Number of repetitions of the image, horizontally and vertically.", limits::any, true};
 
 /// How to interpret an image's integers; floating-point values are used directly.
 enum class ImageMeaning {

@@ -31,7 +31,7 @@ class ConstantEnvironment {
 
 // Parameters in a scene file.
 struct ConstantEnvironmentParameters {
-    static constexpr KindInfo info{"constant", "The same radiance from everywhere."};
+    static constexpr KindInfo info{"constant", "The same radiance from every direction."};
 
     glm::vec3 radiance{1.0f};
     float intensity = 1.0f;
@@ -41,7 +41,7 @@ struct ConstantEnvironmentParameters {
         using P = ConstantEnvironmentParameters;
         v(&P::radiance,
           ColourParameter{{"radiance", "", "Radiance from every direction.", limits::non_negative, true}});
-        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+        v(&P::intensity, Parameter{"intensity", "", "Factor applied to the radiance.", limits::non_negative, true});
     }
     ConstantEnvironment made() const { return ConstantEnvironment(radiance * intensity); }
 };

@@ -40,7 +40,7 @@ class GradientEnvironment {
 
 // Parameters in a scene file.
 struct GradientEnvironmentParameters {
-    static constexpr KindInfo info{"gradient", "Three colours that run smoothly into each other with the height.",
+    static constexpr KindInfo info{"gradient", "A smooth gradient of three colours by elevation.",
                                    "mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)"};
 
     float intensity = 1.0f;
@@ -52,7 +52,8 @@ struct GradientEnvironmentParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = GradientEnvironmentParameters;
-        v(&P::intensity, Parameter{"intensity", "", "A factor of the three radiances.", limits::non_negative, true});
+        v(&P::intensity,
+          Parameter{"intensity", "", "Factor applied to all three radiances.", limits::non_negative, true});
         v(&P::zenith, ColourParameter{{"zenith", "", "Radiance from straight above.", limits::non_negative}});
         v(&P::horizon, ColourParameter{{"horizon", "", "Radiance from the horizon.", limits::non_negative}});
         v(&P::ground, ColourParameter{{"ground", "", "Radiance from straight below.", limits::non_negative}});

@@ -9,10 +9,9 @@
 
 namespace phasetree::tracer {
 
-inline constexpr Parameter group_parameter{"group", "",
-                                           "The group of lights that it is of: letters, digits, - and _. What the "
-                                           "lights of a group bring is a plane of the picture.",
-                                           limits::any, true};
+inline constexpr Parameter group_parameter{
+    "group", "", "Light group, of letters, digits, - and _. The light of each group is written to a plane of its own.",
+    limits::any, true};
 
 /// Returns the name of a group, which becomes part of channel names. Throws ParameterError if it is invalid.
 inline const std::string& checked_group(const std::string& group) {
@@ -20,14 +19,14 @@ inline const std::string& checked_group(const std::string& group) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     };
     if (group.empty() || group.size() > 64 || !std::ranges::all_of(group, is_allowed))
-        throw ParameterError("group", "\"group\" is made of 1 to 64 letters, digits, - and _");
+        throw ParameterError("group", "\"group\" must have 1 to 64 letters, digits, - and _");
     return group;
 }
 
 inline constexpr Parameter spectrum_parameter{
     "spectrum", "",
-    "How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the "
-    "light's own colour only the brightness counts then. Without \"spectral\" it is the colour of that spectrum.",
+    "Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the "
+    "brightness of the light's colour is used then. Without \"spectral\" the light has the colour of this spectrum.",
     limits::any, true};
 
 template <class Kind>

@@ -43,7 +43,7 @@ glm::vec3 IesLight::intensity(const glm::vec3& away) const {
 
 void IesLightParameters::check() const {
     if (!(glm::length(target - position) > 0))
-        throw ParameterError("target", "\"target\" is where the light itself is");
+        throw ParameterError("target", "\"target\" must differ from the light's position");
 }
 
 IesLight IesLightParameters::made() const {

@@ -40,9 +40,7 @@ class IesLight {
 // Parameters in a scene file.
 struct IesLightParameters {
     static constexpr KindInfo info{
-        "ies",
-        "A point that shines as a photometric file of the IES tells it (LM-63, type C). It is "
-        "a point light else."};
+        "ies", "A point light with the angular distribution of an IES photometric file (LM-63, type C)."};
 
     std::filesystem::path file{};
     glm::vec3 position{0.0f};
@@ -54,18 +52,18 @@ struct IesLightParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = IesLightParameters;
-        v(&P::file, Parameter{"file", "", "The file, of at most 1 MiB."});
-        v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
+        v(&P::file, Parameter{"file", "", "Photometric file of at most 1 MiB."});
+        v(&P::position, Parameter{"position", "m", "Position of the light.", coordinate});
         v(&P::target,
-          Parameter{"target", "m", "A point towards which goes what the file has as straight down.", coordinate});
-        v(&P::turn_degrees,
-          Parameter{"turn", "degrees",
-                    "Angle by which it is turned about that direction, anticlockwise as seen from behind it. At 0 the "
-                    "file's plane of 0° of a light that shines down is towards +x.",
-                    limits::any, true});
+          Parameter{"target", "m", "Point towards which the file's downward direction points.", coordinate});
+        v(&P::turn_degrees, Parameter{"turn", "degrees",
+                                      "Rotation about that direction, anticlockwise as seen from behind the light. At "
+                                      "0, the 0° plane of a light that points down faces +x.",
+                                      limits::any, true});
         v(&P::color, colour_of_a_point);
         v(&P::intensity,
-          Parameter{"intensity", "", "Radiant intensity where the file has the most candelas; see the point light.",
+          Parameter{"intensity", "",
+                    "Radiant intensity in the direction where the file has the most candelas; see the point light.",
                     limits::non_negative, true});
     }
     /// Checks the parameters without reading the file. Throws ParameterError.

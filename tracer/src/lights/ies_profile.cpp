@@ -39,7 +39,7 @@ class Numbers {
 
     double next(std::string_view what) {
         skip_blanks();
-        if (text_.empty()) throw error(fmt::format("the file ends where {} should be", what));
+        if (text_.empty()) throw error(fmt::format("the file ends before {}", what));
         const auto end = std::find_if(text_.begin(), text_.end(), is_blank);
         std::string_view word(text_.begin(), end);
         text_.remove_prefix(word.size());
@@ -47,13 +47,13 @@ class Numbers {
         double value = 0.0;
         const auto [rest, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (problem != std::errc() || rest != word.data() + word.size() || !std::isfinite(value))
-            throw error(fmt::format("{} should be a number", what));
+            throw error(fmt::format("{} must be a number", what));
         return value;
     }
     int whole(std::string_view what, int low, int high) {
         const double value = next(what);
         if (value != std::floor(value) || value < low || value > high)
-            throw error(fmt::format("{} should be a whole number from {} to {}, but is {}", what, low, high, value));
+            throw error(fmt::format("{} must be a whole number from {} to {}, but is {}", what, low, high, value));
         return static_cast<int>(value);
     }
     std::vector<double> list(std::string_view what, int count) {
@@ -111,13 +111,13 @@ Heading heading_of(std::string_view text) {
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     for (int line = 1; !text.empty(); ++line)
         if (const auto tilt = tilt_in(take_line(text))) return {*tilt, text, line};
-    throw std::runtime_error("there is no line TILT=…, so it is no photometric file of the IES");
+    throw std::runtime_error("it has no line TILT=…, so it is not an IES photometric file");
 }
 
 void check_increasing(const Numbers& numbers, std::span<const double> angles, std::string_view what) {
     for (std::size_t i = 1; i < angles.size(); ++i)
         if (!(angles[i] > angles[i - 1]))
-            throw numbers.error(fmt::format("{} should increase, but {} follows {}", what, angles[i], angles[i - 1]));
+            throw numbers.error(fmt::format("{} must increase, but {} follows {}", what, angles[i], angles[i - 1]));
 }
 
 // Linear interpolation between two neighbouring angles: the index of the lower one, and the fraction towards the next.
@@ -137,46 +137,43 @@ IesProfile::IesProfile(std::string_view text) {
         // How lamps dim when the luminaire is tilted. It is ignored: the luminaire is assumed to hang as it was
         // measured.
         (void)numbers.whole("the lamp's position", 1, 3);
-        const int pairs = numbers.whole("the number of tilts", 1, most_angles);
+        const int pairs = numbers.whole("the number of tilt angles", 1, most_angles);
         (void)numbers.list("a tilt", pairs);
-        (void)numbers.list("the factor of a tilt", pairs);
+        (void)numbers.list("the factor of a tilt angle", pairs);
     } else if (!is_word(heading.tilt, "NONE")) {
-        throw std::runtime_error(
-            fmt::format("line {}: TILT should be NONE or INCLUDE; tilts in a file of their own are "
-                        "not read",
-                        heading.lines));
+        throw std::runtime_error(fmt::format(
+            "line {}: TILT must be NONE or INCLUDE; tilt data in a separate file are not supported", heading.lines));
     }
     (void)numbers.next("the number of lamps");
     (void)numbers.next("the lumens of a lamp");
-    const double multiplier = numbers.next("the multiplier of candelas");
+    const double multiplier = numbers.next("the candela multiplier");
     const int verticals = numbers.whole("the number of vertical angles", 1, most_angles);
     const int horizontals = numbers.whole("the number of horizontal angles", 1, most_angles);
     const int type = numbers.whole("the photometric type", 1, 3);
     if (type != 1)
-        throw numbers.error(fmt::format("the photometric type should be 1, which is C, but is {}, which is {}", type,
+        throw numbers.error(fmt::format("the photometric type must be 1, which is C, but is {}, which is {}", type,
                                         type == 2 ? 'B' : 'A'));
     (void)numbers.whole("the unit of lengths", 1, 2);
     (void)numbers.list("a length of the luminous opening", 3);
-    const double ballast = numbers.next("the factor of the ballast");
+    const double ballast = numbers.next("the ballast factor");
     (void)numbers.list("the input power", 2);
     vertical_ = numbers.list("a vertical angle", verticals);
     check_increasing(numbers, vertical_, "the vertical angles");
     if (vertical_.front() < 0.0 || vertical_.back() > 180.0)
-        throw numbers.error("the vertical angles should be from 0 to 180");
+        throw numbers.error("the vertical angles must be from 0 to 180");
     horizontal_ = numbers.list("a horizontal angle", horizontals);
     check_increasing(numbers, horizontal_, "the horizontal angles");
     const double last = horizontal_.back();
     if (horizontal_.front() != 0.0 || (last != 0.0 && last != 90.0 && last != 180.0 && last != 360.0))
         throw numbers.error(
-            fmt::format("the horizontal angles should go from 0 to 0, 90, 180 or 360, but go from {} to {}",
+            fmt::format("the horizontal angles must go from 0 to 0, 90, 180 or 360, but go from {} to {}",
                         horizontal_.front(), last));
     const double scale = multiplier * ballast;
-    if (!(scale > 0.0))
-        throw numbers.error("the multiplier of candelas and the factor of the ballast should be positive");
+    if (!(scale > 0.0)) throw numbers.error("the candela multiplier and the ballast factor must be positive");
     candelas_ = numbers.list("the candelas", verticals * horizontals);
     for (double& candelas : candelas_) {
         candelas *= scale;
-        if (!(candelas >= 0.0) || !std::isfinite(candelas)) throw numbers.error("candelas should not be negative");
+        if (!(candelas >= 0.0) || !std::isfinite(candelas)) throw numbers.error("candelas must not be negative");
     }
     greatest_ = *std::ranges::max_element(candelas_);
     if (!(greatest_ > 0.0)) throw numbers.error("all candelas are 0");

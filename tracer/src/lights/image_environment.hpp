@@ -69,7 +69,7 @@ class EnvironmentImages;
 
 // Parameters in a scene file.
 struct ImageEnvironmentParameters {
-    static constexpr KindInfo info{"image", "An environment from a lat-long image, which is twice as wide as high."};
+    static constexpr KindInfo info{"image", "An environment map in latitude-longitude format, twice as wide as high."};
 
     std::filesystem::path file{};
     float rotation_degrees = 0.0f;
@@ -79,12 +79,12 @@ struct ImageEnvironmentParameters {
     static void parameters(V&& v) {
         using P = ImageEnvironmentParameters;
         v(&P::file, Parameter{"file", "",
-                              "An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at "
+                              "Image file that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at "
                               "most 16384 × 8192 pixels."});
         v(&P::rotation_degrees,
-          Parameter{"rotation", "degrees", "Angle by which it is turned, clockwise as seen from above.", limits::any,
+          Parameter{"rotation", "degrees", "Rotation about the z axis, clockwise as seen from above.", limits::any,
                     true});
-        v(&P::intensity, Parameter{"intensity", "", "A factor of the image.", limits::non_negative, true});
+        v(&P::intensity, Parameter{"intensity", "", "Factor applied to the image.", limits::non_negative, true});
     }
     ImageEnvironment made(EnvironmentImages& images) const;
 };

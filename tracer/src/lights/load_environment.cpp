@@ -19,7 +19,7 @@ void check(const ImageHeader& header) {
     // Resizing may leave a difference of one pixel; a larger one means another projection, such as a cube map or an
     // angular map.
     if (std::abs(header.width / 2 - header.height) > 1)
-        throw std::runtime_error("a lat-long image is twice as wide as high, this one is " +
+        throw std::runtime_error("an environment map must be twice as wide as high, but this one has " +
                                  std::to_string(header.width) + " × " + std::to_string(header.height));
     if (static_cast<std::int64_t>(header.width) * header.height > most_pixels)
         throw std::runtime_error("it is larger than 16384 × 8192");

@@ -33,20 +33,19 @@ class PointLight {
     glm::vec3 intensity_;
 };
 
-inline constexpr Parameter intensity_of_a_point{
-    "intensity", "",
-    "Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the "
-    "irradiance intensity/d².",
-    limits::non_negative, true};
+inline constexpr Parameter intensity_of_a_point{"intensity", "",
+                                                "Radiant intensity, in the unit of radiance times m²: a surface that "
+                                                "faces the light at distance d receives the irradiance intensity/d².",
+                                                limits::non_negative, true};
 inline constexpr ColourParameter colour_of_a_point{
-    {"color", "", "A factor of the intensity of each colour.", limits::non_negative, true}};
+    {"color", "", "Factor applied to the intensity.", limits::non_negative, true}};
 
 // Parameters in a scene file.
 struct PointLightParameters {
-    static constexpr KindInfo info{
-        "point",
-        "A point that shines alike in all directions. It is never seen itself, and through glass or water its light is "
-        "found by photons alone: without \"caustics\" it stays dark behind them. A small sphere has neither fault."};
+    static constexpr KindInfo info{"point",
+                                   "A point that emits equally in all directions. It is never visible, and its light "
+                                   "passes through glass or water only with \"caustics\", which use photons; without "
+                                   "them, objects behind stay dark. A small sphere light has neither limitation."};
 
     glm::vec3 position{0.0f};
     glm::vec3 color{1.0f};
@@ -55,7 +54,7 @@ struct PointLightParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = PointLightParameters;
-        v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
+        v(&P::position, Parameter{"position", "m", "Position of the light.", coordinate});
         v(&P::color, colour_of_a_point);
         v(&P::intensity, intensity_of_a_point);
     }

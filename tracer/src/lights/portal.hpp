@@ -36,10 +36,9 @@ class Portal {
 
 // Parameters in a scene file.
 struct PortalParameters {
-    static constexpr KindInfo info{
-        "portal",
-        "An opening through which the lights at infinity are looked for, such as a window of "
-        "a room: it makes less noise, and no light."};
+    static constexpr KindInfo info{"portal",
+                                   "An opening, such as a window of a room, through which lights at infinity are "
+                                   "sampled. It reduces noise and emits no light."};
 
     glm::vec3 centre{0.0f};
     glm::vec3 target{0.0f};
@@ -50,13 +49,15 @@ struct PortalParameters {
     static void parameters(V&& v) {
         using P = PortalParameters;
         v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
-        v(&P::target, Parameter{"target", "m", "A point inside, straight away from it.", coordinate});
-        v(&P::width, Parameter{"width", "m", "Length of its horizontal edge; along x if it faces up or down.", extent});
-        v(&P::height, Parameter{"height", "m", "Length of its other edge.", extent});
+        v(&P::target,
+          Parameter{"target", "m", "A point inside the room, straight in front of the portal.", coordinate});
+        v(&P::width,
+          Parameter{"width", "m", "Length of the horizontal edge; along x if the portal faces up or down.", extent});
+        v(&P::height, Parameter{"height", "m", "Length of the other edge.", extent});
     }
     Portal made() const {
         if (!(glm::length(target - centre) > 0))
-            throw ParameterError("target", "\"target\" is where the portal itself is");
+            throw ParameterError("target", "\"target\" must differ from the portal's centre");
         return Portal(RectangleLight::facing(centre, target, width, height, glm::vec3(0.0f), false));
     }
 };

@@ -70,7 +70,7 @@ class RectangleLight {
 
 // Parameters in a scene file.
 struct RectangleLightParameters {
-    static constexpr KindInfo info{"rectangle", "A rectangle that shines to one side and is not there from behind."};
+    static constexpr KindInfo info{"rectangle", "A rectangle that emits on one side and is invisible from behind."};
 
     glm::vec3 centre{0.0f};
     glm::vec3 target{0.0f};
@@ -84,18 +84,19 @@ struct RectangleLightParameters {
     static void parameters(V&& v) {
         using P = RectangleLightParameters;
         v(&P::centre, Parameter{"centre", "m", "Its centre.", coordinate});
-        v(&P::target, Parameter{"target", "m", "A point that it shines towards.", coordinate});
-        v(&P::width, Parameter{"width", "m", "Length of its horizontal edge; along x if it faces up or down.", extent});
-        v(&P::height, Parameter{"height", "m", "Length of its other edge.", extent});
+        v(&P::target, Parameter{"target", "m", "Point that the light faces.", coordinate});
+        v(&P::width,
+          Parameter{"width", "m", "Length of the horizontal edge; along x if the light faces up or down.", extent});
+        v(&P::height, Parameter{"height", "m", "Length of the other edge.", extent});
         v(&P::radiance,
-          ColourParameter{{"radiance", "", "Radiance of its side that shines.", limits::non_negative, true}});
-        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+          ColourParameter{{"radiance", "", "Radiance of the emitting side.", limits::non_negative, true}});
+        v(&P::intensity, Parameter{"intensity", "", "Factor applied to the radiance.", limits::non_negative, true});
         v(&P::visible_to_camera,
-          Parameter{"visible_to_camera", "", "Whether the camera sees it by itself.", limits::any, true});
+          Parameter{"visible_to_camera", "", "Whether the camera sees the light directly.", limits::any, true});
     }
     RectangleLight made() const {
         if (!(glm::length(target - centre) > 0))
-            throw ParameterError("target", "\"target\" is where the light itself is");
+            throw ParameterError("target", "\"target\" must differ from the light's centre");
         return RectangleLight::facing(centre, target, width, height, radiance * intensity, visible_to_camera);
     }
 };

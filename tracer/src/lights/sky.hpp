@@ -10,10 +10,9 @@
 namespace phasetree::tracer {
 
 struct SkyParameters : DaylightParameters {
-    static constexpr KindInfo info{
-        "sky",
-        "A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the "
-        "luminance 1 under a sun 45° high at turbidity 3."};
+    static constexpr KindInfo info{"sky",
+                                   "A clear sky with its sun and the ground below, from a model of the atmosphere. "
+                                   "White level ground has luminance 1 with the sun 45° high and turbidity 3."};
 
     bool sun = true;
 
@@ -21,7 +20,7 @@ struct SkyParameters : DaylightParameters {
     static void parameters(V&& v) {
         using P = SkyParameters;
         v(&P::sun_elevation_degrees,
-          Parameter{"sun_elevation", "degrees", "Height of the sun above the horizon; down to −8 there is twilight.",
+          Parameter{"sun_elevation", "degrees", "Elevation of the sun above the horizon; there is twilight down to −8.",
                     Limits{.low = -90, .high = 90}, true});
         v(&P::sun_azimuth_degrees, Parameter{"sun_azimuth", "degrees", "Direction of the sun, clockwise from +y.",
                                              Limits{.low = -1e6f, .high = 1e6f}, true});
@@ -31,8 +30,9 @@ struct SkyParameters : DaylightParameters {
           Parameter{"turbidity", "", "Haze: 2 is very clear, 3 clear, 6 hazy.", Limits{.low = 1, .high = 10}, true});
         v(&P::ground_albedo,
           ColourParameter{{"ground", "", "Reflectance of the ground, which is diffuse.", limits::fraction, true}});
-        v(&P::intensity, Parameter{"intensity", "", "A factor of all of it.", Limits{.low = 0, .high = 1e30f}, true});
-        v(&P::sun, Parameter{"sun", "", "Whether the sun itself shines, too.", limits::any, true});
+        v(&P::intensity,
+          Parameter{"intensity", "", "Factor applied to sky, sun and ground.", Limits{.low = 0, .high = 1e30f}, true});
+        v(&P::sun, Parameter{"sun", "", "Whether to include the sun itself.", limits::any, true});
     }
     std::vector<InfiniteLight> made() const {
         Daylight daylight = make_daylight(*this);

@@ -66,11 +66,11 @@ struct ShiningBallParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ShiningBallParameters;
-        v(&P::radius, Parameter{"radius", "m", "Radius of a ball.", extent});
+        v(&P::radius, Parameter{"radius", "m", "Radius of a sphere.", extent});
         v(&P::radiance, ColourParameter{{"radiance", "", "Radiance of the surface.", limits::non_negative, true}});
-        v(&P::intensity, Parameter{"intensity", "", "A factor of the radiance.", limits::non_negative, true});
+        v(&P::intensity, Parameter{"intensity", "", "Factor applied to the radiance.", limits::non_negative, true});
         v(&P::visible_to_camera,
-          Parameter{"visible_to_camera", "", "Whether the camera sees the light by itself.", limits::any, true});
+          Parameter{"visible_to_camera", "", "Whether the camera sees the light directly.", limits::any, true});
     }
     SphereLight made_at(const glm::vec3& centre) const {
         return SphereLight(centre, radius, radiance * intensity, visible_to_camera);
@@ -79,7 +79,7 @@ struct ShiningBallParameters {
 
 // Parameters in a scene file.
 struct SphereLightParameters : ShiningBallParameters {
-    static constexpr KindInfo info{"sphere", "A ball that shines."};
+    static constexpr KindInfo info{"sphere", "A sphere that emits light."};
 
     glm::vec3 centre{0.0f};
 

@@ -11,7 +11,7 @@
 namespace phasetree::tracer {
 
 struct SphereLightsParameters : ShiningBallParameters {
-    static constexpr KindInfo info{"spheres", "Many equal balls that shine. Each is a sphere light."};
+    static constexpr KindInfo info{"spheres", "Many equal sphere lights."};
 
     std::vector<glm::vec3> centres{};
 

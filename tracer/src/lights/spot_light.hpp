@@ -60,8 +60,7 @@ class SpotLight {
 
 // Parameters in a scene file.
 struct SpotLightParameters {
-    static constexpr KindInfo info{"spot",
-                                   "A point that shines into a cone with a smooth edge. It is a point light else."};
+    static constexpr KindInfo info{"spot", "A point light that emits only within a cone with a smooth edge."};
 
     glm::vec3 position{0.0f};
     glm::vec3 target{0.0f};
@@ -73,21 +72,20 @@ struct SpotLightParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = SpotLightParameters;
-        v(&P::position, Parameter{"position", "m", "Where it is.", coordinate});
-        v(&P::target, Parameter{"target", "m", "A point in the middle of its cone.", coordinate});
-        v(&P::cone_degrees, Parameter{"cone", "degrees", "Angle across the whole cone, beyond which it is dark.",
+        v(&P::position, Parameter{"position", "m", "Position of the light.", coordinate});
+        v(&P::target, Parameter{"target", "m", "Point on the axis of the cone.", coordinate});
+        v(&P::cone_degrees, Parameter{"cone", "degrees", "Full angle of the cone, outside which it is dark.",
                                       Limits{.low = 0, .high = 360, .low_open = true}, true});
         v(&P::edge_degrees,
-          Parameter{
-              "edge", "degrees",
-              "Angle within the cone's edge over which it grows dark; of a narrow cone, at most half of it counts.",
-              Limits{.low = 0, .high = 180}, true});
+          Parameter{"edge", "degrees",
+                    "Width of the soft edge inside the cone; at most half of the cone's angle is used.",
+                    Limits{.low = 0, .high = 180}, true});
         v(&P::color, colour_of_a_point);
         v(&P::intensity, intensity_of_a_point);
     }
     SpotLight made() const {
         if (!(glm::length(target - position) > 0))
-            throw ParameterError("target", "\"target\" is where the light itself is");
+            throw ParameterError("target", "\"target\" must differ from the light's position");
         return SpotLight(position, target, cone_degrees, std::min(edge_degrees, 0.5f * cone_degrees),
                          color * intensity);
     }

@@ -54,11 +54,11 @@ struct SunParameters {
     static void parameters(V&& v) {
         using P = SunParameters;
         v(&P::direction, DirectionParameter{{"direction", "", "Direction towards the sun, of any length."}});
-        v(&P::irradiance, ColourParameter{{"irradiance", "", "What a surface receives that faces the sun, E.",
+        v(&P::irradiance, ColourParameter{{"irradiance", "", "Irradiance E of a surface that faces the sun.",
                                            limits::non_negative, true}});
         v(&P::angular_diameter_degrees,
           Parameter{"diameter", "degrees",
-                    "Angular diameter, δ. A larger sun makes softer shadows of the same brightness.",
+                    "Angular diameter δ. A larger sun casts softer shadows of the same brightness.",
                     Limits{.low = 0, .high = 90, .low_open = true}, true});
     }
     Sun made() const { return Sun(direction, irradiance, angular_diameter_degrees); }

@@ -40,7 +40,7 @@ void VoxelDensity::check_resolution(const glm::dvec3& spacing) const {
         is_fine =
             is_fine && step < share_of_voxel * spacing[axis] && static_cast<double>(bounds_.extent()[axis]) > least;
     }
-    if (!is_fine) throw std::invalid_argument("its voxels are too small for where they are in the scene");
+    if (!is_fine) throw std::invalid_argument("its voxels are too small for their distance from the origin");
 }
 
 float VoxelDensity::at(const glm::vec3& p) const {

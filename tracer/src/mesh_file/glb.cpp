@@ -76,7 +76,7 @@ class GltfDocument {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::size_t size = 12 + 8 + text.size() + 8 + data_.bytes().size();
         if (size > std::numeric_limits<std::uint32_t>::max())
-            throw std::length_error("a file of glTF cannot have more than 4 GB");
+            throw std::length_error("a .glb file cannot be larger than 4 GB; use a larger --spacing");
         ByteWriter out;
         append_text(out, "glTF");
         out.number(std::uint32_t{2});

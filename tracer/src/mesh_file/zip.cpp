@@ -32,7 +32,7 @@ std::string deflate_of(const std::string& bytes) {
 
 std::uint32_t size_of(const std::string& bytes) {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
-        throw std::length_error("a file of the archive would have more than 2 GB");
+        throw std::length_error("a file in the archive would be larger than 2 GB; use a larger --spacing");
     return static_cast<std::uint32_t>(bytes.size());
 }
 
@@ -71,7 +71,7 @@ std::string zip_of(std::span<const ZipFile> files) {
         list.number(place);
         append_text(list, file.name);
         if (out.bytes().size() > std::numeric_limits<std::uint32_t>::max() / 2)
-            throw std::length_error("the archive would have more than 2 GB");
+            throw std::length_error("the archive would be larger than 2 GB; use a larger --spacing");
     }
     const auto place = static_cast<std::uint32_t>(out.bytes().size());
     out.append(list.bytes());

@@ -73,7 +73,7 @@ std::string choose(const std::string& wanted, const std::vector<std::string>& na
     }
     // Up to a third of the letters may be wrong in a typing mistake; beyond that, it is another word.
     const bool likely = best != std::string::npos && 3 * best <= std::max<std::size_t>(wanted.size(), 3);
-    throw DisplayError(fmt::format("there is no {} \"{}\"{}; choose from {}", what, wanted,
+    throw DisplayError(fmt::format("unknown {} \"{}\"{}; choose from {}", what, wanted,
                                    likely ? fmt::format(" (did you mean \"{}\"?)", nearest) : "", quoted_list(names)));
 }
 
@@ -95,17 +95,17 @@ ocio::ConstConfigRcPtr built_in() {
 
 NamedConfig current_config() {
     const char* path = std::getenv("OCIO");
-    if (path == nullptr || *path == '\0') return {built_in(), "the built-in color configuration"};
+    if (path == nullptr || *path == '\0') return {built_in(), "the built-in OpenColorIO configuration"};
     const auto refuse = [path](const std::string& reason) {
         return DisplayError(
-            fmt::format("OCIO is set to \"{}\", which cannot be read as an OpenColorIO configuration: {} "
-                        "(correct the path, or unset OCIO to use the built-in one)",
+            fmt::format("cannot read the OpenColorIO configuration \"{}\", named by $OCIO: {} (correct the path, or "
+                        "unset OCIO to use the built-in configuration)",
                         path, reason));
     };
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) throw refuse("it is a directory");
     try {
-        return {ocio::Config::CreateFromEnv(), fmt::format("the color configuration \"{}\"", path)};
+        return {ocio::Config::CreateFromEnv(), fmt::format("the OpenColorIO configuration \"{}\"", path)};
     } catch (const std::bad_alloc&) {
         throw;  // unrelated to the configuration
     } catch (const std::exception& error) {
@@ -142,8 +142,7 @@ Source source_of(const ocio::ConstConfigRcPtr& config) {
     }
     if (config->hasRole("aces_interchange")) return {"aces_interchange", true};
     if (config->hasRole("scene_linear")) return {"scene_linear", false};
-    throw DisplayError(
-        "it names no linear Rec.709 color space and has neither an aces_interchange nor a scene_linear role");
+    throw DisplayError("it has neither a linear Rec.709 color space nor a role aces_interchange or scene_linear");
 }
 
 std::vector<std::string> displays_of(const ocio::ConstConfigRcPtr& config) {
@@ -170,7 +169,7 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
                                    float exposure_ev)
     : exposure_ev_(exposure_ev) {
     if (!std::isfinite(exposure_ev))
-        throw DisplayError(fmt::format("an exposure of {} EV makes no sense", exposure_ev));
+        throw DisplayError(fmt::format("the exposure must be a finite number of stops, but is {}", exposure_ev));
     const NamedConfig current = current_config();
     const ocio::ConstConfigRcPtr& config = current.config;
     try {

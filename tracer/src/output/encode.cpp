@@ -109,10 +109,11 @@ OIIO::ImageSpec shown_spec(const Image& image, Format format, const Metadata& me
 
 std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name, const void* pixels) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
-    if (!output) throw OutputError(fmt::format("OpenImageIO has no writer for it: {}", OIIO::geterror()));
+    if (!output) throw OutputError(fmt::format("OpenImageIO cannot write this format: {}", OIIO::geterror()));
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
-    if (!output->supports("ioproxy")) throw OutputError("this OpenImageIO is too old, 2.4 or newer is needed");
+    if (!output->supports("ioproxy"))
+        throw OutputError("this version of OpenImageIO is too old; 2.4 or newer is required");
     output->set_ioproxy(&memory);
     if (!output->open(name, spec) || !output->write_image(spec.format, pixels) || !output->close()) {
         throw OutputError(output->geterror());
@@ -183,9 +184,9 @@ Format format_of(const std::filesystem::path& path) {
     if (extension == ".png") return Format::png;
     if (extension == ".jpg" || extension == ".jpeg") return Format::jpeg;
     if (extension == ".tif" || extension == ".tiff") return Format::tiff;
-    throw OutputError(fmt::format(
-        "cannot write \"{}\": {}; the formats are .exr, .png, .jpg, .jpeg, .tif and .tiff", path.string(),
-        extension.empty() ? "its name has no extension" : fmt::format("\"{}\" is no known image format", extension)));
+    throw OutputNameError(fmt::format(
+        "cannot write \"{}\": {}; use .exr, .png, .jpg, .jpeg, .tif or .tiff", path.string(),
+        extension.empty() ? "its name has no extension" : fmt::format("unknown image format \"{}\"", extension)));
 }
 
 std::vector<unsigned char> encode(const Image& image, Format format, const Metadata& metadata,

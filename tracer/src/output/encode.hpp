@@ -25,7 +25,7 @@ struct Metadata {
 
 enum class Format { exr, png, jpeg, tiff };
 
-/// The format for a file name's extension, ignoring case. Throws OutputError, which lists the formats.
+/// The format for a file name's extension, ignoring case. Throws OutputNameError, which lists the formats.
 Format format_of(const std::filesystem::path& path);
 
 /// Returns the bytes of the file. Equal arguments give equal bytes.

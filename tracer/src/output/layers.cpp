@@ -62,6 +62,12 @@ std::vector<Layer> layers_of(const Image& image) {
     return layers;
 }
 
+std::vector<std::string> layer_names(const Image& image) {
+    std::vector<std::string> names;
+    for (Layer& layer : layers_of(image)) names.push_back(std::move(layer.name));
+    return names;
+}
+
 bool is_for_each_plane(const std::filesystem::path& path) {
     return path.string().find(plane_in_name) != std::string::npos;
 }

@@ -35,6 +35,9 @@ Layer whole(const Image& image);
 /// finds the same names in separate files as in a single one.
 std::vector<Layer> layers_of(const Image& image);
 
+/// The names of these layers.
+std::vector<std::string> layer_names(const Image& image);
+
 /// Whether a name asks for one file per plane.
 bool is_for_each_plane(const std::filesystem::path& path);
 /// The file name of a plane.

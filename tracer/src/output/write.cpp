@@ -38,15 +38,16 @@ void write_layers(const Image& image, const std::filesystem::path& path, const M
     if (first_error) throw *first_error;
 }
 
-// Returns the format. Throws OutputError if the name asks for something impossible.
+// Returns the format. Throws OutputNameError if the name asks for something impossible.
 Format checked_format(const std::filesystem::path& path) {
     const Format format = format_of(path);
     if (!is_for_each_plane(path)) return format;
     const auto refusal = [&](const char* why) {
-        return OutputError(fmt::format("cannot write \"{}\": {}", path.string(), why));
+        return OutputNameError(fmt::format("cannot write \"{}\": {}", path.string(), why));
     };
-    if (format != Format::exr) throw refusal("only .exr files have planes, so {plane} is for them");
-    if (is_for_each_plane(path.parent_path())) throw refusal("{plane} may stand in a file's name, not in a folder's");
+    if (format != Format::exr) throw refusal("{plane} requires an .exr file; other formats have no planes");
+    if (is_for_each_plane(path.parent_path()))
+        throw refusal("{plane} is allowed in the file name only, not in the name of a folder");
     return format;
 }
 
@@ -62,9 +63,11 @@ void write_image(const Image& image, const std::filesystem::path& path, const Me
     });
 }
 
-void check_writable(const std::filesystem::path& path) {
+void check_writable(const std::filesystem::path& path, std::span<const std::string> layers) {
     checked_format(path);
     check_file_writable(file_of_plane(path, layer_of_picture));
+    if (is_for_each_plane(path))
+        for (const std::string& layer : layers) check_file_writable(file_of_plane(path, layer));
 }
 
 }  // namespace phasetree::tracer

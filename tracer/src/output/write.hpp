@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "film/image.hpp"
 #include "output/display.hpp"
@@ -12,7 +14,7 @@
 namespace phasetree::tracer {
 
 /// Whether a file with this name stores display values, so that write_image needs a transform. EXR stores linear
-/// values. Throws OutputError as format_of does.
+/// values. Throws OutputNameError as format_of does.
 inline bool needs_display(const std::filesystem::path& path) {
     return format_of(path) != Format::exr;
 }
@@ -24,8 +26,8 @@ inline bool needs_display(const std::filesystem::path& path) {
 void write_image(const Image& image, const std::filesystem::path& path, const Metadata& metadata,
                  const std::optional<DisplayTransform>& transform);
 
-/// Throws the OutputError that write_image would, as far as it can be predicted. Call this before a long render. Leaves
-/// the directory unchanged.
-void check_writable(const std::filesystem::path& path);
+/// Throws the OutputError that write_image would, as far as it can be predicted, for an image with these layers besides
+/// the picture (layer_names). Call this before a long render. Leaves the directory unchanged.
+void check_writable(const std::filesystem::path& path, std::span<const std::string> layers = {});
 
 }  // namespace phasetree::tracer

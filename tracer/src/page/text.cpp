@@ -16,12 +16,12 @@ canvas { width: 100%; height: 100%; display: block; touch-action: none; outline:
 #panel i { display: inline-block; width: 10px; height: 10px; border-radius: 5px; margin: 0 6px; border: 1px solid #8888 }
 #message { position: absolute; inset: 0; display: flex; align-items: center; justify-content: center; padding: 2em; white-space: pre-wrap; pointer-events: none }
 </style></head><body>
-<canvas id="view" tabindex="0" aria-label="the object"></canvas>
+<canvas id="view" tabindex="0" aria-label="the object; drag to rotate it"></canvas>
 <details id="panel" open><summary id="title"></summary><div id="phases"></div>
 <label>Cut <select id="axis"><option value="">nothing</option><option value="0">across x</option><option value="1">across y</option><option value="2">across z</option></select>
-<input type="checkbox" id="flip" title="the other side" aria-label="the other side"></label>
-<input type="range" id="place" min="0" max="1" step="0.002" value="0.5" style="width:100%" aria-label="where"></details>
-<div id="message">opening …</div>
+<input type="checkbox" id="flip" title="flip the side" aria-label="flip the side that is cut away"></label>
+<input type="range" id="place" min="0" max="1" step="0.002" value="0.5" style="width:100%" aria-label="position of the cut"></details>
+<div id="message">Loading …</div>
 <script>
 "use strict";
 )";
@@ -39,10 +39,10 @@ async function bytes(text) {
 
 async function open() {
   $("title").textContent = document.title;
-  $("panel").open = innerWidth >= 600;  // On a telephone it would cover the object.
+  $("panel").open = innerWidth >= 600;  // On a phone it would cover the object.
   const gl = canvas.getContext("webgl2", {antialias: false, powerPreference: "high-performance"});
-  if (!gl) return fail("This page needs WebGL 2, which this browser does not have or has switched off.");
-  if (!window.DecompressionStream) return fail("This browser is too old for this page: it cannot unpack it (DecompressionStream).");
+  if (!gl) return fail("This page needs WebGL 2, which this browser lacks or has turned off.");
+  if (!window.DecompressionStream) return fail("This browser is too old for this page: it lacks DecompressionStream.");
   const text = new TextDecoder().decode(await bytes(data.shader)), numbers = new Float32Array((await bytes(data.numbers)).buffer);
   function program(fragment) {
     const p = gl.createProgram(), parts = [];
@@ -62,9 +62,9 @@ async function open() {
   if (parallel) while (!gl.getProgramParameter(main.p, parallel.COMPLETION_STATUS_KHR) && !gl.isContextLost()) await new Promise(r => setTimeout(r, 20));
   for (const {p, parts} of [main, copy])
     if (!gl.getProgramParameter(p, gl.LINK_STATUS))
-      return fail("The shader of this object does not compile here:\n\n" + (gl.getProgramInfoLog(p) || "") + parts.map(s => gl.getShaderInfoLog(s) || "").join("\n").slice(0, 2000));
+      return fail("The shader of this object does not compile on this machine:\n\n" + (gl.getProgramInfoLog(p) || "") + parts.map(s => gl.getShaderInfoLog(s) || "").join("\n").slice(0, 2000));
   state.compiled = performance.now() - opened;
-  canvas.addEventListener("webglcontextlost", () => fail("The graphics driver gave up on this page. Reload it to try again."));
+  canvas.addEventListener("webglcontextlost", () => fail("The graphics driver stopped drawing this page. Reload it to try again."));
   gl.bindVertexArray(gl.createVertexArray());
   function texture(unit, filter) {
     const t = gl.createTexture();
@@ -245,7 +245,7 @@ async function open() {
   state.touch = touch;
   requestAnimationFrame(frame);
 }
-open().catch(e => fail("This page could not be opened: " + e.message));
+open().catch(e => fail("This page cannot be opened: " + e.message));
 </script></body></html>
 )JS";
 

@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
-        throw ParameterError("file", fmt::format("there is no file {}", path.string()));
+        throw ParameterError("file", fmt::format("no such file {}", path.string()));
     if (!std::filesystem::is_regular_file(path, ignored))
         throw ParameterError("file", fmt::format("{} is not a regular file", path.string()));
     if (std::filesystem::file_size(path, ignored) > most_bytes)
@@ -20,7 +20,7 @@ std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t mo
     std::ifstream stream(path, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
-    if (!stream) throw ParameterError("file", fmt::format("{} cannot be read", path.string()));
+    if (!stream) throw ParameterError("file", fmt::format("cannot read {}", path.string()));
     return text.str();
 }
 

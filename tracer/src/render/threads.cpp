@@ -58,8 +58,7 @@ AvailableThreads::AvailableThreads(int wanted)
     if (there == wanted_ - 1 + others) return;
     if (there == 0)
         throw std::runtime_error(
-            "no thread can be started beside the first, and one at least is needed: the limit on "
-            "processes is reached");
+            "cannot start a second thread: the limit on processes has been reached; raise it with ulimit -u");
     count_ = std::min(wanted_, there);
     limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_));
     // OpenImageIO and OpenEXR can work on the calling thread only. OpenImageIO reads the environment variable when it

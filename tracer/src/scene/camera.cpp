@@ -62,7 +62,7 @@ AnyCameraParameters read_camera_of_kind(const Document& document, Value members,
 template <class Kind>
 float distance_of_focus(const Kind& kind, const glm::vec3& across) {
     if (kind.focus_distance)
-        throw ParameterError("focus_at", "\"focus_at\" and \"focus_distance\" say the same; give one of them",
+        throw ParameterError("focus_at", "\"focus_at\" and \"focus_distance\" cannot be combined; remove one of them",
                              ParameterError::Place::key);
     const float distance = glm::dot(*kind.focus_at - kind.position, across);
     if (!(distance > 0)) throw ParameterError("focus_at", "\"focus_at\" is behind the camera");
@@ -80,7 +80,7 @@ std::vector<std::string_view> names_of_filters() {
 PixelFilter filter_of_name(std::string_view name) {
     for (const NamedFilter& f : filters())
         if (f.name == name) return f.filter;
-    throw ParameterError("filter", fmt::format("\"{}\" is no filter", name));
+    throw ParameterError("filter", fmt::format("unknown filter \"{}\"", name));
 }
 
 ThinLensParameters ThinLensKind::made() const {
@@ -112,8 +112,7 @@ AnyCameraParameters read_camera(const Document& document, Value value, FilmSetti
     if (value.is_object() && Keys::are_in(value))
         throw document.error(
             value.find("keys")->key_offset(),
-            "a camera as a whole has no keys; its \"position\", its \"look_at\" and its numbers may have "
-            "keys each");
+            "a whole camera cannot have keys; give keys to its \"position\", its \"look_at\" or its numbers");
     if (!names_its_kind(value)) return read_camera_of_kind<ThinLensKind>(document, value, "the camera", film);
     AnyCameraParameters parameters;
     with_kind(CameraKinds(), document, value, "a camera", [&]<class Kind>(Value members) {

@@ -81,8 +81,9 @@ std::string camera_text(const AnyCameraParameters& camera, const PixelFilter& fi
 
 std::string with_camera(const Document& document, const std::string& camera) {
     const auto old = document.root().find("camera");
-    if (!old || !old->is_object()) throw document.error(document.root(), "the scene has no camera to be replaced");
-    if (!times_of_keys(*old).empty()) throw document.error(*old, "the camera has keys, which would be lost");
+    if (!old || !old->is_object()) throw document.error(document.root(), "the scene has no camera to replace");
+    if (!times_of_keys(*old).empty())
+        throw document.error(*old, "the camera has keys, which would be lost; edit the scene file instead");
     std::string text = document.text();
     return text.replace(old->offset(), end_of_object(text, old->offset()) - old->offset(), camera);
 }

@@ -31,7 +31,7 @@ std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std:
     const std::filesystem::path within = std::filesystem::canonical(folder, problem);
     const auto [end, rest] = std::mismatch(within.begin(), within.end(), real.begin(), real.end());
     if (problem || end != within.end())
-        throw ParameterError("file", fmt::format("{} leads out of the folder of {}", name, gltf.string()));
+        throw ParameterError("file", fmt::format("{} is outside the folder of {}", name, gltf.string()));
     return folder / name;
 }
 

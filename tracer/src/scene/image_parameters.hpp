@@ -7,7 +7,7 @@
 namespace phasetree::tracer {
 
 struct ImageParameters : RenderSettings {
-    static constexpr KindInfo info{"render", "How large the image is, and how it is made."};
+    static constexpr KindInfo info{"render", "Size of the image and settings of the renderer."};
 
     int width = 1024;
     int height = 768;
@@ -20,48 +20,48 @@ struct ImageParameters : RenderSettings {
         v(&P::height, Parameter{"height", "pixels", "Height of the image.", Limits{.low = 1, .high = 32768}, true});
         v(&P::frames_per_second,
           Parameter{"frames_per_second", "1/s",
-                    "Of a film: frame n, from 0, shows the scene as it is n over this after its beginning.",
+                    "Frame rate of an animation: frame n, counted from 0, shows the time n / frames_per_second.",
                     Limits{.low = 0.001f, .high = 100000}, true});
         v(&P::shutter, Parameter{"shutter", "s",
-                                 "When the shutter opens and closes, from the time of the picture. What moves "
-                                 "meanwhile is blurred: transforms of objects and instances, and the camera.",
+                                 "Times at which the shutter opens and closes, relative to the time of the picture. "
+                                 "Motion in between is blurred: transforms of objects and instances, and the camera.",
                                  Limits{.low = -1e6f, .high = 1e6f}, true});
-        v(&P::samples, Parameter{"samples", "", "Paths of each pixel.", Limits{.low = 1, .high = 1 << 24}, true});
+        v(&P::samples, Parameter{"samples", "", "Samples per pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::noise, Parameter{"noise", "",
-                               "Pixels stop before that where their relative error is estimated to be at most this, "
-                               "after 32 samples at the earliest; 0 if none is to stop.",
+                               "Noise limit: a pixel stops early, after at least 32 samples, once its estimated "
+                               "relative error is at most this; 0 turns this off.",
                                Limits{.low = 0, .high = 1}, true});
-        v(&P::seed, Parameter{"seed", "", "Another whole number gives other noise.", limits::non_negative, true});
+        v(&P::seed, Parameter{"seed", "", "Seed of the random numbers; another seed gives other noise.",
+                              limits::non_negative, true});
         v(&P::max_depth,
-          Parameter{"max_depth", "", "The most surfaces that a path meets. One between equal indices counts, too.",
+          Parameter{"max_depth", "", "Maximum number of surfaces per path, including those between equal indices.",
                     Limits{.low = 1, .high = 1 << 20}, true});
-        v(&P::spectral,
-          Parameter{"spectral", "",
-                    "Whether light has wavelengths instead of red, green and blue, three on each path. "
-                    "Metals, films on smooth surfaces, absorption and light then are what they are at each "
-                    "wavelength; colours are spectra that look like them.",
-                    limits::any, true});
-        v(&P::guiding, Parameter{"guiding", "",
-                                 "Whether paths learn where light comes from before the first sample, so that half "
-                                 "of them go there from diffuse surfaces. It pays where most light has been scattered "
-                                 "several times, as in a room that is lit through a door from the next one.",
-                                 limits::any, true});
-        v(&P::caustics, Parameter{"caustics", "",
-                                  "Whether photons look for the light that lamps, surfaces that glow, the sun and the "
-                                  "bright parts of environment images throw through clear surfaces, curved or rough, "
-                                  "and by metal onto other surfaces and into media that scatter. "
-                                  "They blur it by a pixel or two, less with more samples.",
+        v(&P::spectral, Parameter{"spectral", "",
+                                  "Whether to render with wavelengths, three per path, instead of red, green and blue. "
+                                  "Metals, films on smooth surfaces, absorption and light then have their values at "
+                                  "each wavelength; colours are replaced by spectra that look the same.",
                                   limits::any, true});
-        v(&P::photons, Parameter{"photons", "", "For caustics: photons for each pixel and sample.",
-                                 Limits{.low = 0, .high = 64}, true});
+        v(&P::guiding, Parameter{"guiding", "",
+                                 "Path guiding: whether to learn, before the first sample, where light comes from, and "
+                                 "to send half of the paths from diffuse surfaces there. It pays off where most light "
+                                 "is indirect, as in a room lit through the door of the next one.",
+                                 limits::any, true});
+        v(&P::caustics,
+          Parameter{"caustics", "",
+                    "Whether to use photons for caustics: light from lamps, glowing surfaces, the sun and bright parts "
+                    "of environment maps that reaches surfaces and scattering media through clear materials or by "
+                    "metal. Photons blur caustics by a pixel or two, less with more samples.",
+                    limits::any, true});
+        v(&P::photons,
+          Parameter{"photons", "", "For caustics: photons per pixel and sample.", Limits{.low = 0, .high = 64}, true});
         v(&P::photon_radius,
           Parameter{"photon_radius", "pixels",
-                    "For caustics: how far around a point photons count as light on it, in the first pass.",
+                    "For caustics: radius within which photons count for a point, in the first pass.",
                     Limits{.low = 0.01f, .high = 100}, true});
-        v(&P::exposure_ev, Parameter{"exposure", "EV", "Brightness of pictures; one more is twice as bright.",
+        v(&P::exposure_ev, Parameter{"exposure", "EV", "Exposure of display images; one stop more is twice as bright.",
                                      Limits{.low = -50, .high = 50}, true});
-        v(&P::view,
-          Parameter{"view", "", "View of the display transform; the default one without it.", limits::any, true});
+        v(&P::view, Parameter{"view", "", "OpenColorIO view of display images; by default that of the configuration.",
+                              limits::any, true});
     }
 };
 

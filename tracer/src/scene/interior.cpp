@@ -26,7 +26,7 @@ void refuse_two_of(std::initializer_list<Given> parameters) {
         if (!one.is) continue;
         if (first)
             throw ParameterError(
-                one.key, fmt::format("\"{}\" and \"{}\" exclude each other; give one of them", one.key, first->key),
+                one.key, fmt::format("\"{}\" and \"{}\" cannot be combined; remove one of them", one.key, first->key),
                 ParameterError::Place::key);
         first = &one;
     }
@@ -35,7 +35,7 @@ void refuse_two_of(std::initializer_list<Given> parameters) {
 // Throws if a parameter is given without the one that it requires.
 void require(const Given& parameter, bool wanted_is_given, const char* wanted) {
     if (parameter.is && !wanted_is_given)
-        throw ParameterError(parameter.key, fmt::format("\"{}\" is of no use without {}", parameter.key, wanted),
+        throw ParameterError(parameter.key, fmt::format("\"{}\" requires {}", parameter.key, wanted),
                              ParameterError::Place::key);
 }
 
@@ -75,10 +75,10 @@ std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
     const float greatest = temperatures.greatest_number();
     const bool looks_unscaled = greatest > 0 && greatest < coldest && temperatures.factor == 1;
     if (!(greatest <= hottest) || looks_unscaled)
-        throw ParameterError("temperature_grid",
-                             fmt::format("its greatest temperature would be {:.4g} K; \"factor\" makes kelvin of the "
-                                         "numbers",
-                                         greatest));
+        throw ParameterError(
+            "temperature_grid",
+            fmt::format("its highest temperature would be {:.4g} K; use \"factor\" to convert its numbers to kelvin",
+                        greatest));
     if (!(greatest > 0)) return std::nullopt;
     return Heat(*temperatures.shares, greatest, reference);
 }
@@ -89,11 +89,10 @@ void check_size(const ScatteringCoefficients& c, const std::optional<Heat>& heat
     const float emission =
         std::max({c.emission.x, c.emission.y, c.emission.z}) * (heat ? std::max(heat->luminance(1), 1.0f) : 1.0f);
     if (!(c.greatest_extinction() <= most_extinction))
-        throw ParameterError(key,
-                             "where the medium is densest, it would absorb and scatter more than 10¹⁵ times a metre");
+        throw ParameterError(key, "the absorption and scattering of the densest part exceed 10¹⁵ per metre");
     if (!(emission <= most_emission))
-        throw ParameterError(key, fmt::format("where the medium is densest{}, it would emit more than 10²⁵ a metre",
-                                              heat ? " and hottest" : ""));
+        throw ParameterError(
+            key, fmt::format("the emission of the densest{} part exceeds 10²⁵ per metre", heat ? " and hottest" : ""));
 }
 
 Absorption absorption_of(const P& p) {
@@ -126,8 +125,8 @@ Medium ClearParameters::interior() const {
     for (int i = 0; i < 3; ++i)
         if (c.emission[i] > 0.0f && !(extinction[i] > 0.0f))
             throw ParameterError("emission",
-                                 "\"emission\" needs absorption or scattering in the same channel: without "
-                                 "any, light would grow without end along a ray");
+                                 "\"emission\" requires absorption or scattering in the same channel; otherwise "
+                                 "radiance would grow without limit along a ray");
     const auto is_unread = [](const std::optional<Voxels>& voxels) { return voxels && !voxels->shares; };
     if (is_unread(density_grid) || is_unread(temperature_grid)) return AbsorbingMedium{};
     if (density || density_grid) {

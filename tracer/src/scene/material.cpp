@@ -27,13 +27,12 @@ std::vector<std::string_view> names_of_glasses() {
 
 std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
     if (bump_texture && normal_map)
-        throw ParameterError("normal_map", "normals are turned by a \"bump\" or a \"normal_map\"; give one of the two",
+        throw ParameterError("normal_map", "\"bump\" and \"normal_map\" cannot be combined; remove one of them",
                              ParameterError::Place::key);
     if (normal_map) return *normal_map;
-    if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" needs a \"bump_height\"");
+    if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" requires \"bump_height\"");
     if (bump_height && !bump_texture)
-        throw ParameterError("bump_height", "\"bump_height\" is that of a \"bump\", which is missing",
-                             ParameterError::Place::key);
+        throw ParameterError("bump_height", "\"bump_height\" requires \"bump\"", ParameterError::Place::key);
     if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
     return Bump{*bump_texture, *bump_height};
 }
@@ -43,16 +42,15 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
         throw ParameterError(key, what, ParameterError::Place::key);
     };
     if (grain_along && grain_around)
-        wrong("grain_around", "strokes run either along a direction or around an axis; give one of the two");
-    if (grain_through && !grain_around)
-        wrong("grain_through", "\"grain_through\" is a point of the axis \"grain_around\", which is missing");
+        wrong("grain_around", "\"grain_along\" and \"grain_around\" cannot be combined; remove one of them");
+    if (grain_through && !grain_around) wrong("grain_through", "\"grain_through\" requires \"grain_around\"");
     if (!grain_along && !grain_around) {
-        if (grain_aspect) wrong("grain_aspect", "\"grain_aspect\" needs a grain: \"grain_along\" or \"grain_around\"");
+        if (grain_aspect) wrong("grain_aspect", "\"grain_aspect\" requires \"grain_along\" or \"grain_around\"");
         return std::nullopt;
     }
     const char* const key = grain_along ? "grain_along" : "grain_around";
     if (is_smooth(greatest_of(roughness)))
-        wrong(key, "strokes are seen on rough metal alone: give it a \"roughness\", which is that across them");
+        wrong(key, "a grain needs a rough metal; give it a \"roughness\", which applies across the grain");
     Grain grain{.axis = glm::vec3(glm::normalize(glm::dvec3(grain_along ? *grain_along : *grain_around)))};
     if (grain_around) grain.through = grain_through.value_or(glm::vec3(0.0f));
     if (grain_aspect) grain.aspect = *grain_aspect;
@@ -61,21 +59,21 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
 
 std::optional<Dispersion> ClearParameters::dispersion() const {
     if (glass && (ior || abbe_number))
-        throw ParameterError("glass", "\"glass\" names the index at each wavelength; give either it or \"ior\"",
+        throw ParameterError("glass",
+                             "\"glass\" cannot be combined with \"ior\" or \"abbe_number\"; remove one or the others",
                              ParameterError::Place::key);
     if (!glass && !ior) throw ParameterError("ior", "is missing");
     if (!glass && !abbe_number) return std::nullopt;
     const char* const key = glass ? "glass" : "abbe_number";
     const auto* const roughness_everywhere = std::get_if<float>(&roughness);
     if (!roughness_everywhere || *roughness_everywhere != 0.0f)
-        throw ParameterError(key, "what splits light into colours must be smooth here: it cannot have a \"roughness\"",
+        throw ParameterError(key, "a dispersive material must be smooth; remove \"roughness\"",
                              ParameterError::Place::key);
     if (film_thickness)
-        throw ParameterError(key, "what splits light into colours cannot have a film on its surface here",
-                             ParameterError::Place::key);
+        throw ParameterError(key, "a dispersive material cannot have a film; remove it", ParameterError::Place::key);
     if (glass) return find_glass(*glass).value().dispersion;
     if (*ior < 1.0f)
-        throw ParameterError(key, "Abbe's number is that of an index of at least 1", ParameterError::Place::key);
+        throw ParameterError(key, "\"abbe_number\" requires an index of at least 1", ParameterError::Place::key);
     return Dispersion(static_cast<double>(*ior), static_cast<double>(*abbe_number));
 }
 
@@ -90,27 +88,28 @@ Clear ClearParameters::made() const {
 
 Conductor ConductorParameters::made() const {
     if (metal && (eta || k || reflectance))
-        throw ParameterError("metal", "\"metal\" names \"eta\" and \"k\"; give either the one or the others",
-                             ParameterError::Place::key);
+        throw ParameterError(
+            "metal", "\"metal\" cannot be combined with \"eta\", \"k\" or \"reflectance\"; remove one or the others",
+            ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
         return {found.eta, found.k, roughness, film(), found.spectrum, perturbation(), grain(roughness)};
     }
     if (reflectance) {
         if (eta || k)
-            throw ParameterError("reflectance", "\"reflectance\" stands instead of \"eta\" and \"k\"; give either",
+            throw ParameterError("reflectance",
+                                 "\"reflectance\" cannot be combined with \"eta\" or \"k\"; remove one or the others",
                                  ParameterError::Place::key);
         if (film_thickness)
             throw ParameterError("film_thickness",
-                                 "a metal of a \"reflectance\" has no film; give it \"eta\" and \"k\"",
+                                 "a metal with a \"reflectance\" cannot have a film; give \"eta\" and \"k\" instead",
                                  ParameterError::Place::key);
         Conductor coloured{.roughness = roughness, .perturbation = perturbation(), .grain = grain(roughness)};
         coloured.reflectance = reflectance;
         return coloured;
     }
     if (!eta && !k)
-        throw std::invalid_argument(
-            "the conductor material needs a \"metal\", \"eta\" and \"k\", or a \"reflectance\"");
+        throw std::invalid_argument("the conductor material needs \"metal\", \"eta\" and \"k\", or \"reflectance\"");
     if (!eta) throw ParameterError("eta", "is missing");
     if (!k) throw ParameterError("k", "is missing");
     return {*eta, *k, roughness, film(), {}, perturbation(), grain(roughness)};
@@ -119,7 +118,7 @@ Conductor ConductorParameters::made() const {
 Mix MixParameters::made() const {
     for (const auto& [key, material] : {std::pair("first", &first), {"second", &second}})
         if (std::holds_alternative<Glowing>(*material))
-            throw ParameterError(key, "what is mixed cannot glow; a \"glowing\" material stands by itself");
+            throw ParameterError(key, "a mix cannot contain a \"glowing\" material");
     return {std::make_shared<const Mixture>(Mixture{first, second}), amount};
 }
 

@@ -16,8 +16,8 @@
 
 namespace phasetree::tracer {
 
-inline constexpr Parameter roughness_parameter{"roughness", "", "α of GGX: 0 is polished, 0.1 satin, 0.5 matt.",
-                                               limits::fraction, true};
+inline constexpr Parameter roughness_parameter{
+    "roughness", "", "Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt.", limits::fraction, true};
 
 std::vector<std::string_view> names_of_media();
 std::vector<std::string_view> names_of_glasses();
@@ -31,8 +31,8 @@ struct FilmParameters {
     static void film_parameters(V&& v) {
         v(&P::film_thickness,
           Parameter{"film_thickness", "nm",
-                    "Thickness of a film on the surface, which shows colours as soap and oil do; there is none without "
-                    "it. Where two clear materials have one, the thicker counts.",
+                    "Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by "
+                    "default there is none. Where two clear materials with films meet, the thicker one is used.",
                     Limits{.low = 0, .high = ThinFilm::thickest}, true});
         v(&P::film_ior, Parameter{"film_ior", "", "Refractive index of the film.", Limits{.low = 1, .high = 4}, true});
     }
@@ -50,16 +50,15 @@ struct PerturbationParameters {
 
     template <class P, class V>
     static void perturbation_parameters(V&& v) {
-        v(&P::bump_texture,
-          Parameter{"bump", "",
-                    "A texture whose bright places look as if they stood out of the surface: it turns the surface's "
-                    "normals and moves nothing. A step in it is a slope of 45° to 55°.",
-                    limits::any, true});
+        v(&P::bump_texture, Parameter{"bump", "",
+                                      "Bump map: a texture whose bright parts look raised. It changes the normals "
+                                      "only, not the surface. A step in the texture becomes a slope of 45° to 55°.",
+                                      limits::any, true});
         v(&P::bump_height,
-          Parameter{"bump_height", "m", "With a bump: how much higher white is than black; lower, if it is negative.",
+          Parameter{"bump_height", "m", "With a bump map: height of white above black; may be negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
         v(&P::normal_map,
-          Parameter{"normal_map", "", "Instead of a bump: an image of normals, on a mesh that has texture coordinates.",
+          Parameter{"normal_map", "", "Instead of a bump map: a normal map, on a mesh that has texture coordinates.",
                     limits::any, true});
     }
     /// Throws ParameterError for inconsistent parameters.
@@ -67,10 +66,10 @@ struct PerturbationParameters {
 };
 
 struct ClearParameters : FilmParameters {
-    static constexpr KindInfo info{"clear",
-                                   "Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be "
-                                   "absorbed and scattered there.",
-                                   "exp(−(a + s) d)"};
+    static constexpr KindInfo info{
+        "clear",
+        "Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.",
+        "exp(−(a + s) d)"};
 
     std::optional<float> ior{};
     std::optional<std::string> glass{};
@@ -97,87 +96,82 @@ struct ClearParameters : FilmParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ClearParameters;
-        v(&P::ior, Parameter{"ior", "", "Refractive index against vacuum; needed unless a glass is named.",
+        v(&P::ior, Parameter{"ior", "", "Refractive index relative to vacuum; required unless a glass is named.",
                              Limits{.low = 0.1f, .high = 10}, true});
         v(&P::glass, ChoiceParameter{{"glass", "",
-                                      "Instead of the index: a measured substance whose index changes with the "
-                                      "wavelength, so that white light is split into its colours.",
+                                      "Instead of the index: a measured substance whose index depends on the "
+                                      "wavelength, which causes dispersion.",
                                       limits::any, true},
                                      names_of_glasses});
         v(&P::abbe_number, Parameter{"abbe_number", "",
-                                     "Abbe's number of a glass of one's own, which splits white light the more the "
-                                     "smaller it is: crown glass has 60, flint glass 30. Without it the index is that "
-                                     "of all colours.",
+                                     "Abbe number; the smaller, the stronger the dispersion: crown glass has 60, flint "
+                                     "glass 30. Without it, the index is the same for all colours.",
                                      Limits{.low = 10, .high = 1000}, true});
         v(&P::absorption,
-          RgbParameter{{"absorption", "1/m", "Absorption of red, green and blue, a; nothing is absorbed without it.",
+          RgbParameter{{"absorption", "1/m", "Absorption coefficients a of red, green and blue; 0 by default.",
                         limits::non_negative, true}});
         v(&P::absorption_spectrum,
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
-                             "Instead of the absorption: wavelengths and the absorption at each. Without "
-                             "\"spectral\" red, green and blue are absorbed so that a layer looks the same that lets "
-                             "a third of white light through, or more.",
+                             "Instead of the absorption: wavelengths and the absorption coefficient at each. Without "
+                             "\"spectral\", this is converted to red, green and blue such that a layer that transmits "
+                             "a third of white light or more looks the same.",
                              limits::non_negative, true}});
         v(&P::color,
-          ColourParameter{{"color", "", "Instead of the absorption: what is left of white light after a distance.",
+          ColourParameter{{"color", "", "Instead of the absorption: the colour of white light after a distance.",
                            Limits{.low = 0, .high = 1, .low_open = true}, true}});
-        v(&P::color_distance,
-          Parameter{"color_distance", "m", "The distance after which the colour is left.", limits::positive, true});
+        v(&P::color_distance, Parameter{"color_distance", "m", "The distance after which white light has this colour.",
+                                        limits::positive, true});
         v(&P::roughness, roughness_parameter);
         v(&P::scattering,
-          RgbParameter{{"scattering", "1/m", "Scattering of red, green and blue, s; nothing is scattered without it.",
+          RgbParameter{{"scattering", "1/m", "Scattering coefficients s of red, green and blue; 0 by default.",
                         limits::non_negative, true}});
-        v(&P::albedo, RgbParameter{{"albedo", "",
-                                    "Instead of absorption and scattering: the part of the light that is scattered "
-                                    "where it meets the medium, s/(a + s).",
-                                    limits::fraction, true}});
-        v(&P::mean_free_path,
-          RgbParameter{{"mean_free_path", "m", "With the albedo: how far light goes on average, 1/(a + s).",
-                        limits::positive, true}});
+        v(&P::albedo,
+          RgbParameter{{"albedo", "", "Instead of absorption and scattering: the single-scattering albedo, s/(a + s).",
+                        limits::fraction, true}});
+        v(&P::mean_free_path, RgbParameter{{"mean_free_path", "m", "With the albedo: the mean free path, 1/(a + s).",
+                                            limits::positive, true}});
         v(&P::medium, ChoiceParameter{{"medium", "",
                                        "Instead of absorption and scattering: a measured medium (Jensen et al. 2001).",
                                        limits::any, true},
                                       names_of_media});
-        v(&P::scale, Parameter{"scale", "mm", "With a measured medium: how long the scene's unit of length is.",
-                               limits::positive, true});
-        v(&P::anisotropy, Parameter{"anisotropy", "",
-                                    "The mean cosine g of Henyey and Greenstein's phase function: positive goes on "
-                                    "forwards. Measured media scatter as much more as makes their reduced scattering, "
-                                    "(1 − g) s, what was measured. 0 without it.",
-                                    Limits{.low = -0.99f, .high = 0.99f}, true});
-        v(&P::emission, RgbParameter{{"emission", "1/m",
-                                      "Radiance that the medium itself adds along a ray. It needs absorption or "
-                                      "scattering in the same channels.",
-                                      limits::non_negative, true}});
+        v(&P::scale,
+          Parameter{"scale", "mm", "With a measured medium: length of the scene's unit.", limits::positive, true});
+        v(&P::anisotropy,
+          Parameter{"anisotropy", "",
+                    "Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured "
+                    "media keep their reduced scattering, (1 − g) s, for any g. Default 0.",
+                    Limits{.low = -0.99f, .high = 0.99f}, true});
+        v(&P::emission,
+          RgbParameter{
+              {"emission", "1/m",
+               "Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels.",
+               limits::non_negative, true}});
         v(&P::emission_spectrum,
-          Parameter{"emission_spectrum", "",
-                    "How the emission is spread over the wavelengths, as \"spectrum\" of lights. Of the emission only "
-                    "the brightness counts then.",
-                    limits::any, true});
-        v(&P::density,
-          Parameter{"density", "",
-                    "A field that tells where the medium is: the density is 0 at its surface and outside, and rises "
-                    "evenly to 1 inside. Absorption, scattering and emission are multiplied by it.",
-                    limits::any, true});
-        v(&P::density_depth,
-          Parameter{"density_depth", "m", "With a density: how deep inside of the field it becomes 1.",
-                    limits::positive, true});
-        v(&P::density_grid, Parameter{"density_grid", "",
-                                      "Instead of a density: numbers at voxels, by which absorption, scattering and "
-                                      "emission are multiplied.",
-                                      limits::any, true});
-        v(&P::temperature_grid,
           Parameter{
-              "temperature_grid", "K",
-              "Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its "
-              "density. It needs an emission, of which only the brightness counts then, and a density. The grid's "
-              "\"factor\" makes kelvin of its numbers.",
+              "emission_spectrum", "",
+              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
               limits::any, true});
-        v(&P::emission_temperature,
-          Parameter{"emission_temperature", "K",
-                    "With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits "
-                    "more.",
-                    Limits{.low = 500, .high = 100000}, true});
+        v(&P::density, Parameter{"density", "",
+                                 "Density as a field: 0 at its surface and outside, rising linearly to 1 inside. "
+                                 "Absorption, scattering and emission are multiplied by the density.",
+                                 limits::any, true});
+        v(&P::density_depth,
+          Parameter{"density_depth", "m", "With a density: the depth inside the field at which it reaches 1.",
+                    limits::positive, true});
+        v(&P::density_grid,
+          Parameter{"density_grid", "",
+                    "Instead of a density: a voxel grid by which absorption, scattering and emission are multiplied.",
+                    limits::any, true});
+        v(&P::temperature_grid,
+          Parameter{"temperature_grid", "K",
+                    "Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. "
+                    "Requires a density and an emission, of which only the brightness is used then. The grid's "
+                    "\"factor\" converts its numbers to kelvin.",
+                    limits::any, true});
+        v(&P::emission_temperature, Parameter{"emission_temperature", "K",
+                                              "With a temperature grid: the temperature at which the medium has the "
+                                              "given emission. Hotter parts emit more.",
+                                              Limits{.low = 500, .high = 100000}, true});
         film_parameters<P>(v);
     }
     Medium interior() const;
@@ -186,7 +180,7 @@ struct ClearParameters : FilmParameters {
 };
 
 struct DiffuseParameters : PerturbationParameters {
-    static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects alike in all directions."};
+    static constexpr KindInfo info{"diffuse", "Paper, plaster, clay: reflects equally in all directions."};
 
     Texture color{};
     Number roughness = 0.0f;
@@ -197,7 +191,7 @@ struct DiffuseParameters : PerturbationParameters {
         v(&P::color, Parameter{"color", "", "Reflectance.", limits::any});
         v(&P::roughness,
           Parameter{"roughness", "",
-                    "How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle.",
+                    "Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre.",
                     limits::fraction, true});
         perturbation_parameters<P>(v);
     }
@@ -215,23 +209,24 @@ struct GrainParameters {
 
     template <class P, class V>
     static void grain_parameters(V&& v) {
-        v(&P::grain_along, DirectionParameter{{"grain_along", "",
-                                               "Brushed metal: the direction of its strokes, in the object's own "
-                                               "space, or the scene's, of a mesh; moves within a tree do not turn it. "
-                                               "It is projected onto the surface; where the surface is perpendicular "
-                                               "to it strokes run any way. The roughness, which must not be 0, is that "
-                                               "across them.",
-                                               limits::any, true}});
+        v(&P::grain_along,
+          DirectionParameter{
+              {"grain_along", "",
+               "Brushed metal: direction of the grain, in the space of the object, or of the scene for a mesh; "
+               "transforms within a tree do not rotate it. It is projected onto the surface; where the surface is "
+               "perpendicular to it, the grain is arbitrary. The roughness applies across the grain and must not be 0.",
+               limits::any, true}});
         v(&P::grain_around, DirectionParameter{{"grain_around", "",
-                                                "Instead of it, of metal that was turned on a lathe: the direction of "
-                                                "the axis around which the strokes run.",
+                                                "Instead of a direction, for metal turned on a lathe: direction of the "
+                                                "axis around which the grain runs.",
                                                 limits::any, true}});
         v(&P::grain_through, Parameter{"grain_through", "m",
-                                       "With an axis: a point of it, in the object's own space, or the scene's, if it "
-                                       "is a mesh; the origin without it.",
+                                       "With an axis: a point on it, in the space of the object, or of the scene for a "
+                                       "mesh; by default the origin.",
                                        Limits{.low = -farthest, .high = farthest}, true});
         v(&P::grain_aspect,
-          Parameter{"grain_aspect", "", "With a grain: the roughness along the strokes over that across; 0.2 without.",
+          Parameter{"grain_aspect", "",
+                    "With a grain: ratio of the roughness along the grain to that across it; default 0.2.",
                     Limits{.low = 0.1f, .high = 1}, true});
     }
     /// `roughness` is that of the metal. Throws ParameterError for inconsistent parameters.
@@ -240,7 +235,7 @@ struct GrainParameters {
 
 struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParameters {
     static constexpr KindInfo info{"conductor",
-                                   "Metal: one of the measured ones, with a complex index η + ik of one's own, or of a "
+                                   "Metal: a measured one, one with a given complex index η + ik, or one with a given "
                                    "reflectance, which may be a texture."};
 
     std::optional<std::string> metal{};
@@ -255,10 +250,10 @@ struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParame
         v(&P::metal, ChoiceParameter{{"metal", "", "A measured metal.", limits::any, true}, names_of_metals});
         v(&P::eta,
           RgbParameter{{"eta", "", "η for red, green and blue, instead of a measured metal.", limits::positive, true}});
-        v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; needed with η.", limits::non_negative, true}});
+        v(&P::k, RgbParameter{{"k", "", "k for red, green and blue; required with η.", limits::non_negative, true}});
         v(&P::reflectance, Parameter{"reflectance", "",
-                                     "Instead of both: the colour of light that falls on it at a right angle and is "
-                                     "reflected; more is at others. Such a metal has no film.",
+                                     "Instead of both: reflectance at normal incidence; it increases towards grazing "
+                                     "angles. Such a metal cannot have a film.",
                                      limits::any, true});
         v(&P::roughness, roughness_parameter);
         grain_parameters<P>(v);
@@ -288,7 +283,7 @@ struct CoatedParameters : FilmParameters, PerturbationParameters {
 };
 
 struct GlowingParameters {
-    static constexpr KindInfo info{"glowing", "Embers, lava, a filament, a screen: shines alike in all directions."};
+    static constexpr KindInfo info{"glowing", "Embers, lava, a filament, a screen: emits equally in all directions."};
 
     Texture light = Glowing{}.light;
     float radiance = Glowing{}.radiance;
@@ -299,12 +294,12 @@ struct GlowingParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = GlowingParameters;
-        v(&P::light, Parameter{"light", "", "Colour of its light; white without it.", limits::any, true});
-        v(&P::radiance, Parameter{"radiance", "",
-                                  "Radiance of its surface where the colour of its light is 1; n² times that against a "
-                                  "material of index n.",
-                                  Limits{.low = 0, .high = 1e12f, .low_open = true}, true});
-        v(&P::color, Parameter{"color", "", "Reflectance; black without it.", limits::any, true});
+        v(&P::light, Parameter{"light", "", "Colour of the emitted light; default white.", limits::any, true});
+        v(&P::radiance,
+          Parameter{"radiance", "",
+                    "Radiance of the surface where the colour is 1; n² times that inside a material of index n.",
+                    Limits{.low = 0, .high = 1e12f, .low_open = true}, true});
+        v(&P::color, Parameter{"color", "", "Reflectance; default black.", limits::any, true});
         v(&P::spectrum, spectrum_parameter);
         v(&P::group, group_parameter);
     }
@@ -312,9 +307,8 @@ struct GlowingParameters {
 };
 
 struct MixParameters {
-    static constexpr KindInfo info{"mix",
-                                   "One of two materials at each place: iron and rust, paint and the metal under it. "
-                                   "Neither is clear or glowing."};
+    static constexpr KindInfo info{
+        "mix", "A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing."};
 
     Material first{};
     Material second{};
@@ -323,11 +317,10 @@ struct MixParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = MixParameters;
-        v(&P::first, Parameter{"first", "", "The one where the amount is 0."});
-        v(&P::second, Parameter{"second", "", "The one where the amount is 1."});
-        v(&P::amount,
-          Parameter{"amount", "", "How much of the second; between 0 and 1 both are there, as finely mixed as can be.",
-                    limits::fraction, true});
+        v(&P::first, Parameter{"first", "", "Material where the amount is 0."});
+        v(&P::second, Parameter{"second", "", "Material where the amount is 1."});
+        v(&P::amount, Parameter{"amount", "", "Fraction of the second material; between 0 and 1 the two are blended.",
+                                limits::fraction, true});
     }
     Mix made() const;
 };

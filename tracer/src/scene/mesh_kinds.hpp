@@ -15,7 +15,7 @@
 
 namespace phasetree::tracer {
 
-inline constexpr Parameter mesh_material_parameter{"material", "", "What it is made of."};
+inline constexpr Parameter mesh_material_parameter{"material", "", "Material of the mesh."};
 
 // Parameters for holes in meshes of a single material.
 struct OpacityParameters {
@@ -25,12 +25,13 @@ struct OpacityParameters {
     template <class P, class V>
     static void opacity_parameters(V&& v) {
         v(&P::opacity_number,
-          Parameter{"opacity", "",
-                    "How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net.",
-                    limits::fraction, true});
+          Parameter{
+              "opacity", "",
+              "Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net.",
+              limits::fraction, true});
         v(&P::opacity_cutoff,
           Parameter{"opacity_cutoff", "",
-                    "With an opacity: below this it is a hole, and else opaque, so that edges are sharp.",
+                    "With an opacity: values below this are holes and all others opaque, so edges are sharp.",
                     limits::fraction, true});
     }
     /// Throws ParameterError if only a cutoff is given.
@@ -55,8 +56,8 @@ struct MeshFileParameters : OpacityParameters {
         opacity_parameters<P>(v);
         v(&P::y_up, y_up_parameter);
         v(&P::smooth, Parameter{"smooth", "",
-                                "Whether it is shaded as if it were smooth: by the normals that its file has, or else "
-                                "by the mean of those of the faces around each vertex.",
+                                "Whether to shade the mesh as a smooth surface, with the normals in the file, or else "
+                                "with the mean normals of the faces around each vertex.",
                                 limits::any, true});
     }
     // `ending` is the required extension, such as ".obj". Both throw ParameterError. The first checks what it can
@@ -66,10 +67,10 @@ struct MeshFileParameters : OpacityParameters {
 };
 
 struct ObjParameters : MeshFileParameters {
-    static constexpr KindInfo info{"obj",
-                                   "The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture "
-                                   "coordinates and colours of vertices; its materials are not read. Faces are made "
-                                   "larger or smaller first, then turned, then moved."};
+    static constexpr KindInfo info{
+        "obj",
+        "The faces of a Wavefront OBJ file of at most 1 GiB, with normals, texture coordinates and vertex colours; its "
+        "materials are ignored. The mesh is scaled first, then rotated, then translated."};
 
     template <class V>
     static void parameters(V&& v) {
@@ -81,8 +82,8 @@ struct ObjParameters : MeshFileParameters {
 
 struct PlyParameters : MeshFileParameters {
     static constexpr KindInfo info{"ply",
-                                   "The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, "
-                                   "texture coordinates and colours of vertices. It is placed as obj is."};
+                                   "The faces of a PLY file of at most 1 GiB, such as a scan, with normals, texture "
+                                   "coordinates and vertex colours. Placed as for obj."};
 
     template <class V>
     static void parameters(V&& v) {
@@ -93,7 +94,7 @@ struct PlyParameters : MeshFileParameters {
 };
 
 struct StlParameters : MeshFileParameters {
-    static constexpr KindInfo info{"stl", "The triangles of an STL file of at most 1 GiB. It is placed as obj is."};
+    static constexpr KindInfo info{"stl", "The triangles of an STL file of at most 1 GiB. Placed as for obj."};
 
     template <class V>
     static void parameters(V&& v) {
@@ -106,19 +107,18 @@ struct StlParameters : MeshFileParameters {
 struct GltfParameters {
     static constexpr KindInfo info{
         "gltf",
-        "The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its "
-        "materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has "
-        "y up, which becomes z. Skins are bent by their joints, and morph targets are applied with the weights of "
-        "their node or mesh; animations are ignored. The alpha of images and vertices counts in the modes MASK and "
-        "BLEND. Images may use two sets of texture coordinates per material, and any transforms of these. Clear "
-        "materials are left out, because meshes are opaque. These extensions are read: KHR_texture_transform, "
-        "KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior, "
-        "KHR_materials_emissive_strength, KHR_materials_transmission (to find clear materials), and, if the build has "
-        "their libraries, KHR_draco_mesh_compression and EXT_meshopt_compression. A file that requires another one is "
-        "rejected if the picture would suffer; otherwise a warning lists what is missing. Limits: 20 million "
-        "triangles, "
-        "counted once per instance, 2,000 materials, images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 "
-        "million in all, and 1 GiB per file."};
+        "The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and its subfolders), with "
+        "materials, images, normal maps, opacity and vertex colours. The y axis of glTF becomes z. Skins are deformed "
+        "by their joints, and morph targets are applied with the weights of their node or mesh; animations are "
+        "ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of "
+        "texture coordinates per material, with any transforms. Clear materials are ignored, because meshes are "
+        "opaque; KHR_materials_transmission identifies them. Other supported extensions: KHR_texture_transform, "
+        "KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and "
+        "KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if "
+        "phasetree was built with their libraries. A file that requires another extension is rejected if the picture "
+        "would be affected; otherwise a warning lists what is missing. Limits: 20 million triangles, counted once per "
+        "instance; 2,000 materials; images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 million in total; "
+        "1 GiB per file."};
 
     std::optional<Material> material{};
     std::filesystem::path file{};
@@ -130,9 +130,10 @@ struct GltfParameters {
     static void parameters(V&& v) {
         using P = GltfParameters;
         v(&P::material,
-          Parameter{"material", "",
-                    "What all of it is made of, clear parts and holes too, instead of the file's materials.",
-                    limits::any, true});
+          Parameter{
+              "material", "",
+              "Material for the whole mesh, including clear parts and holes, instead of the materials in the file.",
+              limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
     }
@@ -154,7 +155,7 @@ struct FloorParameters : OpacityParameters {
         using P = FloorParameters;
         v(&P::material, mesh_material_parameter);
         v(&P::height, Parameter{"height", "m", "Its z.", coordinate, true});
-        v(&P::size, Parameter{"size", "m", "Length of its edges.", extent, true});
+        v(&P::size, Parameter{"size", "m", "Length of the edges.", extent, true});
         opacity_parameters<P>(v);
     }
     Mesh made() const;
@@ -162,8 +163,8 @@ struct FloorParameters : OpacityParameters {
 
 // A photographer's sweep: a floor at z = height that curves smoothly up into a wall at y = distance.
 struct BackdropParameters : OpacityParameters {
-    static constexpr KindInfo info{
-        "backdrop", "A photographer's sweep: a floor that curves up into a wall behind, without an edge."};
+    static constexpr KindInfo info{"backdrop",
+                                   "A photographer's sweep: a floor that curves smoothly up into a back wall."};
 
     Material material{};
     float height = 0.0f;

@@ -34,7 +34,7 @@ void check_ending_of_mesh(const std::filesystem::path& file, std::initializer_li
     for (const auto& [ending, kind] :
          {std::pair(".obj", "obj"), {".ply", "ply"}, {".stl", "stl"}, {".glb", "gltf"}, {".gltf", "gltf"}})
         if (found == ending) hint = fmt::format("; for {} use the mesh \"{}\"", file.string(), kind);
-    throw ParameterError("file", fmt::format("the name of the file must end with {}{}", wanted, hint));
+    throw ParameterError("file", fmt::format("the name of the file must end in {}{}", wanted, hint));
 }
 
 void place(Mesh& mesh, const Placement& placement, const std::filesystem::path& file) {
@@ -43,7 +43,7 @@ void place(Mesh& mesh, const Placement& placement, const std::filesystem::path& 
         for (int k = 0; k < 3; ++k)
             if (!coordinate.contains(p[k]))
                 throw ParameterError(
-                    "file", fmt::format("{} has a coordinate that is no number or beyond 10¹⁵", file.string()));
+                    "file", fmt::format("{} has a coordinate that is not a number, or beyond 10¹⁵", file.string()));
     }
     for (glm::vec3& n : mesh.normals.values) n = placement.turned(n);
     for (glm::vec4& t : mesh.tangents.values) t = glm::vec4(placement.turned(glm::vec3(t)), t.w);

@@ -13,8 +13,7 @@ namespace phasetree::tracer {
 
 std::optional<Opacity> OpacityParameters::opacity() const {
     if (!opacity_number && opacity_cutoff)
-        throw ParameterError("opacity_cutoff", "\"opacity_cutoff\" is that of an \"opacity\", which is missing",
-                             ParameterError::Place::key);
+        throw ParameterError("opacity_cutoff", "\"opacity_cutoff\" requires \"opacity\"", ParameterError::Place::key);
     if (!opacity_number) return std::nullopt;
     return Opacity{*opacity_number, opacity_cutoff};
 }
@@ -24,23 +23,21 @@ namespace {
 void check_textures(const Mesh& mesh) {
     if (mesh.uv.empty() &&
         (has_texture<MeshImageTexture>(mesh.material) || has_texture<MeshImageNumber>(mesh.material)))
-        throw ParameterError("material", fmt::format("\"mesh_image\" needs texture coordinates, which not all faces of "
-                                                     "\"{}\" have; \"image\" needs none",
+        throw ParameterError("material", fmt::format("\"mesh_image\" needs texture coordinates, which some faces of "
+                                                     "\"{}\" lack; use \"image\", which needs none",
                                                      mesh.name));
     if (mesh.uv.empty() && mesh.opacity && has_kind<MeshImageNumber>(mesh.opacity->number))
         throw ParameterError(
             "opacity",
-            fmt::format("\"mesh_image\" needs texture coordinates, which not all faces of \"{}\" have", mesh.name));
+            fmt::format("\"mesh_image\" needs texture coordinates, which some faces of \"{}\" lack", mesh.name));
     if (mesh.uv.empty() && normal_map_of(mesh.material))
-        throw ParameterError(
-            "material",
-            fmt::format("a \"normal_map\" needs texture coordinates, which not all faces of \"{}\" have; a \"bump\" by "
-                        "a texture of another kind needs none",
-                        mesh.name));
+        throw ParameterError("material", fmt::format("a \"normal_map\" needs texture coordinates, which some faces of "
+                                                     "\"{}\" lack; use a \"bump\" with another kind of texture",
+                                                     mesh.name));
     if (mesh.colors.empty() && has_texture<VertexColorTexture>(mesh.material))
         throw ParameterError(
-            "material", fmt::format("the texture \"vertex_color\" needs colours, which not all vertices of \"{}\" have",
-                                    mesh.name));
+            "material",
+            fmt::format("the texture \"vertex_color\" needs colours, which some vertices of \"{}\" lack", mesh.name));
 }
 
 MeshGroup group_of(MeshGroup group, const std::string& name) {

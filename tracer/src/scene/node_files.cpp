@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 HeightGrid read_height_grid(const std::filesystem::path& path) {
     HeightGrid grid;
     const auto begin = [&](const ImageHeader& header) {
-        if (header.width < 2 || header.height < 2) throw std::runtime_error("it needs two pixels each way");
+        if (header.width < 2 || header.height < 2) throw std::runtime_error("it must have at least 2 × 2 pixels");
         if (header.width > 4096 || header.height > 4096) throw std::runtime_error("it is larger than 4096 × 4096");
         grid = {header.width, header.height, {}};
         return 1;

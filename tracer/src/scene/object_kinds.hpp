@@ -20,10 +20,10 @@ inline constexpr std::string_view transform_schema = R"({"$ref": "#/definitions/
 struct ObjectParameters {
     static constexpr KindInfo info{
         "objects",
-        "An object of the scene, in a list. Objects must not overlap; where they do, the "
-        "first copy is there: first come objects that no instance names, in the order of this list, and then the "
-        "copies of instances in theirs. Where one begins within a few resolutions of "
-        "where another ends, a ray goes from the one to the other without anything between."};
+        "An object of the scene, in a list. Objects must not overlap. Where they do, the first copy takes precedence: "
+        "first objects that no instance refers to, in the order of this list, then the copies made by instances, in "
+        "their order. If one object begins within a few resolutions of where another ends, rays pass from one to the "
+        "other with nothing in between."};
 
     std::string name{};
     std::optional<Value> tree{};
@@ -34,34 +34,31 @@ struct ObjectParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ObjectParameters;
-        v(&P::name, Parameter{"name", "", "Its name, unlike any other's."});
-        v(&P::tree, PartParameter{{"tree", "", "What it is made of: a node, or the name of one of the scene's shapes.",
+        v(&P::name, Parameter{"name", "", "Name of the object, which must be unique."});
+        v(&P::tree,
+          PartParameter{{"tree", "", "Tree of the object: a node, or the name of a shape.", limits::any, true},
+                        "object",
+                        R"({"$ref": "#/definitions/object"})"});
+        v(&P::file, PartParameter{{"file", "",
+                                   "Instead of a tree: another scene file, whose tree, phases and materials are used. "
+                                   "Its phases are named after the object: \"object.phase\".",
                                    limits::any, true},
-                                  "object",
-                                  R"({"$ref": "#/definitions/object"})"});
-        v(&P::file,
-          PartParameter{{"file", "",
-                         "A scene file, beside this one, whose tree is taken instead, with its phases and their "
-                         "materials. A phase has the name that it has there, behind the object's name and a dot.",
-                         limits::any, true},
-                        "text",
-                        R"({"type": "string"})"});
-        v(&P::transform,
-          PartParameter{
-              {"transform", "", "Where it stands.", limits::any, true}, "transform or list", transform_schema});
+                                  "text",
+                                  R"({"type": "string"})"});
+        v(&P::transform, PartParameter{{"transform", "", "Transform from the object to the scene.", limits::any, true},
+                                       "transform or list",
+                                       transform_schema});
         v(&P::phases,
-          PartParameter{
-              {"phases", "", "Other materials for phases of its tree, for this object alone.", limits::any, true},
-              "object of materials",
-              R"({"type": "object", "additionalProperties": {"$ref": "#/definitions/material"}})"});
+          PartParameter{{"phases", "", "Replaces the materials of phases, for this object only.", limits::any, true},
+                        "object of materials",
+                        R"({"type": "object", "additionalProperties": {"$ref": "#/definitions/material"}})"});
     }
 };
 
 struct InstanceParameters {
     static constexpr KindInfo info{"instances",
-                                   "Places of an object or of a group, in a list. An object that is named by an "
-                                   "instance stands there, and no longer where its own transform alone puts it, which "
-                                   "comes first."};
+                                   "Instances of an object or a group, in a list. An object with instances appears "
+                                   "only where they put it; its own transform is applied first."};
 
     std::string of{};
     std::optional<Value> transform{};
@@ -71,26 +68,27 @@ struct InstanceParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = InstanceParameters;
-        v(&P::of, Parameter{"of", "", "The name of an object or of a group."});
-        v(&P::transform,
-          PartParameter{{"transform", "", "Where it stands; with a list, the last of the maps.", limits::any, true},
-                        "transform or list",
-                        transform_schema});
+        v(&P::of, Parameter{"of", "", "Name of an object or a group."});
+        v(&P::transform, PartParameter{{"transform", "",
+                                        "Transform of the instance, or the last of its transforms if there is a list.",
+                                        limits::any, true},
+                                       "transform or list",
+                                       transform_schema});
         v(&P::transforms,
           PartParameter{{"transforms", "",
-                         "Many places: of each where its origin goes, or twelve numbers: where [1, 0, 0], [0, 1, 0] "
-                         "and [0, 0, 1] go from there, and where the origin goes.",
+                         "Many instances: for each, the image of the origin, or twelve numbers: the images of the "
+                         "vectors [1, 0, 0], [0, 1, 0] and [0, 0, 1], then the image of the origin.",
                          limits::any, true},
                         "list of [x, y, z] and lists of 12 numbers",
                         R"({"type": "array", "minItems": 1, "items": {"type": "array", "items": {"type": "number"},
                             "minItems": 3, "maxItems": 12}})"});
-        v(&P::file, PartParameter{{"file", "",
-                                   "The same in a file: the eight bytes `PTPLACES`, their number as an unsigned "
-                                   "integer of eight bytes, then twelve floats of four bytes for each, all with the "
-                                   "lowest byte first.",
-                                   limits::any, true},
-                                  "text",
-                                  R"({"type": "string"})"});
+        v(&P::file,
+          PartParameter{{"file", "",
+                         "The same in a binary file: the eight bytes `PTPLACES`, the number of instances as a 64-bit "
+                         "unsigned integer, then twelve 32-bit floats per instance, all little-endian.",
+                         limits::any, true},
+                        "text",
+                        R"({"type": "string"})"});
     }
 };
 

@@ -26,8 +26,8 @@ Phased placed(const Phased& tree, const Transform& t) {
 Phased as_one_tree(const PlacedObjects& all, double time) {
     if (all.copies() > most_in_one_tree)
         throw ModelError(
-            fmt::format("the scene has {} objects, too many to be one tree, which has at most {}: choose "
-                        "one of them with --object",
+            fmt::format("the scene has {} copies of objects, and a single tree can have at most {}; choose one object "
+                        "with --object",
                         all.copies(), most_in_one_tree));
     std::vector<Phased> copies;
     all.each_copy(

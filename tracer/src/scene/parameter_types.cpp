@@ -39,13 +39,11 @@ void read_ramp(const Document& document, Value list, std::string_view what, cons
     std::optional<float> last;
     for (const Value stop : list) {
         if (!stop.is_array() || stop.size() != 2)
-            throw document.error(stop, fmt::format("a stop of {} must be a list of two: a value of the field, and what "
-                                                   "it becomes",
-                                                   what));
+            throw document.error(stop, fmt::format("a stop of {} must be [value of the field, result]", what));
         const float at = as<float>(document, stop[0], "the value of a stop");
         if (last && !(at >= *last))
             throw document.error(stop[0],
-                                 fmt::format("the values of {} must rise, but {} follows {}", what, at, *last));
+                                 fmt::format("the values of {} must increase, but {} follows {}", what, at, *last));
         last = at;
         add(at, stop[1]);
     }
@@ -99,19 +97,16 @@ tracer::SharedSpectrum SpectrumType::read(const Document& document, Value value,
     std::vector<tracer::Spectrum::Point> points;
     for (const Value point : value) {
         if (!point.is_array() || point.size() != 2)
-            throw document.error(
-                point,
-                fmt::format("a point of {} must be a list of two: a wavelength in nanometres, and a value", what));
+            throw document.error(point, fmt::format("a point of {} must be [wavelength in nanometres, value]", what));
         const float nanometres = as<float>(document, point[0], "the wavelength of a point", range_of(limits::positive));
         if (!points.empty() && !(nanometres > points.back().nanometres))
-            throw document.error(point[0], fmt::format("the wavelengths of {} must rise, but {} follows {}", what,
+            throw document.error(point[0], fmt::format("the wavelengths of {} must increase, but {} follows {}", what,
                                                        nanometres, points.back().nanometres));
         points.push_back({nanometres, as<float>(document, point[1], "the value of a point", range_of(p.limits))});
     }
     if (points.back().nanometres < 380.0f || points.front().nanometres > 780.0f)
-        throw document.error(value, fmt::format("none of the wavelengths of {} is seen: light is from 380 to 780 "
-                                                "nanometres",
-                                                what));
+        throw document.error(
+            value, fmt::format("{} has no visible wavelength; visible light ranges from 380 to 780 nanometres", what));
     return std::make_shared<const tracer::Spectrum>(std::move(points));
 }
 
@@ -136,7 +131,8 @@ tracer::SharedLightSpectrum LightSpectrumType::read(const Document& document, Va
         SpectrumType::read(document, value, what, tracer::SpectrumParameter{{p.name, "", "", limits::non_negative}});
     auto spectrum = std::make_shared<const tracer::LightSpectrum>(*power);
     if (!spectrum->visible())
-        throw document.error(value, fmt::format("{} is 0 everywhere from 380 to 780 nm, so nothing would shine", what));
+        throw document.error(value,
+                             fmt::format("{} is 0 everywhere from 380 to 780 nm, so there would be no light", what));
     return spectrum;
 }
 
@@ -226,7 +222,7 @@ tracer::Material MaterialType::read(const Document& document, Value value, std::
     if (is_clear(material))
         throw document.error(
             value[0].key_offset(),
-            "a mesh and a mixture have no inside, so the material cannot be clear; make it a phase of the tree");
+            "meshes and mixes cannot be clear, because they have no interior; use a phase of the tree instead");
     return material;
 }
 

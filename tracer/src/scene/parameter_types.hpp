@@ -16,14 +16,14 @@ struct PartParameter : Parameter {
 
 // Blackbody emission, as described in a scene file.
 struct BlackbodyParameters {
-    static constexpr KindInfo info{"blackbody", "The spectrum of what shines because it is hot."};
+    static constexpr KindInfo info{"blackbody", "The spectrum of a black body."};
 
     float temperature = 6500.0f;
 
     template <class V>
     static void parameters(V&& v) {
         v(&BlackbodyParameters::temperature,
-          Parameter{"blackbody", "K", "Its temperature: a candle has 1,900, a light bulb 2,700.",
+          Parameter{"blackbody", "K", "Temperature: 1,900 for a candle, 2,700 for a light bulb.",
                     Limits{.low = 500, .high = 100000}});
     }
 };

@@ -12,14 +12,14 @@ namespace phasetree::tracer {
 
 template <class P, class V>
 void placement_parameters(V&& v) {
-    v(&P::scale, Parameter{"scale", "", "What its size is multiplied by.", limits::positive, true});
+    v(&P::scale, Parameter{"scale", "", "Scale factor.", limits::positive, true});
     v(&P::rotate_z_degrees,
-      Parameter{"rotate_z", "degrees", "Angle by which it is turned about the z axis, anticlockwise from above.",
-                limits::any, true});
-    v(&P::translate, Parameter{"translate", "m", "Where its origin goes.", limits::any, true});
+      Parameter{"rotate_z", "degrees", "Rotation about the z axis, anticlockwise as seen from above.", limits::any,
+                true});
+    v(&P::translate, Parameter{"translate", "m", "Translation: the image of the origin.", limits::any, true});
 }
-inline constexpr Parameter y_up_parameter{"y_up", "", "Whether y is up in the file, and not z. It is turned so first.",
-                                          limits::any, true};
+inline constexpr Parameter y_up_parameter{
+    "y_up", "", "Whether y, and not z, is up in the file. This is converted first.", limits::any, true};
 
 class Placement {
   public:

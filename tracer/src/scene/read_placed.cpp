@@ -37,8 +37,8 @@ struct Found {
 
 class ObjectsReader {
   public:
-    ObjectsReader(const Document& document, const Shutter& shutter, NodePlaces* places)
-        : document_(document), shutter_(shutter), root_(document.root()), node_places_(places) {
+    ObjectsReader(const Document& document, const Shutter& shutter, NodePlaces* node_places)
+        : document_(document), shutter_(shutter), root_(document.root()), node_places_(node_places) {
         model_.phases = read_phase_names(document);
         if (const auto phases = root_.find("phases"))
             for (const Value phase : *phases) model_.materials.push_back({document, phase});
@@ -48,11 +48,12 @@ class ObjectsReader {
         find_objects();
         for (Found& found : found_) add(found);
         read_groups();
-        if (const auto list = root_.find("instances")) read_places(*list, "\"instances\"", model_.placed.places);
-        place_what_no_instance_names();
+        if (const auto list = root_.find("instances")) read_instances(*list, "\"instances\"", model_.placed.instances);
+        add_default_instances();
         if (model_.placed.copies() > most_copies)
-            throw document_.error(root_, fmt::format("the groups and instances make {} objects; at most {} can be",
-                                                     model_.placed.copies(), most_copies));
+            throw document_.error(root_,
+                                  fmt::format("groups and instances produce {} copies of objects; the limit is {}",
+                                              model_.placed.copies(), most_copies));
         return std::move(model_);
     }
 
@@ -77,7 +78,7 @@ class ObjectsReader {
             reader.finish();
             check_name(reader.required_value("name"), p.name);
             if (p.tree.has_value() == p.file.has_value())
-                throw document_.error(value, "an object has either \"tree\" or \"file\"");
+                throw document_.error(value, "an object must have either \"tree\" or \"file\"");
             found_.push_back({document_, value, model_.phases, p.phases, "", {p.name, {}, {}}});
             if (p.transform) {
                 ReadTransform read = read_transform(document_, *p.transform, shutter_);
@@ -114,8 +115,8 @@ class ObjectsReader {
             const Document other = document_beside(named, name);
             const Value root = other.root();
             if (has_objects(other))
-                throw document_.error(named, fmt::format("\"{}\" is a scene of several objects; one of its files can "
-                                                         "be taken, or a scene of one tree",
+                throw document_.error(named, fmt::format("\"{}\" is a scene of several objects; use a scene with a "
+                                                         "single tree, such as one of its files",
                                                          name));
             if (!root.is_object() || !root.find("tree"))
                 throw document_.error(named, fmt::format("\"{}\" has no \"tree\"", name));
@@ -130,7 +131,7 @@ class ObjectsReader {
     void check_name(Value at, const std::string& name) const {
         if (name.empty()) throw document_.error(at, "\"name\" must not be empty");
         const bool is_there = std::ranges::any_of(found_, [&](const Found& f) { return f.object.name == name; });
-        if (is_there) throw document_.error(at, fmt::format("there is another object \"{}\"", name));
+        if (is_there) throw document_.error(at, fmt::format("another object is already named \"{}\"", name));
     }
 
     // Adds a phase to the scene and returns its number. If the name is already used, a number is appended.
@@ -138,7 +139,7 @@ class ObjectsReader {
         std::vector<std::string>& names = model_.phases.names;
         if (names.size() == Phase::capacity)
             throw document_.error(
-                at, fmt::format("the objects of the scene have more than {} phases in all", Phase::capacity - 1));
+                at, fmt::format("the objects of the scene have more than {} phases in total", Phase::capacity - 1));
         const std::string wanted = name;
         for (int i = 2; std::ranges::find(names, name) != names.end(); ++i) name = fmt::format("{} {}", wanted, i);
         names.push_back(std::move(name));
@@ -204,7 +205,7 @@ class ObjectsReader {
         groups_ = root_.find("groups");
         if (!groups_) return;
         if (!groups_->is_object())
-            throw document_.error(*groups_, "\"groups\" must be an object, a list of places under each name");
+            throw document_.error(*groups_, "\"groups\" must be an object with a list of instances under each name");
         for (const Value group : *groups_) (void)group_number(group);
     }
 
@@ -214,28 +215,30 @@ class ObjectsReader {
         const std::string name(group.key());
         if (const auto known = group_numbers_.find(name); known != group_numbers_.end()) return known->second;
         if (object_number(name))
-            throw document_.error(group.key_offset(), fmt::format("there is an object \"{}\", too", name));
+            throw document_.error(group.key_offset(), fmt::format("an object is already named \"{}\"", name));
         if (std::ranges::find(open_, name) != open_.end())
-            throw document_.error(group.key_offset(), fmt::format("the group \"{}\" is made of itself", name));
+            throw document_.error(group.key_offset(), fmt::format("the group \"{}\" contains itself", name));
         // Groups may be listed before or after those that they name, so both limits are needed: one bounds this
         // recursion, the other the rays' recursion.
         const auto require_depth = [&](std::size_t depth) {
             if (depth > deepest)
-                throw document_.error(group.key_offset(), fmt::format("more than {} groups are nested", deepest));
+                throw document_.error(group.key_offset(),
+                                      fmt::format("groups are nested more than {} levels deep", deepest));
         };
         require_depth(open_.size() + 1);
         open_.push_back(name);
         PlacedGroup made;
         made.name = name;
         made.offset = group.key_offset();
-        read_places(group, fmt::format("the group \"{}\"", name), made.places);
-        for (const Place& place : made.places)
-            if (place.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[place.of].depth);
+        read_instances(group, fmt::format("the group \"{}\"", name), made.instances);
+        for (const Instance& instance : made.instances)
+            if (instance.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[instance.of].depth);
         require_depth(made.depth);
-        made.copies = model_.placed.copies_of(made.places);
+        made.copies = model_.placed.copies_of(made.instances);
         if (made.copies > most_copies)
-            throw document_.error(group.key_offset(), fmt::format("the group \"{}\" has {} objects; at most {} can be",
-                                                                  name, made.copies, most_copies));
+            throw document_.error(group.key_offset(),
+                                  fmt::format("the group \"{}\" has {} copies of objects; the limit is {}", name,
+                                              made.copies, most_copies));
         open_.pop_back();
         const auto number = static_cast<std::uint32_t>(model_.placed.groups.size());
         model_.placed.groups.push_back(std::move(made));
@@ -248,22 +251,22 @@ class ObjectsReader {
         return found == object_numbers_.end() ? std::nullopt : std::optional(found->second);
     }
 
-    void read_places(Value list, const std::string& what, std::vector<Place>& places) {
+    void read_instances(Value list, const std::string& what, std::vector<Instance>& instances) {
         if (!list.is_array() || list.size() == 0)
-            throw document_.error(list, what + " must be a list of at least one place");
+            throw document_.error(list, what + " must be a list of at least one instance");
         for (const Value value : list) {
             ObjectReader reader(document_, value, "the instance");
             InstanceParameters p;
             read_parameters(reader, p);
             reader.finish();
             if (p.transforms && p.file)
-                throw document_.error(value, "an instance has either \"transforms\" or \"file\"");
-            Place place = place_of(reader.required_value("of"), p.of);
+                throw document_.error(value, "an instance must have either \"transforms\" or \"file\"");
+            Instance instance = instance_of(reader.required_value("of"), p.of);
             Transform outer;
             if (p.transform) {
                 ReadTransform read = read_transform(document_, *p.transform, shutter_);
                 if (read.moving)
-                    place.moving = moving_number(std::move(*read.moving));
+                    instance.moving = moving_number(std::move(*read.moving));
                 else
                     outer = read.at_opening;
             }
@@ -271,17 +274,17 @@ class ObjectsReader {
             if (p.transforms) many = read_transforms(document_, *p.transforms);
             if (p.file) many = read_transforms_file(document_, *p.file);
             if (!p.transforms && !p.file) many.emplace_back();
-            places_read_ += many.size();
-            if (places_read_ > most_places)
-                throw document_.error(value, fmt::format("there are more than {} places in all", most_places));
+            instances_read_ += many.size();
+            if (instances_read_ > most_instances)
+                throw document_.error(value, fmt::format("there are more than {} instances in total", most_instances));
             for (const Transform& one : many) {
-                place.transform = outer * one;
-                places.push_back(place);
+                instance.transform = outer * one;
+                instances.push_back(instance);
             }
         }
     }
 
-    Place place_of(Value at, const std::string& name) {
+    Instance instance_of(Value at, const std::string& name) {
         if (const auto object = object_number(name)) {
             is_named_.resize(model_.placed.objects.size());
             is_named_[*object] = true;
@@ -292,7 +295,7 @@ class ObjectsReader {
         for (const PlacedObject& object : model_.placed.objects) names.push_back(object.name);
         if (groups_)
             for (const Value group : *groups_) names.emplace_back(group.key());
-        throw document_.error(at, fmt::format("there is no object or group \"{}\"", name), closest(name, names));
+        throw document_.error(at, fmt::format("unknown object or group \"{}\"", name), closest(name, names));
     }
 
     std::uint32_t moving_number(MovingTransform moving) {
@@ -300,18 +303,18 @@ class ObjectsReader {
         return static_cast<std::uint32_t>(model_.placed.moving.size() - 1);
     }
 
-    // Places objects that no instance or group names, by their own transform alone. They come first, in the order of
-    // the file.
-    void place_what_no_instance_names() {
+    // Adds one instance of each object that no instance or group names, with only its own transform. They come first,
+    // in the order of the file.
+    void add_default_instances() {
         is_named_.resize(model_.placed.objects.size());
-        std::vector<Place> alone;
+        std::vector<Instance> alone;
         for (std::uint32_t i = 0; i < is_named_.size(); ++i)
             if (!is_named_[i]) alone.push_back({{}, i, false});
-        auto& places = model_.placed.places;
-        places.insert(places.begin(), alone.begin(), alone.end());
-        if (places.empty())
+        auto& instances = model_.placed.instances;
+        instances.insert(instances.begin(), alone.begin(), alone.end());
+        if (instances.empty())
             throw document_.error(root_,
-                                  "no object stands anywhere: all are in groups, and there are no \"instances\"");
+                                  "the scene is empty: all objects are in groups, and there are no \"instances\"");
     }
 
     static constexpr std::size_t deepest = 32;  // maximum nesting depth of groups
@@ -333,7 +336,7 @@ class ObjectsReader {
     std::vector<std::string> open_;  // groups being read, to detect cycles
     std::map<std::string, std::uint32_t, std::less<>> object_numbers_, group_numbers_;
     std::vector<bool> is_named_;
-    std::uint64_t places_read_ = 0;
+    std::uint64_t instances_read_ = 0;
 };
 
 }  // namespace
@@ -342,8 +345,8 @@ bool has_objects(const Document& document) {
     return document.root().is_object() && document.root().find("objects");
 }
 
-ObjectsModel read_placed_objects(const Document& document, const Shutter& shutter, NodePlaces* places) {
-    return ObjectsReader(document, shutter, places).read();
+ObjectsModel read_placed_objects(const Document& document, const Shutter& shutter, NodePlaces* node_places) {
+    return ObjectsReader(document, shutter, node_places).read();
 }
 
 }  // namespace phasetree::tracer

@@ -20,7 +20,7 @@ void refuse_misplaced_settings(ObjectReader& root) {
         const std::string_view key = member.key();
         const auto refuse = [&](const char* part) {
             throw root.document().error(member.key_offset(),
-                                        fmt::format("\"{}\" stands in \"{}\", not in the scene itself", key, part));
+                                        fmt::format("\"{}\" belongs in \"{}\", not in the scene itself", key, part));
         };
         ImageParameters::parameters([&](auto, const Parameter& p) {
             if (p.name == key) refuse("render");
@@ -56,20 +56,21 @@ void check_schema(const Document& document, const FileParts& parts) {
 
 void check_version(const Document& document, Value version) {
     if (as<int>(document, version, "\"version\"") != 1)
-        throw document.error(version, "this program reads scenes of version 1");
+        throw document.error(version, "\"version\" must be 1, the only version that phasetree reads");
 }
 
 Material read_phase_material(const Document& document, Value phase) {
     Material material = read_material(document, phase);
     if (has_texture<MeshImageTexture>(material) || has_texture<MeshImageNumber>(material))
         throw document.error(phase,
-                             "the texture \"mesh_image\" is for meshes, because phases have no texture "
+                             "the texture \"mesh_image\" works only on meshes, because phases have no texture "
                              "coordinates; use \"image\"");
     if (has_texture<VertexColorTexture>(material))
-        throw document.error(phase, "the texture \"vertex_color\" is for meshes, because phases have no vertices");
+        throw document.error(phase,
+                             "the texture \"vertex_color\" works only on meshes, because phases have no vertices");
     if (normal_map_of(material))
         throw document.error(
-            phase, "a \"normal_map\" is for meshes, because phases have no texture coordinates; use a \"bump\"");
+            phase, "a \"normal_map\" works only on meshes, because phases have no texture coordinates; use a \"bump\"");
     return material;
 }
 
@@ -82,7 +83,7 @@ class VoxelBytes {
         if (const Clear* clear = std::get_if<Clear>(&material))
             if (const auto* varying = std::get_if<VaryingMedium>(&clear->interior)) bytes_ += varying->bytes();
         if (bytes_ > most)
-            throw document.error(phase, "the voxels of this phase and of those before it would take more than 4 GiB");
+            throw document.error(phase, "the voxels of this phase and those before it need more than 4 GiB");
     }
 
   private:
@@ -92,7 +93,7 @@ class VoxelBytes {
 void refuse_places_of_nothing(const Document& document) {
     for (const char* const part : {"instances", "groups"})
         if (const auto value = document.root().find(part))
-            throw document.error(value->key_offset(), fmt::format("\"{}\" is of no use without \"objects\"", part));
+            throw document.error(value->key_offset(), fmt::format("\"{}\" requires \"objects\"", part));
 }
 
 // What a file is read for. A picture needs a complete scene; a model needs only a tree or objects.

@@ -19,8 +19,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr const char* unusable =
-    "the transform makes what stands there flat, or takes it too far away, or makes it too large or too small";
+constexpr const char* unusable = "the transform is singular, or moves or scales the object beyond what can be traced";
 
 template <class Kind>
 Transform map_of(Kind kind) {
@@ -69,11 +68,11 @@ std::uint64_t little_endian(const unsigned char* bytes, int count) {
 
 namespace {
 
-constexpr const char* turned_inside_out = "between this key and the one before it space would be turned inside out";
+constexpr const char* turned_inside_out = "between this key and the one before it, the transform would become singular";
 
 // Interpolation between two usable transforms is usable too; see moving_transform.cpp for the reason.
 Transform between_keys(const Document& document, Value value) {
-    const Keys keys(document, value, "what changes with time");
+    const Keys keys(document, value, "the animated value");
     const Keys::Place place = keys.at(document.seconds());
     Pose before, after;
     bool mirrored = false;
@@ -112,7 +111,7 @@ ReadTransform read_transform(const Document& document, Value value, const Shutte
     if (!moves) return result;
     for (const auto& moment : moments)
         if (moment.pose.mirrors() != moments.front().pose.mirrors())
-            throw document.error(value, "space would be turned inside out while the shutter is open");
+            throw document.error(value, "the transform would become singular while the shutter is open");
     result.moving.emplace(std::move(moments));
     return result;
 }
@@ -124,10 +123,11 @@ std::vector<Transform> read_transforms(const Document& document, Value list) {
     all.reserve(list.size());
     for (const Value item : list) {
         if (!item.is_array() || (item.size() != 3 && item.size() != 12))
-            throw document.error(item, "a place is [x, y, z], where the origin goes, or a list of 12 numbers");
+            throw document.error(item,
+                                 "an instance must be [x, y, z], the image of the origin, or a list of 12 numbers");
         std::array<float, 12> n{1, 0, 0, 0, 1, 0, 0, 0, 1};
         std::size_t i = 12 - item.size();
-        for (const Value number : item) n[i++] = as<float>(document, number, "a number of a place");
+        for (const Value number : item) n[i++] = as<float>(document, number, "a number of an instance");
         const Transform transform = of_twelve(n.data());
         if (!transform.is_usable()) throw document.error(item, unusable);
         all.push_back(transform);
@@ -142,31 +142,31 @@ std::vector<Transform> read_transforms_file(const Document& document, Value name
         return document.error(named, fmt::format("\"{}\" {}", name, what));
     };
     std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) throw wrong("is no file that can be read");
+    if (!std::filesystem::is_regular_file(path, problem)) throw wrong("is not a readable file");
     const std::uint64_t bytes = std::filesystem::file_size(path, problem);
     std::ifstream file(path, std::ios::binary);
     std::array<unsigned char, 16> head{};
     if (problem || !file) throw wrong("cannot be read");
     if (!file.read(reinterpret_cast<char*>(head.data()), head.size()) || std::memcmp(head.data(), "PTPLACES", 8) != 0)
-        throw wrong("is no file of places: it does not begin with PTPLACES and a number");
+        throw wrong("is not a file of instances: it does not begin with PTPLACES and a number");
     const std::uint64_t count = little_endian(head.data() + 8, 8);
-    if (count == 0) throw wrong("has no places");
-    if (count > most_places) throw wrong(fmt::format("has {} places; at most {} can be read", count, most_places));
+    if (count == 0) throw wrong("has no instances");
+    if (count > most_instances) throw wrong(fmt::format("has {} instances; the limit is {}", count, most_instances));
     if (bytes != 16 + 48 * count)
-        throw wrong(fmt::format("says that it has {} places, which take {} bytes, but it has {} bytes", count,
-                                16 + 48 * count, bytes));
+        throw wrong(
+            fmt::format("declares {} instances, which take {} bytes, but has {} bytes", count, 16 + 48 * count, bytes));
     std::vector<Transform> all;
     all.reserve(count);
     std::array<unsigned char, 48> raw{};
     support::ReadingPlace place;
     for (std::uint64_t i = 0; i < count; ++i) {
-        if (!file.read(reinterpret_cast<char*>(raw.data()), raw.size())) throw wrong("cannot be read to its end");
+        if (!file.read(reinterpret_cast<char*>(raw.data()), raw.size())) throw wrong("cannot be read completely");
         std::array<float, 12> n{};
         for (std::size_t k = 0; k < n.size(); ++k)
             n[k] = std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(raw.data() + 4 * k, 4)));
         const Transform transform = of_twelve(n.data());
         if (!transform.is_usable())
-            throw wrong(fmt::format("has a place, number {} from 0, that cannot be used: {}", i, unusable));
+            throw wrong(fmt::format("has an unusable instance, number {} counted from 0: {}", i, unusable));
         all.push_back(transform);
         place.reached(16 + 48 * (i + 1));
     }

@@ -6,7 +6,7 @@ namespace phasetree::tracer {
 
 RenderSettings read_settings(const Document& document, Value value, FilmSettings& film) {
     const auto image = read_kind<ImageParameters>(document, value, "\"render\"", [](const ImageParameters& p) {
-        if (p.shutter.y < p.shutter.x) throw ParameterError("shutter", "the shutter cannot close before it opens");
+        if (p.shutter.y < p.shutter.x) throw ParameterError("shutter", "the shutter must not close before it opens");
         return p;
     });
     film.width = image.width;

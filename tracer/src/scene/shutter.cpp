@@ -28,7 +28,8 @@ std::vector<double> moments_of(const Document& document, Value value, const Shut
     std::ranges::sort(moments);
     moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     if (moments.size() * keys.size() > most_read)
-        throw document.error(value, "there are too many keys while the shutter is open");
+        throw document.error(value,
+                             "there are too many keys while the shutter is open; remove some, or shorten \"shutter\"");
     return moments;
 }
 

@@ -7,13 +7,13 @@
 
 namespace phasetree::tracer {
 
-/// A group that neither a place of the scene nor another group refers to.
+/// A group that neither an instance of the scene nor another group refers to.
 struct UnplacedGroup {
     std::uint32_t group = 0;
     std::vector<std::uint32_t> lost;  ///< its objects, through all its groups, that are placed nowhere in the scene
 };
 
-/// Groups that are only used by such groups are not listed, because placing those places them too.
+/// Groups that are only used by such groups are not listed, because they are instanced with those groups.
 struct UnplacedGroups {
     std::vector<UnplacedGroup> found;  ///< only a few, in the order of the file
     std::size_t more = 0;              ///< number of further ones

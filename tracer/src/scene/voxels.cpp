@@ -11,11 +11,12 @@ namespace phasetree::tracer {
 void Voxels::check() const {
     const bool is_openvdb = has_ending_of_openvdb(file);
     if (is_openvdb && spacing)
-        throw ParameterError("spacing", "grids of OpenVDB have a spacing of their own; leave this out",
+        throw ParameterError("spacing", "OpenVDB grids have their own spacing; remove \"spacing\"",
                              ParameterError::Place::key);
-    if (!is_openvdb && !spacing) throw ParameterError("spacing", "images do not say how large their voxels are");
+    if (!is_openvdb && !spacing)
+        throw ParameterError("spacing", "images do not store the size of their voxels; give \"spacing\"");
     if (!is_openvdb && !grid.empty())
-        throw ParameterError("grid", "images have no grids that this could name", ParameterError::Place::key);
+        throw ParameterError("grid", "images have no named grids; remove \"grid\"", ParameterError::Place::key);
 }
 
 void Voxels::prepare() {
@@ -35,7 +36,7 @@ void Voxels::prepare() {
     }
     for (int i = 0; i < 3; ++i)
         if (!coordinate.contains(shares->bounds().low[i]) || !coordinate.contains(shares->bounds().high[i]))
-            throw ParameterError("file", "its voxels would lie beyond 10¹⁵");
+            throw ParameterError("file", "its voxels would be farther than 10¹⁵ from the origin");
 }
 
 }  // namespace phasetree::tracer

@@ -14,10 +14,9 @@ namespace phasetree::tracer {
 struct Voxels {
     static constexpr KindInfo info{
         "voxels",
-        "Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres "
-        "they are interpolated, and negative ones count as 0. Outside of the grid's box, which ends half a voxel "
-        "beyond "
-        "the outermost centres, they are 0. The grid is scaled first, then turned, then moved."};
+        "A voxel grid, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Values are interpolated between "
+        "the voxels' centres; negative ones count as 0. Outside the grid's box, which ends half a voxel beyond the "
+        "outermost centres, they are 0. The grid is scaled first, then rotated, then translated."};
 
     std::filesystem::path file{};
     std::string grid{};
@@ -38,18 +37,19 @@ struct Voxels {
         v(&P::file,
           Parameter{
               "file", "",
-              "An OpenVDB file (.vdb) with a grid of floats or doubles, whose background is 0; or grey images, one "
-              "for each layer from the lowest z to the highest: a name in which # stands for a digit of their "
-              "numbers, such as \"layer_###.png\". Integer grey values are scaled to 0 … 1. The top row of an image "
-              "has the greatest y, and its left column the least x; the stack is centred on the origin."});
+              "An OpenVDB file (.vdb) with a grid of floats or doubles whose background is 0. Or grey images, one per "
+              "layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's "
+              "number, such as \"layer_###.png\". Integer grey values are scaled to 0 … 1. The top row of an image has "
+              "the greatest y and the left column the least x; the stack is centred on the origin."});
         v(&P::grid, Parameter{"grid", "",
-                              "Which of an OpenVDB file's grids; needed if it has several of numbers. If several have "
-                              "the same name, its index follows: \"density[0]\", \"density[1]\".",
+                              "Name of the grid in an OpenVDB file; required if there are several of numbers. If "
+                              "several have the same name, append the index: \"density[0]\", \"density[1]\".",
                               limits::any, true});
         v(&P::spacing,
-          Parameter{"spacing", "m", "From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own.",
+          Parameter{"spacing", "m",
+                    "Distance between voxels along x, y and z. Required for images; OpenVDB files have their own.",
                     limits::positive, true});
-        v(&P::factor, Parameter{"factor", "", "What the numbers are multiplied by.", limits::non_negative, true});
+        v(&P::factor, Parameter{"factor", "", "Factor applied to the numbers.", limits::non_negative, true});
         placement_parameters<P>(v);
         v(&P::y_up, y_up_parameter);
     }

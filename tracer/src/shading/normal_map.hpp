@@ -21,10 +21,9 @@
 namespace phasetree::tracer {
 
 struct NormalMap {
-    static constexpr KindInfo info{
-        "normal_map",
-        "An image of normals on a mesh, by the texture coordinates that its file has: red is "
-        "to the right of the image, green up, and blue out of the surface."};
+    static constexpr KindInfo info{"normal_map",
+                                   "A normal map on a mesh, by the texture coordinates in the mesh file: red points to "
+                                   "the right of the image, green up, and blue out of the surface."};
 
     std::filesystem::path file{};
     glm::vec2 repeat{1.0f};
@@ -36,14 +35,14 @@ struct NormalMap {
     static void parameters(V&& v) {
         using P = NormalMap;
         v(&P::file, Parameter{"file", "",
-                              "An image of at most 4096 × 4096 pixels, whose numbers count as the file stores them: 0 "
-                              "stands for −1, and 1 (255 of 255) for 1."});
+                              "Image of at most 4096 × 4096 pixels. Its numbers are used as stored: 0 stands for −1, "
+                              "and 1 (255 of 255) for 1."});
         v(&P::repeat, repeat_parameter);
-        v(&P::strength, Parameter{"strength", "", "A factor of red and green: 0 is smooth, and 2 twice as steep.",
+        v(&P::strength, Parameter{"strength", "", "Factor applied to red and green: 0 is smooth, and 2 twice as steep.",
                                   Limits{.low = 0, .high = 100}, true});
-        v(&P::green_down,
-          Parameter{"green_down", "", "Whether green is down in the image, as DirectX has it, and not up as in OpenGL.",
-                    limits::any, true});
+        v(&P::green_down, Parameter{"green_down", "",
+                                    "Whether green points down in the image, as in DirectX, and not up, as in OpenGL.",
+                                    limits::any, true});
     }
     void prepare() { image = load_texture_image(file, ImageMeaning::numbers); }
 

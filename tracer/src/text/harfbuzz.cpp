@@ -38,7 +38,7 @@ using Buffer = std::unique_ptr<hb_buffer_t, Destroy<hb_buffer_destroy>>;
 using DrawFunctions = std::unique_ptr<hb_draw_funcs_t, Destroy<hb_draw_funcs_destroy>>;
 
 std::string content_of(const std::filesystem::path& path) {
-    if (!std::filesystem::exists(path)) throw std::runtime_error("there is no such file");
+    if (!std::filesystem::exists(path)) throw std::runtime_error("no such file");
     if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("it is not a regular file");
     if (std::filesystem::file_size(path) > most_bytes_of_font) throw std::runtime_error("it is larger than 64 MB");
     std::ifstream in(path, std::ios::binary);
@@ -98,7 +98,7 @@ class Typesetter {
           font_(hb_font_create(face_.get())),
           draw_(functions_of_pen()) {
         if (hb_face_get_glyph_count(face_.get()) == 0)
-            throw std::runtime_error("it is no TrueType or OpenType font (.ttf, .otf)");
+            throw std::runtime_error("it is not a TrueType or OpenType font (.ttf, .otf)");
         const int scale = static_cast<int>(hb_face_get_upem(face_.get())) * parts_of_unit;
         hb_font_set_scale(font_.get(), scale, scale);
         ems_ = 1.0f / static_cast<float>(scale);
@@ -119,7 +119,7 @@ class Typesetter {
         const hb_glyph_position_t* const positions = hb_buffer_get_glyph_positions(buffer.get(), &count);
         for (unsigned i = 0; i < count; ++i) {
             if (infos[i].codepoint == 0)
-                throw std::runtime_error(fmt::format("it has no letter \"{}\"", letter_at(text, infos[i].cluster)));
+                throw std::runtime_error(fmt::format("it has no glyph for \"{}\"", letter_at(text, infos[i].cluster)));
             add(infos[i].codepoint, positions[i], line);
         }
         return line;
@@ -137,7 +137,7 @@ class Typesetter {
         for (const TextOutlines::Contour& contour : pen.contours)
             for (const glm::vec2& p : contour)
                 if (!(std::abs(p.x) < farthest_of_letter && std::abs(p.y) < farthest_of_letter))
-                    throw std::runtime_error("one of its letters is larger than a thousand of its ems");
+                    throw std::runtime_error("one of its glyphs is larger than 1000 em");
         if (!pen.contours.empty()) line.letters.push_back({line.width, line.places, std::move(pen.contours)});
         line.width += ems_ * static_cast<float>(position.x_advance);
         // Accents do not occupy a place of their own.

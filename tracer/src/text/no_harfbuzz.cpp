@@ -7,8 +7,8 @@ namespace phasetree::tracer {
 
 TextOutlines read_text(const std::filesystem::path& font, const std::string&) {
     throw std::runtime_error("cannot use the font \"" + font.string() +
-                             "\": this phasetree was built without HarfBuzz: install libharfbuzz-dev, or the library "
-                             "from harfbuzz.github.io, and build again");
+                             "\": this phasetree was built without HarfBuzz; install libharfbuzz-dev, or the library "
+                             "from harfbuzz.github.io, and rebuild");
 }
 
 bool can_read_fonts() {

@@ -13,7 +13,7 @@ std::string random_token() {
     std::array<unsigned char, 16> bytes{};
     // Requests this small are never filled partially.
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-        throw std::system_error(errno, std::generic_category(), "the system gives no random numbers");
+        throw std::system_error(errno, std::generic_category(), "the system provides no random numbers");
     std::string token;
     for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
     return token;

@@ -46,7 +46,7 @@ CutPlane read_cut(const Document& document, Value value) {
     cut.normal = reader.required<glm::vec3>("normal", lengths);
     cut.offset = reader.required<float>("offset", lengths);
     reader.finish();
-    if (!(glm::length(cut.normal) > 1e-6f)) throw document.error(value, "the cut's normal has no direction");
+    if (!(glm::length(cut.normal) > 1e-6f)) throw document.error(value, "the normal of the cut must not be zero");
     return cut;
 }
 
@@ -106,7 +106,7 @@ Change read_change(const std::string& text, const Shown& shown) {
     change.layer = reader.maybe<std::string>("layer");
     if (change.layer && !change.layer->empty() &&
         std::ranges::none_of(shown.layers, [&](const FilmLayer& layer) { return layer.name == *change.layer; }))
-        throw document.error(reader.required_value("layer"), fmt::format("there is no layer \"{}\"", *change.layer));
+        throw document.error(reader.required_value("layer"), fmt::format("unknown layer \"{}\"", *change.layer));
     change.exposure_ev = reader.maybe<float>("exposure", exposures);
     reader.finish();
     return change;

@@ -101,20 +101,20 @@ class Answers {
     bool head(const httplib::Request& request, httplib::Response& response) const {
         set_headers(response);
         if (!access_.allows(request.get_header_value("Host"), request.get_header_value("Origin"), request.path))
-            return refuse(response, 403, "forbidden: the address is the one that phasetree view has printed");
+            return refuse(response, 403, "forbidden: open the address that phasetree view printed");
         const std::string_view name = access_.within(request.path);
         if (request.method == "GET") {
-            if (!get(name, request, response)) return refuse(response, 404, "there is no such page");
+            if (!get(name, request, response)) return refuse(response, 404, "no such page");
             return true;
         }
-        if (request.method != "POST") return refuse(response, 405, "only GET and POST are understood");
+        if (request.method != "POST") return refuse(response, 405, "only GET and POST are supported");
         if (name != "change" && name != "ask" && name != "write" && name != "write_numbers")
-            return refuse(response, 404, "there is no such page");
+            return refuse(response, 404, "no such page");
         if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding") ||
             !request.has_header("Content-Length"))
-            return refuse(response, 411, "a request must be plain and say its length");
+            return refuse(response, 411, "a request must be unencoded and have a Content-Length");
         if (request.get_header_value("Content-Type") != json)
-            return refuse(response, 415, "a request must be of the type application/json");
+            return refuse(response, 415, "a request must have the type application/json");
         return false;
     }
     void post(const httplib::Request& request, httplib::Response& response) const {
@@ -234,7 +234,8 @@ void serve(Session& session, const ServeOptions& options) {
         port = server.bind_to_any_port("127.0.0.1");
     else if (!server.bind_to_port("127.0.0.1", port))
         port = -1;
-    if (port < 0) throw std::runtime_error(fmt::format("port {} of 127.0.0.1 is not available", options.port));
+    if (port < 0)
+        throw std::runtime_error(fmt::format("port {} of 127.0.0.1 is unavailable; choose another one", options.port));
 
     const Access access(port, random_token());
     const Answers answers(session, access, options.may_be_framed);
@@ -248,7 +249,7 @@ void serve(Session& session, const ServeOptions& options) {
     for (const char* name : {"change", "ask", "write", "write_numbers"})
         server.Post(std::string(access.path()) + name, post);
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
-        Answers::refuse(response, 500, "this cannot be answered: memory may have run out");
+        Answers::refuse(response, 500, "cannot answer the request: memory may have run out");
     });
     std::atomic<bool> has_ended{false};
     std::thread listening([&] {

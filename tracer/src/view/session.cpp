@@ -1,4 +1,4 @@
-// The interface between the page and the session: records changes as wishes, and returns what is shown.
+// The interface between the page and the session: records changes of the desired state, and returns what is shown.
 #include "view/session.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace phasetree::tracer::view {
 namespace {
 
 // The page's controls must not jump back to earlier values.
-void show_wishes(const Edits& edits, const NumberEdits& numbers, Shown& shown) {
+void show_desired(const Edits& edits, const NumberEdits& numbers, Shown& shown) {
     shown.cut = edits.cut;
     shown.numbers = numbers;
     for (ShownPhase& phase : shown.phases) {
@@ -46,10 +46,10 @@ void Session::show(const std::function<void(Shown&)>& edit) {
 void Session::show_locked(const std::function<void(Shown&)>& edit) {
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
-    show_wishes(wishes_.edits, wishes_.read_as.numbers, *next);
-    if (wishes_.read_as.seconds) next->seconds = *wishes_.read_as.seconds;
-    next->layer = wishes_.layer;
-    next->camera_text = wishes_.camera ? camera_text(*wishes_.camera, filter_in_file_) : camera_in_file_;
+    show_desired(desired_.edits, desired_.read_as.numbers, *next);
+    if (desired_.read_as.seconds) next->seconds = *desired_.read_as.seconds;
+    next->layer = desired_.layer;
+    next->camera_text = desired_.camera ? camera_text(*desired_.camera, filter_in_file_) : camera_in_file_;
     ++next->version;
     shown_ = std::move(next);
     changed_.notify_all();
@@ -89,24 +89,24 @@ void Session::write_numbers() {
 std::uint64_t Session::change(const Change& change) {
     {
         const std::lock_guard lock(mutex_);
-        if (change.exposure_ev) wishes_.exposure_ev = change.exposure_ev;
-        if (change.has_camera) wishes_.camera = change.camera;
-        if (change.layer) wishes_.layer = *change.layer;
-        if (change.has_camera || change.layer) ++wishes_.view;
-        if (change.hidden) wishes_.edits.hidden = *change.hidden;
-        if (change.looks) wishes_.edits.looks = *change.looks;
-        if (change.has_cut) wishes_.edits.cut = change.cut;
-        if (change.is_of_object()) ++wishes_.object;
-        if (change.numbers) wishes_.read_as.numbers = *change.numbers;
-        if (change.seconds) wishes_.read_as.seconds = change.seconds;
-        if (change.is_of_text()) ++wishes_.text;
+        if (change.exposure_ev) desired_.exposure_ev = change.exposure_ev;
+        if (change.has_camera) desired_.camera = change.camera;
+        if (change.layer) desired_.layer = *change.layer;
+        if (change.has_camera || change.layer) ++desired_.view;
+        if (change.hidden) desired_.edits.hidden = *change.hidden;
+        if (change.looks) desired_.edits.looks = *change.looks;
+        if (change.has_cut) desired_.edits.cut = change.cut;
+        if (change.is_of_object()) ++desired_.object;
+        if (change.numbers) desired_.read_as.numbers = *change.numbers;
+        if (change.seconds) desired_.read_as.seconds = change.seconds;
+        if (change.is_of_text()) ++desired_.text;
         if (change.has_camera || change.layer || change.is_of_object() || change.is_of_text())
-            wishes_.since = Clock::now();
-        announce_wishes();
+            desired_.since = Clock::now();
+        announce_changes();
         // Set this before the thread can finish the work, or the page would be shown an outdated message.
         if (change.is_of_object()) show_locked([](Shown& shown) { shown.doing = "Building cells"; });
         if (change.is_of_text()) show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
-        if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Taking the picture"; });
+        if (change.has_camera || change.layer) show_locked([](Shown& shown) { shown.doing = "Rendering"; });
     }
     if (change.exposure_ev) expose();
     return shown()->version;
@@ -127,15 +127,15 @@ void Session::look_at_files() {
     }
     changed_files_.reset();
     is_to_be_read_ = true;
-    ++wishes_.reading;
-    wishes_.since = Clock::now();
-    announce_wishes();
+    ++desired_.reading;
+    desired_.since = Clock::now();
+    announce_changes();
 }
 
-void Session::announce_wishes() {
-    number_ = wishes_.number();
-    number_of_object_ = wishes_.number_of_object();
-    number_of_reading_ = wishes_.reading;
+void Session::announce_changes() {
+    number_ = desired_.number();
+    number_of_object_ = desired_.number_of_object();
+    number_of_reading_ = desired_.reading;
     changed_.notify_all();
 }
 

@@ -1,9 +1,9 @@
-// A Session shows one scene. The page records what it wants to see (Wishes), and a thread updates what is shown
+// A Session shows one scene. The page changes the desired state (DesiredState), and a thread updates what is shown
 // (Shown).
 //
 // The thread reads the scene, builds its cells, and renders pictures, coarse ones first. It abandons a step as soon as
-// a later wish makes it useless, so the next change also ends work on a scene that would take forever. Errors are shown
-// over the last available picture, and the thread waits for the next wish.
+// a later change makes it useless, which also ends work on a scene that would take forever. Errors are shown
+// over the last available picture, and the thread waits for the next change.
 #pragma once
 
 #include <atomic>
@@ -87,10 +87,8 @@ class Session {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // The requested state.
-    struct Wishes {
-        // How often the files were to be read, and how often the text, the object and the view were changed. Each
-        // number only increases.
+    // What the page requests. Each number increases with every change of its kind.
+    struct DesiredState {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
         Edits edits;
         Reading read_as;
@@ -121,27 +119,29 @@ class Session {
     };
 
     void work();
-    void follow(Wishes wishes);
-    void read(Wishes& wishes);
-    void build(const Wishes& wishes);
+    void follow(DesiredState desired);
+    void read(DesiredState& desired);
+    void build(const DesiredState& desired);
     void keep_cells(const Scene& scene, WorldOptions& options) const;
-    bool draw(const Wishes& wishes);
-    bool draw_coarser(const Wishes& wishes, int scale);
-    bool draw_whole(const Wishes& wishes, int samples);
+    bool draw(const DesiredState& desired);
+    bool draw_coarser(const DesiredState& desired, int scale);
+    bool draw_whole(const DesiredState& desired, int samples);
     std::string warning_of_camera() const;
-    void show_picture(const Wishes& wishes, Image image, int scale, int samples);
+    void show_picture(const DesiredState& desired, Image image, int scale, int samples);
     void expose();
     void fail(const std::string& error);
     void stop_by_error();
-    bool is_stale(const Wishes& wishes) const { return stopped_ || number_ != wishes.number(); }
-    bool is_of_another_object(const Wishes& wishes) const {
-        return stopped_ || number_of_object_ != wishes.number_of_object();
+    bool is_stale(const DesiredState& desired) const { return stopped_ || number_ != desired.number(); }
+    bool is_of_another_object(const DesiredState& desired) const {
+        return stopped_ || number_of_object_ != desired.number_of_object();
     }
-    bool is_of_another_reading(const Wishes& wishes) const { return stopped_ || number_of_reading_ != wishes.reading; }
-    bool is_first_of(const Wishes& wishes) const { return drawn_for_ != wishes.number(); }
-    bool is_given_up(const Wishes& wishes, bool is_first) const;
-    // Call this with the lock held after changing the wishes.
-    void announce_wishes();
+    bool is_of_another_reading(const DesiredState& desired) const {
+        return stopped_ || number_of_reading_ != desired.reading;
+    }
+    bool is_first_of(const DesiredState& desired) const { return drawn_for_ != desired.number(); }
+    bool is_given_up(const DesiredState& desired, bool is_first) const;
+    // Call this with the lock held after changing `desired_`.
+    void announce_changes();
 
     // Applies `edit` to what is shown, under the lock.
     void show(const std::function<void(Shown&)>& edit);
@@ -152,9 +152,9 @@ class Session {
     const SessionOptions options_;
 
     mutable std::mutex mutex_;
-    mutable std::condition_variable changed_;  // notified of new wishes, of changes to what is shown, and of the end
+    mutable std::condition_variable changed_;  // notified when `desired_` or `shown_` changes, and at the end
     mutable std::mutex writing_;               // held while the scene's file is written
-    Wishes wishes_;
+    DesiredState desired_;
     std::shared_ptr<const Shown> shown_ = std::make_shared<Shown>();
     std::string camera_in_file_;  // empty until there is an object to look at
     PixelFilter filter_in_file_;
@@ -173,7 +173,7 @@ class Session {
     std::string warning_;                      // of the object
     ObjectNumber built_for_;                   // the last object whose build was attempted, successfully or not
     PictureNumber finished_for_;               // the last picture with all samples
-    std::atomic<std::uint64_t> drawn_for_{0};  // number of the wishes whose first picture has been shown
+    std::atomic<std::uint64_t> drawn_for_{0};  // number of the state whose first picture has been shown
     Clock::time_point drawing_since_;
     Ladder ladder_;
 

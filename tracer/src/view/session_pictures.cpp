@@ -12,8 +12,8 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While the camera is rotated or a slider is dragged, each wish arrives before the picture of the last one is complete.
-// A first coarse picture is completed anyway, unless it takes longer than this.
+// While the camera is rotated or a slider is dragged, each change arrives before the picture of the last one is
+// complete. A first coarse picture is completed anyway, unless it takes longer than this.
 constexpr std::chrono::milliseconds first_picture_deadline{250};
 // Pictures that follow each other faster than this are not all shown.
 constexpr std::chrono::milliseconds between_pictures{100};
@@ -41,32 +41,33 @@ Planes::Choice planes_with(const Scene& scene, const std::string& layer) {
 }  // namespace
 
 // Returns whether the picture has all its samples.
-bool Session::draw(const Wishes& wishes) {
+bool Session::draw(const DesiredState& desired) {
     const Scene& file = viewed_->scene;
     drawing_since_ = Clock::now();
-    scene_->camera = wishes.camera.value_or(file.camera);
-    scene_->film.planes = planes_with(file, wishes.layer);
+    scene_->camera = desired.camera.value_or(file.camera);
+    scene_->film.planes = planes_with(file, desired.layer);
     show([&](Shown& shown) {
         // Errors of an earlier picture are obsolete; an unreadable file is not.
         if (last_read_well_ == last_read_) shown.error.clear();
         shown.warning = warning_ + warning_of_camera();
-        shown.doing = "Taking the picture";
+        shown.doing = "Rendering";
     });
     for (const int scale : ladder_.scales(file.film.resolution()))
-        if (scale > 1 && !draw_coarser(wishes, scale)) return false;
+        if (scale > 1 && !draw_coarser(desired, scale)) return false;
     if (prepared_->is_first_look()) {
         // A fast picture has no coarser ones. Show something before better cells are built.
-        if (is_first_of(wishes) && !draw_whole(wishes, 1)) return false;
+        if (is_first_of(desired) && !draw_whole(desired, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
         surfaces_->begin_scene();
-        prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
-                                                                          .cancelled = [&] { return is_stale(wishes); },
-                                                                          .most_bytes = options_.most_bytes,
-                                                                          .surfaces = surfaces_});
+        prepared_ =
+            std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
+                                                                  .cancelled = [&] { return is_stale(desired); },
+                                                                  .most_bytes = options_.most_bytes,
+                                                                  .surfaces = surfaces_});
     }
-    if (!draw_whole(wishes, file.settings.samples)) return false;
+    if (!draw_whole(desired, file.settings.samples)) return false;
     show([&](Shown& shown) {
-        if (!is_stale(wishes)) shown.doing = "Ready";
+        if (!is_stale(desired)) shown.doing = "Ready";
     });
     return true;
 }
@@ -75,18 +76,18 @@ bool Session::draw(const Wishes& wishes) {
 std::string Session::warning_of_camera() const {
     const Phase phase = prepared_->world().geometry().label(position_of(scene_->camera));
     if (is_clear(scene_->materials[phase.index])) return {};
-    return fmt::format("{}: warning: the camera is inside \"{}\", which is opaque\n", options_.name,
+    return fmt::format("{}: warning: the camera is inside the phase \"{}\", which is opaque\n", options_.name,
                        scene_->phases[phase]);
 }
 
-// Whether to abandon a picture in favour of later wishes.
-bool Session::is_given_up(const Wishes& wishes, bool is_first) const {
+// Whether to abandon a picture in favour of a later change.
+bool Session::is_given_up(const DesiredState& desired, bool is_first) const {
     const bool is_over = !is_first || Clock::now() - drawing_since_ > first_picture_deadline;
-    return is_of_another_reading(wishes) || (is_over && is_stale(wishes));
+    return is_of_another_reading(desired) || (is_over && is_stale(desired));
 }
 
 // Returns whether the picture was completed and is still wanted.
-bool Session::draw_coarser(const Wishes& wishes, int scale) {
+bool Session::draw_coarser(const DesiredState& desired, int scale) {
     const glm::ivec2 size = coarser(viewed_->scene.film.resolution(), scale);
     scene_->film.width = size.x;
     scene_->film.height = size.y;
@@ -94,19 +95,19 @@ bool Session::draw_coarser(const Wishes& wishes, int scale) {
     // Photons and guiding would take longer than the whole coarse picture, because they would start learning from
     // scratch.
     scene_->settings.caustics = scene_->settings.guiding = false;
-    const bool is_first = is_first_of(wishes);
+    const bool is_first = is_first_of(desired);
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;
-    job.cancelled = [&, is_first] { return is_given_up(wishes, is_first); };
+    job.cancelled = [&, is_first] { return is_given_up(desired, is_first); };
     Rendering rendering = render(prepared_->world(), *scene_, job);
     if (rendering.cancelled) return false;
     ladder_.learn(rendering.image.pixels.size(), rendering.seconds);
-    show_picture(wishes, std::move(rendering.image), scale, 1);
-    return !is_stale(wishes);
+    show_picture(desired, std::move(rendering.image), scale, 1);
+    return !is_stale(desired);
 }
 
-bool Session::draw_whole(const Wishes& wishes, int samples) {
+bool Session::draw_whole(const DesiredState& desired, int samples) {
     scene_->film.width = viewed_->scene.film.width;
     scene_->film.height = viewed_->scene.film.height;
     scene_->settings.samples = samples;
@@ -115,28 +116,28 @@ bool Session::draw_whole(const Wishes& wishes, int samples) {
     RenderJob job;
     job.pixels = scene_->film.whole();
     job.threads = options_.threads;
-    job.cancelled = [&] { return is_given_up(wishes, is_first_of(wishes)); };
+    job.cancelled = [&] { return is_given_up(desired, is_first_of(desired)); };
     Clock::time_point last;
     job.passed = [&](const Film& film, int done) {
         if (done < samples && Clock::now() - last < between_pictures) return;
-        show_picture(wishes, film.image(), 1, done);
+        show_picture(desired, film.image(), 1, done);
         show([&](Shown& shown) { shown.doing = fmt::format("{} of {} samples", done, shown.samples); });
         last = Clock::now();
     };
     Rendering rendering = render(prepared_->world(), *scene_, job);
-    if (rendering.cancelled || is_stale(wishes)) return false;
+    if (rendering.cancelled || is_stale(desired)) return false;
     // If pixels stop by their noise, it is not known in advance which pass is the last.
-    if (scene_->settings.noise > 0) show_picture(wishes, std::move(rendering.image), 1, samples);
+    if (scene_->settings.noise > 0) show_picture(desired, std::move(rendering.image), 1, samples);
     return true;
 }
 
-void Session::show_picture(const Wishes& wishes, Image image, int scale, int samples) {
+void Session::show_picture(const DesiredState& desired, Image image, int scale, int samples) {
     auto picture = std::make_shared<Picture>();
     picture->linear = std::move(image);
     picture->scale = scale;
     picture->samples = samples;
     picture->camera = scene_->camera;
-    picture->layer = wishes.layer;
+    picture->layer = desired.layer;
     picture->viewed = viewed_;
     picture->prepared = prepared_;
     picture->exposure_ev = viewed_->scene.settings.exposure_ev;
@@ -144,11 +145,11 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
         const std::lock_guard lock(mutex_);
         picture->centre = shown_->centre;
         picture->radius = shown_->radius;
-        picture->exposure_ev = wishes_.exposure_ev.value_or(picture->exposure_ev);
+        picture->exposure_ev = desired_.exposure_ev.value_or(picture->exposure_ev);
     }
     picture->pixels = on_display(*picture);
-    const bool is_first = drawn_for_.exchange(wishes.number()) != wishes.number();
-    const double seconds = std::chrono::duration<double>(Clock::now() - wishes.since).count();
+    const bool is_first = drawn_for_.exchange(desired.number()) != desired.number();
+    const double seconds = std::chrono::duration<double>(Clock::now() - desired.since).count();
     show([&](Shown& shown) {
         picture->number = shown.picture ? shown.picture->number + 1 : 1;
         shown.picture = picture;
@@ -162,22 +163,22 @@ void Session::show_picture(const Wishes& wishes, Image image, int scale, int sam
 // this is repeated until both agree.
 void Session::expose() {
     while (true) {
-        std::optional<float> wished;
+        std::optional<float> desired;
         std::shared_ptr<const Picture> last;
         {
             const std::lock_guard lock(mutex_);
-            wished = wishes_.exposure_ev;
+            desired = desired_.exposure_ev;
             last = shown_->picture;
         }
-        if (!wished || !last || last->exposure_ev == *wished) return;
+        if (!desired || !last || last->exposure_ev == *desired) return;
         auto picture = std::make_shared<Picture>(*last);
-        picture->exposure_ev = *wished;
+        picture->exposure_ev = *desired;
         picture->pixels = on_display(*picture);
         show([&](Shown& shown) {
             if (shown.picture != last) return;
             ++picture->number;
             shown.picture = picture;
-            shown.exposure_ev = *wished;
+            shown.exposure_ev = *desired;
         });
     }
 }

@@ -1,4 +1,4 @@
-// The thread of a session, which follows the last wish: it reads the scene's file, edits the scene, and builds its
+// The thread of a session, which follows the desired state: it reads the scene's file, edits the scene, and builds its
 // cells. The pictures are rendered in session_pictures.cpp.
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// While a slider is dragged, each wish arrives before the picture of the last one is complete. Its coarse cells are
+// While a slider is dragged, each change arrives before the picture of the last one is complete. Its coarse cells are
 // completed anyway, unless they take longer than this.
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
 
@@ -54,50 +54,50 @@ void set_width(FilmSettings& film, int width) {
 void Session::work() {
     std::uint64_t followed = 0;
     while (true) {
-        Wishes wishes;
+        DesiredState desired;
         {
             std::unique_lock lock(mutex_);
-            changed_.wait(lock, [&] { return stopped_ || wishes_.number() != followed; });
+            changed_.wait(lock, [&] { return stopped_ || desired_.number() != followed; });
             if (stopped_) return;
-            wishes = wishes_;
+            desired = desired_;
         }
-        followed = wishes.number();
+        followed = desired.number();
         try {
-            follow(wishes);
+            follow(desired);
         } catch (const BuildCancelled&) {
-            // A newer wish has arrived; handle it in the next iteration.
+            // A newer change has arrived; handle it in the next iteration.
         } catch (...) {
             fail(error_text(std::current_exception()));
         }
     }
 }
 
-void Session::follow(Wishes wishes) {
-    if (const TextNumber text{wishes.reading, wishes.text}; text != last_read_) {
+void Session::follow(DesiredState desired) {
+    if (const TextNumber text{desired.reading, desired.text}; text != last_read_) {
         last_read_ = text;
-        read(wishes);
+        read(desired);
     }
     if (!viewed_) return stop_by_error();
-    const ObjectNumber object{last_read_well_, wishes.object};
+    const ObjectNumber object{last_read_well_, desired.object};
     if (object != built_for_) {
         // Set this first, so that a failed build is not repeated until another object is wanted.
         built_for_ = object;
-        build(wishes);
+        build(desired);
     }
-    const PictureNumber picture{object, wishes.view};
+    const PictureNumber picture{object, desired.view};
     if (!prepared_) return stop_by_error();
     if (picture == finished_for_) return;
-    if (draw(wishes)) finished_for_ = picture;
+    if (draw(desired)) finished_for_ = picture;
 }
 
 // If the scene cannot be read, the previous one stays.
-void Session::read(Wishes& wishes) {
+void Session::read(DesiredState& desired) {
     show([](Shown& shown) { shown.doing = "Reading the scene"; });
     WatchedFiles files;
     std::shared_ptr<const ViewedScene> viewed;
     std::string error;
     try {
-        ViewedScene scene = read_(files, wishes.read_as);
+        ViewedScene scene = read_(files, desired.read_as);
         if (options_.samples) scene.scene.settings.samples = *options_.samples;
         if (options_.width) set_width(scene.scene.film, *options_.width);
         viewed = std::make_shared<const ViewedScene>(std::move(scene));
@@ -112,8 +112,8 @@ void Session::read(Wishes& wishes) {
         const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
         // A camera that was requested meanwhile is newer, and stays.
         if (viewed && viewed_ && text(viewed->scene) != text(viewed_->scene)) {
-            if (wishes_.view == wishes.view) wishes_.camera.reset();
-            wishes.camera.reset();
+            if (desired_.view == desired.view) desired_.camera.reset();
+            desired.camera.reset();
         }
     }
     if (!viewed) return fail(error);
@@ -121,13 +121,13 @@ void Session::read(Wishes& wishes) {
     last_read_well_ = last_read_;
     show([&](Shown& shown) {
         shown.numbers_of_file = {viewed_, &viewed_->numbers};
-        shown.numbers_version = wishes.reading;
+        shown.numbers_version = desired.reading;
         shown.seconds = viewed_->seconds;
         shown.keys = viewed_->keys;
     });
 }
 
-void Session::build(const Wishes& wishes) {
+void Session::build(const DesiredState& desired) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
     WorldOptions options{.quality = options_.quality,
@@ -135,13 +135,13 @@ void Session::build(const Wishes& wishes) {
                          .cancelled =
                              [&] {
                                  const bool is_over = Clock::now() - begun > first_cells_deadline;
-                                 return is_of_another_reading(wishes) || (is_over && is_of_another_object(wishes));
+                                 return is_of_another_reading(desired) || (is_over && is_of_another_object(desired));
                              },
                          .most_bytes = options_.most_bytes,
                          .surfaces = surfaces_};
     std::shared_ptr<Scene> scene;
     try {
-        scene = std::make_shared<Scene>(edited(viewed_->scene, wishes.edits));
+        scene = std::make_shared<Scene>(edited(viewed_->scene, desired.edits));
         keep_cells(*scene, options);
         surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene, options);
@@ -158,7 +158,7 @@ void Session::build(const Wishes& wishes) {
     if (!object.warning().empty()) warning += fmt::format("{}: warning: {}\n", options_.name, object.warning());
     const bool is_of_meshes = has_meshes_alone(viewed_->scene);
     if (object.size() == 0 && !is_of_meshes)
-        warning += fmt::format("{}: warning: the object is empty, so no ray meets it\n", options_.name);
+        warning += fmt::format("{}: warning: the object is empty, so no ray hits it\n", options_.name);
     if (!warning.empty()) options_.tell(warning);
     warning_ = warning;
     show([&](Shown& shown) {

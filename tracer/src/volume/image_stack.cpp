@@ -29,7 +29,7 @@ struct Pattern {
         const std::size_t first = name.find('#');
         const std::size_t end = std::min(name.find_first_not_of('#', first), name.size());
         if (name.find('#', end) != std::string::npos)
-            throw std::runtime_error("the # in its name must stand side by side, for one number");
+            throw std::runtime_error("the # in its name must be adjacent, because they stand for one number");
         before = name.substr(0, first);
         behind = name.substr(end);
         digits = end - first;
@@ -64,13 +64,13 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
         }
         return true;
     });
-    if (found.empty()) throw std::runtime_error("there is no file of such a name with digits instead of #");
+    if (found.empty()) throw std::runtime_error("there is no file with this name and digits instead of #");
     std::vector<fs::path> layers;
     long next = found.begin()->first;
     for (const auto& [n, file] : found) {
         if (n != next)
-            throw std::runtime_error(fmt::format("there is \"{}\", but not \"{}\" before it", file.filename().string(),
-                                                 pattern.name_of(next)));
+            throw std::runtime_error(fmt::format("\"{}\" exists, but \"{}\", which comes before it, does not",
+                                                 file.filename().string(), pattern.name_of(next)));
         ++next;
         layers.push_back(file);
     }
@@ -91,7 +91,7 @@ void add_layer(const fs::path& file, bool is_first, std::array<int, 3>& size, st
             checked_count(size);
         }
         if (header.width != size[0] || header.height != size[1])
-            throw std::runtime_error(fmt::format("it is of {} × {} pixels, but the layers below it of {} × {}",
+            throw std::runtime_error(fmt::format("it has {} × {} pixels, but the layers below it have {} × {}",
                                                  header.width, header.height, size[0], size[1]));
         return 1;
     };
@@ -146,7 +146,7 @@ VoxelGrid numbers_of_images(const fs::path& path, const glm::dvec3& spacing) {
     VoxelLattice lattice{.spacing = spacing};
     lattice.size[2] = static_cast<int>(layers.size());
     std::vector<float> values;
-    const auto check = [](const ImageHeader& header) { check_is_grey(header, "numbers must be grey values"); };
+    const auto check = [](const ImageHeader& header) { check_is_grey(header, "the images must be grey"); };
     for (const fs::path& layer : layers)
         add_layer(
             layer, layer == layers.front(), lattice.size, values, check, [](float v) { return v; }, read_image);

@@ -40,12 +40,12 @@ inline std::size_t checked_count(const std::array<int, 3>& size) {
     for (const int n : size) {
         if (n < 1 || n > VoxelGrid::most_along_axis || count > LabelGrid::most_voxels)
             throw std::runtime_error(
-                fmt::format("it has {} × {} × {} voxels; at most {} along an axis and {} in all can be", size[0],
+                fmt::format("it has {} × {} × {} voxels; the limits are {} along an axis and {} in total", size[0],
                             size[1], size[2], VoxelGrid::most_along_axis, LabelGrid::most_voxels));
         count *= static_cast<std::size_t>(n);
     }
     if (count > LabelGrid::most_voxels)
-        throw std::runtime_error(fmt::format("it has {} × {} × {} voxels; at most {} in all can be", size[0], size[1],
+        throw std::runtime_error(fmt::format("it has {} × {} × {} voxels; the limit is {} in total", size[0], size[1],
                                              size[2], LabelGrid::most_voxels));
     return count;
 }

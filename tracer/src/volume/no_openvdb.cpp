@@ -9,8 +9,8 @@ namespace {
 
 [[noreturn]] void refuse() {
     throw std::runtime_error(
-        "this phasetree was built without OpenVDB: install libopenvdb-dev, or the library from openvdb.org, and build "
-        "again");
+        "this phasetree was built without OpenVDB; install libopenvdb-dev, or the library from openvdb.org, and "
+        "rebuild");
 }
 
 }  // namespace

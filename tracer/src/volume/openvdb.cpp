@@ -36,7 +36,7 @@ auto by_openvdb(const Read& read) {
     try {
         return read();
     } catch (const openvdb::Exception&) {
-        throw std::runtime_error("it is damaged, or of a version that this program's OpenVDB does not know");
+        throw std::runtime_error("it is damaged, or written by a newer version of OpenVDB than this build supports");
     }
 }
 
@@ -70,7 +70,7 @@ std::string why_no_labels(const GridBase& grid) {
 }
 std::string why_no_numbers(const GridBase& grid) {
     if (is_level_set(grid))
-        return "it is a level set, whose numbers are distances; OpenVDB's tools make a fog volume of it";
+        return "it is a level set, whose numbers are distances; convert it to a fog volume with OpenVDB's tools";
     return fmt::format("it is {}, but numbers are floats or doubles", kind_of(grid));
 }
 
@@ -141,7 +141,7 @@ VoxelGrid level_set_of(const Grid& grid) {
     // Include a layer of background all around.
     const CoordBBox box = active_leaves(grid, 1);
     if (!(static_cast<double>(grid.background()) > 0))
-        throw std::runtime_error("its background is not positive, so that it has no outside");
+        throw std::runtime_error("its background is not positive, so it has no outside");
     // The background surrounds the box.
     return voxels_of(grid, lattice_of(grid, box), "volume", [](auto v) { return static_cast<float>(v); });
 }
@@ -169,7 +169,7 @@ PlacedVoxels numbers_of(const Grid& grid) {
         return placed;
     }
     if (static_cast<double>(grid.background()) != 0)
-        throw std::runtime_error("its background is not 0, so that it is without end");
+        throw std::runtime_error("its background is not 0, so it would be infinite");
     const OrderedLattice lattice = lattice_of_own_space(grid, active_leaves(grid, 1), placed);
     placed.grid = voxels_of(grid, lattice, "voxels", [](auto v) { return number_at_voxel(static_cast<float>(v)); });
     return placed;
@@ -190,7 +190,7 @@ LabelGrid labels_of(const Grid& grid) {
             for (int x = 0; x < lattice.size[0]; ++x) {
                 const auto number = static_cast<std::int64_t>(at.getValue(order(x, y, z)));
                 if (number != static_cast<std::int32_t>(number))
-                    throw std::runtime_error("it has a number that does not fit into 32 bits");
+                    throw std::runtime_error("it has a number that does not fit in 32 bits");
                 found.voxels.push_back(numbers.index_of(static_cast<std::int32_t>(number)));
             }
     return found;

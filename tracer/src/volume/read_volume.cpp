@@ -27,12 +27,12 @@ bool has_ending_of_openvdb(const std::filesystem::path& path) {
 
 VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& grid) {
     return named(path, "volume", [&] {
-        if (!has_ending_of_openvdb(path)) throw std::runtime_error("its name must end with .vdb");
+        if (!has_ending_of_openvdb(path)) throw std::runtime_error("its name must end in .vdb");
         VoxelGrid found = level_set_of_openvdb(path, grid);
         const double steepest = found.steepest_linear();
         if (steepest > 1e4)
             throw std::runtime_error(fmt::format(
-                "its values change by up to {:.3g} m from one metre to the next; those of a level set are distances",
+                "its values change by up to {:.3g} m per metre, so it is not a level set, whose values are distances",
                 steepest));
         if (steepest > 1) found.divide_by(steepest * (1 + 1e-6));
         return found;
@@ -42,7 +42,7 @@ VoxelGrid read_level_set(const std::filesystem::path& path, const std::string& g
 LabelGrid read_label_grid(const std::filesystem::path& path, const std::string& grid) {
     return named(path, "labels", [&] {
         if (has_ending_of_openvdb(path)) return labels_of_openvdb(path, grid);
-        if (!grid.empty()) throw std::runtime_error("images have no grids that \"grid\" could name");
+        if (!grid.empty()) throw std::runtime_error("images have no named grids; remove \"grid\"");
         return labels_of_images(path);
     });
 }

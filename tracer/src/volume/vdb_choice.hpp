@@ -87,7 +87,7 @@ inline std::string chosen_grid(const std::vector<ListedGrid>& grids, const std::
     }
     if (name.empty())
         throw std::runtime_error(
-            fmt::format("it has several {}; choose one by \"grid\": {}", called.several, listed(wanted)));
+            fmt::format("it has several {}; choose one with \"grid\": {}", called.several, listed(wanted)));
     throw std::runtime_error(
         fmt::format("it has several grids called \"{}\"; choose one by its index: {}", name, listed(wanted)));
 }

@@ -22,8 +22,7 @@ namespace phasetree::tracer {
 inline glm::dmat3 steps_of(const openvdb::GridBase& grid) {
     const openvdb::math::Transform& transform = grid.transform();
     if (!transform.isLinear())
-        throw std::runtime_error(
-            "its voxels differ in size, as in a camera's frustum; resample it to a grid whose voxels are all alike");
+        throw std::runtime_error("its voxels differ in size, as in a camera frustum; resample it to a uniform grid");
     glm::dmat3 steps;
     for (int i = 0; i < 3; ++i) {
         openvdb::Vec3d along(0, 0, 0);
@@ -48,7 +47,7 @@ inline std::array<int, 3> size_of(const openvdb::CoordBBox& box) {
         const long long n = static_cast<long long>(box.max()[i]) - box.min()[i] + 1;
         if (n > VoxelGrid::most_along_axis)
             throw std::runtime_error(
-                fmt::format("it has {} voxels along an axis; at most {} can be", n, VoxelGrid::most_along_axis));
+                fmt::format("it has {} voxels along an axis; the limit is {}", n, VoxelGrid::most_along_axis));
         size[static_cast<std::size_t>(i)] = static_cast<int>(n);
     }
     return size;
@@ -103,8 +102,8 @@ inline std::optional<OrderedLattice> lattice_along_axes(const openvdb::GridBase&
 inline OrderedLattice lattice_of(const openvdb::GridBase& grid, const openvdb::CoordBBox& box) {
     if (auto found = lattice_along_axes(grid, box)) return *std::move(found);
     throw std::runtime_error(
-        "its voxels do not lie along the axes; store the grid with axes that do, and apply the node \"rotate\" or "
-        "\"affine\" to it in the scene");
+        "its voxels are not aligned with the axes; align the grid, and rotate it in the scene with \"rotate\" or "
+        "\"affine\"");
 }
 
 }  // namespace phasetree::tracer

@@ -28,9 +28,9 @@ class Bytes {
   public:
     explicit Bytes(const std::filesystem::path& path) : in_(path, std::ios::binary) {
         std::error_code problem;
-        if (!std::filesystem::exists(path, problem)) throw std::runtime_error("there is no such file");
+        if (!std::filesystem::exists(path, problem)) throw std::runtime_error("no such file");
         if (!std::filesystem::is_regular_file(path, problem) || !in_)
-            throw std::runtime_error("it is not a file that can be read");
+            throw std::runtime_error("it is not a readable file");
         size_ = std::filesystem::file_size(path);
     }
     std::uint64_t size() const { return size_; }
@@ -170,7 +170,7 @@ void skip_transform(Bytes& file) {
         type = file.text();
     }
     const auto doubles = doubles_of_linear_transform(type);
-    if (!doubles) throw std::runtime_error("it has a grid with a transform of an unknown kind");
+    if (!doubles) throw std::runtime_error("it has a grid with an unknown kind of transform");
     file.skip(8 * *doubles);
 }
 
@@ -266,7 +266,7 @@ class TreeWalk {
     void pay(std::uint64_t bytes) {
         paid_ += bytes;
         if (paid_ > most_bytes)
-            throw std::runtime_error(fmt::format("one of its grids takes more than {} GB of memory", most_bytes >> 30));
+            throw std::runtime_error(fmt::format("one of its grids needs more than {} GB of memory", most_bytes >> 30));
     }
 
     Bytes& file_;
@@ -288,13 +288,13 @@ void check_grid(Bytes& file, const std::string& type, bool is_instance) {
 
 void check_vdb_structure(const std::filesystem::path& path) {
     Bytes file(path);
-    if (file.size() < 8 || file.number<std::uint64_t>() != magic) throw std::runtime_error("it is no OpenVDB file");
+    if (file.size() < 8 || file.number<std::uint64_t>() != magic) throw std::runtime_error("it is not an OpenVDB file");
     const auto version = file.number<std::uint32_t>();
     if (version < oldest)
-        throw std::runtime_error("it is of a version of OpenVDB before 1.1; save it again with a later one");
+        throw std::runtime_error("it was written by an OpenVDB version before 1.1; save it again with a newer one");
     file.skip(8);
     if (file.number<std::int8_t>() == 0)
-        throw std::runtime_error("it is a stream, which does not say where its grids are");
+        throw std::runtime_error("it is a stream without an index of its grids; save it as a file");
     file.skip(36);
     skip_metadata(file);
     const auto grids = file.number<std::int32_t>();

@@ -10,28 +10,29 @@ namespace phasetree::tracer {
 
 namespace {
 
-using Places = PlacedGeometry::Places;
-using PlaceInEmbree = PlacedGeometry::PlaceInEmbree;
+using InstanceList = PlacedGeometry::InstanceList;
+using EmbreeInstance = PlacedGeometry::EmbreeInstance;
 using Target = PlacedGeometry::Target;
 
-void bounds_of_place(const RTCBoundsFunctionArguments* arguments) {
+void bounds_of_instance(const RTCBoundsFunctionArguments* arguments) {
     embree::write_bounds(*arguments->bounds_o,
-                         static_cast<const Places*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
+                         static_cast<const InstanceList*>(arguments->geometryUserPtr)->list[arguments->primID].bounds);
 }
 
-// The transform into the space of the target at a place of a list. If the target moves, the transform is stored in
+// The transform into the space of the target at an instance of a list. If the target moves, the transform is stored in
 // `then`.
-const Transform& inward_at(const Places& places, unsigned number, double time, Transform& then) {
-    const PlaceInEmbree& place = places.list[number];
-    if (!place.moves) return place.inward;
-    const Place& source = (*places.source)[number];
-    const Transform outward = places.placed->transform_of(source, time);
-    then = source.is_group ? outward.inverse()
-                           : (outward * places.placed->first_of(places.placed->objects[source.of], time)).inverse();
+const Transform& inward_at(const InstanceList& instances, unsigned number, double time, Transform& then) {
+    const EmbreeInstance& instance = instances.list[number];
+    if (!instance.moves) return instance.inward;
+    const Instance& source = (*instances.source)[number];
+    const Transform outward = instances.placed->transform_of(source, time);
+    then = source.is_group
+               ? outward.inverse()
+               : (outward * instances.placed->first_of(instances.placed->objects[source.of], time)).inverse();
     return then;
 }
 
-// Transforms the ray into the space of the target at a place, and back on destruction.
+// Transforms the ray into the space of the target at an instance, and back on destruction.
 class InwardRay {
   public:
     InwardRay(RTCRay& ray, PlacedQuery& query, const Transform& inward, std::uint32_t first_copy, const Target& target)
@@ -68,13 +69,13 @@ class InwardRay {
 
 // A previous hit is kept if nothing closer is found. Among copies at the same distance, the one with the lower number
 // wins, and a mesh precedes any copy, as Embree's triangles replace hits at the same distance. So the order in which
-// Embree visits places does not matter. Crossings are known only up to a bracket. Therefore each copy is searched to
+// Embree visits instances does not matter. Crossings are known only up to a bracket. Therefore each copy is searched to
 // the ray's original end: stopping at the closest hit so far could miss a copy at the same distance.
-void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
+void intersect_instance(const RTCIntersectFunctionNArguments* arguments) noexcept {
     if (arguments->valid[0] != -1) return;
-    const Places& places = *static_cast<const Places*>(arguments->geometryUserPtr);
-    const PlaceInEmbree& place = places.list[arguments->primID];
-    const Target& target = (*places.targets)[place.target];
+    const InstanceList& instances = *static_cast<const InstanceList*>(arguments->geometryUserPtr);
+    const EmbreeInstance& instance = instances.list[arguments->primID];
+    const Target& target = (*instances.targets)[instance.target];
     auto& query = *reinterpret_cast<PlacedQuery*>(arguments->context);
     if (query.query.passes_cells) return;
     auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
@@ -86,8 +87,8 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     {
         Transform then;
-        const InwardRay inward(rayhit.ray, query, inward_at(places, arguments->primID, query.time, then),
-                               place.first_copy, target);
+        const InwardRay inward(rayhit.ray, query, inward_at(instances, arguments->primID, query.time, then),
+                               instance.first_copy, target);
         embree::intersect(target.scene, query.query.context, rayhit);
         if (target.cells && embree::is_hit(rayhit)) query.hit = {query.first_copy, target.object, query.here};
     }
@@ -106,16 +107,16 @@ void intersect_place(const RTCIntersectFunctionNArguments* arguments) noexcept {
 
 // A query for the objects that contain a point: the transform to the space of the current list, and the results so far.
 struct PointOnItsWay {
-    const Places* places = nullptr;
+    const InstanceList* instances = nullptr;
     glm::dvec3 point{0};
     Transform here{};
     std::uint32_t first_copy = 0;
     RayObjects found{};
 };
 
-bool ask_place(RTCPointQueryFunctionArguments* arguments);
+bool query_instance(RTCPointQueryFunctionArguments* arguments);
 
-// Queries the places whose boxes contain the point. They are the primitives of the first geometry of the scene.
+// Queries the instances whose boxes contain the point. They are the primitives of the first geometry of the scene.
 void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     const glm::vec3 p(on_its_way.here(on_its_way.point));
     RTCPointQuery query{};
@@ -126,27 +127,27 @@ void ask(RTCScene scene, PointOnItsWay& on_its_way) {
     query.radius = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene, &query, &context, ask_place, &on_its_way);
+    rtcPointQuery(scene, &query, &context, query_instance, &on_its_way);
 }
 
-bool ask_place(RTCPointQueryFunctionArguments* arguments) {
+bool query_instance(RTCPointQueryFunctionArguments* arguments) {
     if (arguments->geomID != 0) return false;
     auto& on_its_way = *static_cast<PointOnItsWay*>(arguments->userPtr);
     const PointOnItsWay before = on_its_way;
-    const PlaceInEmbree& place = before.places->list[arguments->primID];
-    const Target& target = (*before.places->targets)[place.target];
+    const EmbreeInstance& instance = before.instances->list[arguments->primID];
+    const Target& target = (*before.instances->targets)[instance.target];
     const auto time = static_cast<double>(before.found.time());
     Transform then;
-    on_its_way.here = inward_at(*before.places, arguments->primID, time, then) * before.here;
-    on_its_way.first_copy = before.first_copy + place.first_copy;
+    on_its_way.here = inward_at(*before.instances, arguments->primID, time, then) * before.here;
+    on_its_way.first_copy = before.first_copy + instance.first_copy;
     if (target.cells) {
         const glm::vec3 p(on_its_way.here(on_its_way.point));
         on_its_way.found.set(on_its_way.first_copy, target.cells->label(p, Evaluator::thread_workspace()));
     } else {
-        on_its_way.places = target.places;
+        on_its_way.instances = target.instances;
         ask(target.scene, on_its_way);
     }
-    on_its_way.places = before.places;
+    on_its_way.instances = before.instances;
     on_its_way.here = before.here;
     on_its_way.first_copy = before.first_copy;
     return false;
@@ -155,23 +156,23 @@ bool ask_place(RTCPointQueryFunctionArguments* arguments) {
 // Two touching interfaces may be found this many resolutions of the cells apart, plus this share of the coordinates.
 constexpr double resolutions_apart = 2, relative_rounding = 4e-7;
 
-// The bounds of the target at a moving place during the shutter interval, and the maximum factor by which it is
+// The bounds of the target at a moving instance during the shutter interval, and the maximum factor by which it is
 // stretched.
 struct Sweep {
     Bounds bounds;
     double stretch;
 };
 
-Sweep swept(const PlacedObjects& placed, const Place& place, const Bounds& of) {
+Sweep swept(const PlacedObjects& placed, const Instance& instance, const Bounds& of) {
     Sweep sweep{of, 1};
     const auto go_on = [&](std::uint32_t moving, const Transform& still) {
         const bool moves = moving != stands_still;
         sweep.bounds = moves ? placed.moving[moving].swept(sweep.bounds) : still.image(sweep.bounds);
         sweep.stretch *= moves ? placed.moving[moving].stretch() : still.stretch();
     };
-    if (!place.is_group) go_on(placed.objects[place.of].moving, placed.objects[place.of].first);
-    go_on(stands_still, place.transform);
-    if (place.moving != stands_still) go_on(place.moving, {});
+    if (!instance.is_group) go_on(placed.objects[instance.of].moving, placed.objects[instance.of].first);
+    go_on(stands_still, instance.transform);
+    if (instance.moving != stands_still) go_on(instance.moving, {});
     return sweep;
 }
 
@@ -200,72 +201,72 @@ PlacedGeometry::PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
     }
     targets_.reserve(placed.objects.size() + placed.groups.size());
     for (const PlacedGroup& group : placed.groups) {
-        auto places = made(device, placed, group.places);
-        places->scene.reset(rtcNewScene(device));
-        rtcSetSceneFlags(places->scene.get(), RTC_SCENE_FLAG_ROBUST);
-        rtcAttachGeometryByID(places->scene.get(), places->geometry.get(), 0);
-        rtcCommitScene(places->scene.get());
-        targets_.push_back({.scene = places->scene.get(),
-                            .bounds = places->bounds,
-                            .places = places.get(),
-                            .resolution = places->resolution});
-        groups_.push_back(std::move(places));
+        auto instances = made(device, placed, group.instances);
+        instances->scene.reset(rtcNewScene(device));
+        rtcSetSceneFlags(instances->scene.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcAttachGeometryByID(instances->scene.get(), instances->geometry.get(), 0);
+        rtcCommitScene(instances->scene.get());
+        targets_.push_back({.scene = instances->scene.get(),
+                            .bounds = instances->bounds,
+                            .instances = instances.get(),
+                            .resolution = instances->resolution});
+        groups_.push_back(std::move(instances));
     }
-    root_ = made(device, placed, placed.places);
+    root_ = made(device, placed, placed.instances);
     const glm::vec3 far = glm::max(glm::abs(root_->bounds.low), glm::abs(root_->bounds.high));
     most_tolerance_ = resolutions_apart * root_->resolution + rounded_at(far);
 }
 
-std::unique_ptr<Places> PlacedGeometry::made(RTCDevice device, const PlacedObjects& placed,
-                                             const std::vector<Place>& list) {
-    auto places = std::make_unique<Places>();
-    places->targets = &targets_;
-    places->placed = &placed;
-    places->source = &list;
-    places->list.reserve(list.size());
+std::unique_ptr<InstanceList> PlacedGeometry::made(RTCDevice device, const PlacedObjects& placed,
+                                                   const std::vector<Instance>& list) {
+    auto instances = std::make_unique<InstanceList>();
+    instances->targets = &targets_;
+    instances->placed = &placed;
+    instances->source = &list;
+    instances->list.reserve(list.size());
     std::uint64_t copies = 0;
-    for (const Place& place : list) {
+    for (const Instance& instance : list) {
         const std::uint32_t target =
-            place.of + (place.is_group ? static_cast<std::uint32_t>(placed.objects.size()) : 0);
-        const PlacedObject* object = place.is_group ? nullptr : &placed.objects[place.of];
-        const Transform outward = object ? place.transform * object->first : place.transform;
-        const bool moves = place.moving != stands_still || (object && object->moving != stands_still);
-        const Sweep sweep = moves ? swept(placed, place, targets_[target].bounds)
+            instance.of + (instance.is_group ? static_cast<std::uint32_t>(placed.objects.size()) : 0);
+        const PlacedObject* object = instance.is_group ? nullptr : &placed.objects[instance.of];
+        const Transform outward = object ? instance.transform * object->first : instance.transform;
+        const bool moves = instance.moving != stands_still || (object && object->moving != stands_still);
+        const Sweep sweep = moves ? swept(placed, instance, targets_[target].bounds)
                                   : Sweep{outward.image(targets_[target].bounds), outward.stretch()};
         const Bounds& bounds = sweep.bounds;
         for (int i = 0; i < 3 && !bounds.empty(); ++i)
             if (!(bounds.low[i] >= -farthest) || !(bounds.high[i] <= farthest))
-                throw ModelError("what instances place is too large or too far away");
-        places->list.push_back({outward.inverse(), bounds, target, moves, static_cast<std::uint32_t>(copies)});
-        places->bounds = unite(places->bounds, bounds);
-        places->resolution = std::max(places->resolution, sweep.stretch * targets_[target].resolution);
-        copies += placed.copies_at(place);
+                throw ModelError("an instance is too large or too far away");
+        instances->list.push_back({outward.inverse(), bounds, target, moves, static_cast<std::uint32_t>(copies)});
+        instances->bounds = unite(instances->bounds, bounds);
+        instances->resolution = std::max(instances->resolution, sweep.stretch * targets_[target].resolution);
+        copies += placed.copies_at(instance);
     }
-    places->geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-    rtcSetGeometryUserPrimitiveCount(places->geometry.get(), static_cast<unsigned>(list.size()));
-    rtcSetGeometryUserData(places->geometry.get(), places.get());
-    rtcSetGeometryBoundsFunction(places->geometry.get(), bounds_of_place, nullptr);
-    rtcSetGeometryIntersectFunction(places->geometry.get(), intersect_place);
-    rtcCommitGeometry(places->geometry.get());
-    return places;
+    instances->geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(instances->geometry.get(), static_cast<unsigned>(list.size()));
+    rtcSetGeometryUserData(instances->geometry.get(), instances.get());
+    rtcSetGeometryBoundsFunction(instances->geometry.get(), bounds_of_instance, nullptr);
+    rtcSetGeometryIntersectFunction(instances->geometry.get(), intersect_instance);
+    rtcCommitGeometry(instances->geometry.get());
+    return instances;
 }
 
 RayObjects PlacedGeometry::objects_at(RTCScene scene, const glm::vec3& p, float time) const {
-    PointOnItsWay on_its_way{.places = root_.get(), .point = glm::dvec3(p), .found = RayObjects(time)};
+    PointOnItsWay on_its_way{.instances = root_.get(), .point = glm::dvec3(p), .found = RayObjects(time)};
     ask(scene, on_its_way);
     return on_its_way.found;
 }
 
 Transform PlacedGeometry::to_object(std::uint32_t copy, float time) const {
     Transform here;
-    for (const Places* places = root_.get(); places != nullptr;) {
-        // The last place whose first copy is not after this one: each place has at least one copy.
-        const auto next = std::ranges::upper_bound(places->list, copy, {}, &PlaceInEmbree::first_copy);
-        const auto number = static_cast<unsigned>(next - places->list.begin() - 1);
+    for (const InstanceList* instances = root_.get(); instances != nullptr;) {
+        // The last instance whose first copy is not after this one: each instance has at least one copy.
+        const auto next = std::ranges::upper_bound(instances->list, copy, {}, &EmbreeInstance::first_copy);
+        const auto number = static_cast<unsigned>(next - instances->list.begin() - 1);
         Transform then;
-        here = inward_at(*places, number, static_cast<double>(time), then) * here;
-        copy -= places->list[number].first_copy;
-        places = targets_[places->list[number].target].places;
+        here = inward_at(*instances, number, static_cast<double>(time), then) * here;
+        copy -= instances->list[number].first_copy;
+        instances = targets_[instances->list[number].target].instances;
     }
     return here;
 }

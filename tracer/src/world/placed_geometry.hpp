@@ -1,7 +1,7 @@
 // The objects of a scene and their placements in Embree. An Embree scene contains the cells of one object, or the
-// places of one group. A place is a primitive of a user geometry, which transforms the ray into the space of its target
-// and traces it in the target's scene. So groups can be nested to any depth, which Embree's own instances allow only if
-// Embree was built for that.
+// instances of one group. An instance is a primitive of a user geometry, which transforms the ray into the space of its
+// target and traces it in the target's scene. So groups can be nested to any depth, which Embree's own instances allow
+// only if Embree was built for that.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,7 @@ struct Copy {
     Transform to_object{};  ///< from scene space to the object's tree
 };
 
-/// Inputs and results of a ray in places. Embree's context comes first, as in embree::Query.
+/// Inputs and results of a ray in instances. Embree's context comes first, as in embree::Query.
 struct PlacedQuery {
     embree::Query query;
     /// In: the copy at whose interface the ray starts, if any.
@@ -41,10 +41,10 @@ struct PlacedQuery {
     /// Out: the copy of the hit, if it is in a copy.
     Copy hit{};
 
-    // State while descending through nested places: the transform from scene space to the current space; the ray in
+    // State while descending through nested instances: the transform from scene space to the current space; the ray in
     // scene space, with unit direction (inner directions are not normalised, so that distances remain those of the
-    // scene); and the number of the first copy below, which is the sum of PlaceInEmbree::first_copy over the places on
-    // the way.
+    // scene); and the number of the first copy below, which is the sum of EmbreeInstance::first_copy over the instances
+    // on the way.
     Transform here{};
     glm::dvec3 origin{0}, direction{0};
     std::uint32_t first_copy = 0;
@@ -58,12 +58,12 @@ class PlacedGeometry {
     /// object is outside of the range of coordinates.
     PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
                    std::vector<std::shared_ptr<const InterfaceCells>> cells);
-    // Lists of places refer to it, and Embree to them.
+    // Lists of instances refer to it, and Embree to them.
     PlacedGeometry(const PlacedGeometry&) = delete;
     PlacedGeometry& operator=(const PlacedGeometry&) = delete;
 
-    /// The user geometry of the scene's places, which is committed. A query that can reach it must be the first member
-    /// of a PlacedQuery.
+    /// The user geometry of the scene's instances, which is committed. A query that can reach it must be the first
+    /// member of a PlacedQuery.
     RTCGeometry handle() const { return root_->geometry.get(); }
     const Bounds& bounds() const { return root_->bounds; }
     const std::vector<std::shared_ptr<const InterfaceCells>>& cells() const { return cells_; }
@@ -82,31 +82,31 @@ class PlacedGeometry {
     /// The maximum of tolerance() anywhere.
     double most_tolerance() const { return most_tolerance_; }
 
-    struct Places;
-    /// The target of a place: an object's cells, or the places of a group.
+    struct InstanceList;
+    /// The target of an instance: an object's cells, or the instances of a group.
     struct Target {
         RTCScene scene = nullptr;
         Bounds bounds{};
         const InterfaceCells* cells = nullptr;  ///< null for a group
         std::uint32_t object = 0;
-        const Places* places = nullptr;  ///< null for an object
-        double resolution = 0;           ///< coarsest in it, in its space
+        const InstanceList* instances = nullptr;  ///< null for an object
+        double resolution = 0;                    ///< coarsest in it, in its space
     };
-    struct PlaceInEmbree {
+    struct EmbreeInstance {
         Transform inward;  ///< from the space of the list into that of the target, if it does not move
         Bounds bounds;     ///< during the shutter interval
         std::uint32_t target = 0;
         bool moves = false;
         std::uint32_t first_copy = 0;  ///< number of the target's first copy among those of the list
     };
-    /// A list of places, as used by callbacks.
-    struct Places {
-        std::vector<PlaceInEmbree> list;
+    /// A list of instances, as used by callbacks.
+    struct InstanceList {
+        std::vector<EmbreeInstance> list;
         const std::vector<Target>* targets = nullptr;
-        /// The scene's own places; `source` is the list from which this one was made. A moving place gets its transform
-        /// at a ray's time from there.
+        /// The scene's own instances; `source` is the list from which this one was made. A moving instance gets its
+        /// transform at a ray's time from there.
         const PlacedObjects* placed = nullptr;
-        const std::vector<Place>* source = nullptr;
+        const std::vector<Instance>* source = nullptr;
         Bounds bounds{};
         double resolution = 0;  ///< coarsest in it, in the space of the list
         GeometryHandle geometry;
@@ -114,14 +114,15 @@ class PlacedGeometry {
     };
 
   private:
-    std::unique_ptr<Places> made(RTCDevice device, const PlacedObjects& placed, const std::vector<Place>& list);
+    std::unique_ptr<InstanceList> made(RTCDevice device, const PlacedObjects& placed,
+                                       const std::vector<Instance>& list);
 
     std::vector<std::shared_ptr<const InterfaceCells>> cells_;
     std::vector<embree::CellGeometry> geometries_;
-    std::vector<SceneHandle> scenes_;              ///< of the cells of each object
-    std::vector<Target> targets_;                  ///< the objects, then the groups
-    std::vector<std::unique_ptr<Places>> groups_;  ///< pointers because callbacks keep their addresses
-    std::unique_ptr<Places> root_;
+    std::vector<SceneHandle> scenes_;                    ///< of the cells of each object
+    std::vector<Target> targets_;                        ///< the objects, then the groups
+    std::vector<std::unique_ptr<InstanceList>> groups_;  ///< pointers because callbacks keep their addresses
+    std::unique_ptr<InstanceList> root_;
     double most_tolerance_ = 0;
 };
 

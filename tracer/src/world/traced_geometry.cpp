@@ -26,7 +26,7 @@ Blocked blocked_by(const Surface& surface) {
 // seconds.
 constexpr int divisions_for_first_look = 5;
 
-// The geometries of the Embree scene: the object, or the places of several, then the meshes in order.
+// The geometries of the Embree scene: the object, or the instances of several, then the meshes in order.
 constexpr unsigned object_id = 0;
 constexpr unsigned first_mesh_id = object_id + 1;
 
@@ -57,7 +57,7 @@ std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, 
 
 DeviceHandle started_embree() {
     DeviceHandle device(rtcNewDevice(nullptr));
-    if (!device) throw std::runtime_error("Embree cannot be started");
+    if (!device) throw std::runtime_error("cannot start Embree");
     return device;
 }
 

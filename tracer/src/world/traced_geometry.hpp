@@ -1,4 +1,4 @@
-// The scene in Embree: the object as user geometry, or several in their places, the meshes, and the optics of all
+// The scene in Embree: the object as user geometry, or instances of several, the meshes, and the optics of all
 // surfaces.
 #pragma once
 

@@ -44,7 +44,8 @@ T as(const Document& document, Value value, std::string_view what, const Range& 
 glm::vec3 as_colour(const Document& document, Value value, std::string_view what,
                     const Range& range = Range::not_negative());
 
-/// Reads the members of an object by key. It remembers all requested keys, so that finish() can report unknown ones.
+/// Reads the members of an object by key, in British or American spelling (is_other_spelling). It remembers all
+/// requested keys, so that finish() can report unknown ones.
 class ObjectReader {
   public:
     /// `what` names the object in messages: "the camera", "the sphere". The document must outlive the reader. Throws
@@ -74,7 +75,7 @@ class ObjectReader {
     glm::vec3 optional_colour(std::string_view key, const glm::vec3& fallback,
                               const Range& range = Range::not_negative());
 
-    /// The member itself, to be read by other code.
+    /// The member itself, to be read by other code. Throws SceneError if it is given in both spellings.
     std::optional<Value> value(std::string_view key);
     Value required_value(std::string_view key);
 
@@ -91,6 +92,7 @@ class ObjectReader {
   private:
     static std::string quoted(std::string_view key);
     bool knows(std::string_view key) const;
+    std::optional<Value> value_in_other_spelling(std::string_view key) const;
 
     const Document* document_;
     Value object_;

@@ -14,12 +14,15 @@ namespace phasetree {
 /// unless its key is one of `kinds`. `what` names the choice in messages ("a material").
 Value member_of_kind(const Document&, Value, std::string_view what, std::span<const std::string_view> kinds);
 
+/// Whether a member is of the kind with this name, in either spelling (is_other_spelling).
+bool is_kind(Value member, std::string_view name);
+
 /// Read a choice between kinds, and call f.template operator()<Kind>(member) for the one found.
 template <class... Kinds, class F>
 void with_kind(TypeList<Kinds...>, const Document& document, Value value, std::string_view what, F&& f) {
     const std::string_view names[] = {Kinds::info.name...};
     const Value member = member_of_kind(document, value, what, names);
-    ((Kinds::info.name == member.key() ? f.template operator()<Kinds>(member) : void()), ...);
+    ((is_kind(member, Kinds::info.name) ? f.template operator()<Kinds>(member) : void()), ...);
 }
 
 /// Read the parameters listed by T into their members. Members of missing optional parameters are unchanged. Unknown

@@ -31,4 +31,11 @@ requires std::convertible_to<std::ranges::range_reference_t<const Strings>, std:
     return closest(word, std::span<const std::string_view>(views));
 }
 
+/// Whether a key is another spelling of a name: British (colour, centre) instead of American (color, center), or vice
+/// versa. Readers accept both; the documentation has only the name.
+bool is_other_spelling(std::string_view key, std::string_view name);
+
+/// Whether a name has another spelling.
+bool has_other_spelling(std::string_view name);
+
 }  // namespace phasetree

@@ -18,13 +18,13 @@ class ReadingListener {
     ReadingListener(const ReadingListener&) = delete;
     ReadingListener& operator=(const ReadingListener&) = delete;
 
-    /// Tells the thread's listener, if there is one. Readers call it every megabyte or so, not for every byte.
+    /// Notifies the thread's listener, if there is one. Readers call it about once per megabyte, not for every byte.
     static void tell(std::uint64_t bytes) {
         if (newest() != nullptr) newest()->hear_(bytes);
     }
 
   private:
-    // What a thread keeps for itself.
+    // One per thread.
     static ReadingListener*& newest() {
         thread_local ReadingListener* listener = nullptr;
         return listener;
@@ -34,7 +34,7 @@ class ReadingListener {
     ReadingListener* before_;
 };
 
-/// Tells of a file or a text from the place in it that has been reached, every megabyte.
+/// Reports progress through a file or a text, from the position reached, once per megabyte.
 class ReadingPlace {
   public:
     static constexpr std::uint64_t step = std::uint64_t{1} << 20;

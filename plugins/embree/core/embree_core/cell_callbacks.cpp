@@ -11,8 +11,7 @@ Query& query_of(Context* context) {
     return *reinterpret_cast<Query*>(context);
 }
 
-// Prepares another ray, in the memory of the last one. Most rays meet only one or two cells, so the time that this
-// takes matters.
+// Records another ray in the existing storage. Most rays hit only a cell or two, so the cost of this matters.
 void note_ray(Query& query, const RTCRay& ray) {
     static_assert(std::is_trivially_destructible_v<SeenRay>);
     std::construct_at(&query.seen, ray);

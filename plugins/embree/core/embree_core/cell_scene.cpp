@@ -26,14 +26,14 @@ bool is_within_range(const UnitRay& ray) {
 
 CellScene::CellScene(RTCDevice device, std::shared_ptr<const InterfaceCells> cells)
     : geometry_(without_error(device), std::move(cells), {.rays_carry_phases = true}) {
-    throw_device_error(device, "Embree makes no geometry");
+    throw_device_error(device, "Embree cannot create a geometry");
     const auto close = [](RTCScene s) { rtcReleaseScene(s); };
     std::unique_ptr<std::remove_pointer_t<RTCScene>, decltype(close)> scene(rtcNewScene(device), close);
-    throw_device_error(device, "Embree makes no scene");
+    throw_device_error(device, "Embree cannot create a scene");
     rtcCommitGeometry(geometry_.handle());
     rtcAttachGeometryByID(scene.get(), geometry_.handle(), 0);
     rtcCommitScene(scene.get());
-    throw_device_error(device, "Embree could not build");
+    throw_device_error(device, "Embree cannot build the scene");
     scene_ = scene.release();
 }
 

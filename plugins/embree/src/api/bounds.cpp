@@ -59,7 +59,7 @@ PhasetreeError phasetreeCarveTree(PhasetreeTree tree, PhasetreePhaseSet phase_bi
         const CarveOptions with = checked(options);
         if (planes) require(plane_count, "planeCount");
         const PhaseSet of{phases(data.tree.object).bits & phase_bits & ~std::uint64_t{1}};
-        if (of.empty()) throw invalid("the tree has none of the phases");
+        if (of.empty()) throw invalid("the tree contains none of the phases");
         const FlushSubnormals flush;
         const CarvedBounds c = carved(data.tree.object, of, with);
         if (planes) {

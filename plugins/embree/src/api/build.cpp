@@ -42,8 +42,8 @@ void check_flags(const PhasetreeGeometryOptions& options) {
             "options->flags has CELL_PRIMITIVES without NO_FILTERS; a filter function would see some crossings twice");
     if (has(options.flags, PHASETREE_GEOMETRY_FLAG_POINT_QUERY))
         throw invalid(
-            "options->flags has CELL_PRIMITIVES and POINT_QUERY; a point query would ask the object once for each "
-            "cell (phasetreeFindClosestInterface is there)");
+            "options->flags has CELL_PRIMITIVES and POINT_QUERY; a point query would query the object once per cell "
+            "(use phasetreeFindClosestInterface)");
     require_all_shown(options.shownPhases);
 }
 
@@ -77,13 +77,13 @@ std::unique_ptr<const Object> object_of(RTCDevice device, std::shared_ptr<const 
 
 void require_shown(PhasetreePhaseSet opaque, PhasetreePhaseSet shown) {
     if (const PhasetreePhaseSet hidden = opaque & ~shown; hidden != 0)
-        throw invalid("phase {} is opaque and not shown; no ray may be in it", std::countr_zero(hidden));
+        throw invalid("phase {} is opaque and hidden; no ray can be in it", std::countr_zero(hidden));
 }
 
 void require_all_shown(PhasetreePhaseSet shown) {
     if (!shows_all({shown}))
         throw invalid(
-            "a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES shows all phases; phase {} is to be hidden",
+            "a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES shows all phases, so phase {} cannot be hidden",
             std::countr_zero(~(shown | 1)));
 }
 
@@ -95,12 +95,12 @@ PhasetreeGeometryOptions checked(const PhasetreeGeometryOptions* given) {
         throw invalid("options->resolution is {}; it must be a distance, or 0 for the library's choice",
                       options.resolution);
     if (options.cellDivisions > 20)
-        throw invalid("options->cellDivisions is {}; at most 20 are possible", options.cellDivisions);
+        throw invalid("options->cellDivisions is {}; it must be at most 20", options.cellDivisions);
     if (!quality_of(options.buildQuality))
         throw invalid("options->buildQuality is {}; it must be RTC_BUILD_QUALITY_LOW, MEDIUM or HIGH",
                       options.buildQuality);
     if (PhaseSet{options.opaquePhases}.contains(vacuum))
-        throw invalid("options->opaquePhases has the vacuum, phase 0, which cannot be opaque");
+        throw invalid("options->opaquePhases contains the vacuum, phase 0, which cannot be opaque");
     require_shown(options.opaquePhases, options.shownPhases);
     check_flags(options);
     return options;

@@ -22,17 +22,17 @@ Motion motion_of(const float* transforms, unsigned count, float start, float end
     if (count == 0) return {};
     require(transforms, "transforms");
     if (count > RTC_MAX_TIME_STEP_COUNT)
-        throw invalid("timeStepCount is {}; Embree takes at most {}", count, RTC_MAX_TIME_STEP_COUNT);
+        throw invalid("timeStepCount is {}; Embree allows at most {}", count, RTC_MAX_TIME_STEP_COUNT);
     if (count > 1 && !(std::isfinite(start) && std::isfinite(end) && start < end))
         throw invalid("startTime {} must be before endTime {}", start, end);
     if (count > 1 && !meets_shutter(start, end))
-        throw invalid("from startTime {} to endTime {} nothing of the shutter is met, whose times are 0 to 1", start,
+        throw invalid("the interval from startTime {} to endTime {} does not meet the shutter interval, 0 to 1", start,
                       end);
     std::vector<Motion::Step> steps;
     for (unsigned i = 0; i < count; ++i) {
         const float* m = transforms + 12 * i;
         if (!std::all_of(m, m + 12, [](float v) { return std::isfinite(v); }))
-            throw invalid("the transform of time step {} has an entry that is no finite number", i);
+            throw invalid("the transform of time step {} has an entry that is not finite", i);
         const auto placement = Placement::of(m);
         if (!placement) throw invalid("the transform of time step {} has no inverse", i);
         steps.push_back({placement->linear, placement->translation});
@@ -44,7 +44,7 @@ Motion motion_of(const float* transforms, unsigned count, float start, float end
 
 Placement placement_at(const GeometryData& data, float time) {
     const auto placement = data.motion.at(time);
-    if (!placement) throw not_now(fmt::format("at time {} the motion's transform has no inverse", time));
+    if (!placement) throw not_now(fmt::format("at time {} the interpolated transform has no inverse", time));
     return *placement;
 }
 
@@ -80,8 +80,7 @@ PhasetreeError phasetreeSetGeometryMotion(PhasetreeGeometry geometry, const floa
     return guarded_call(__func__, [&] {
         GeometryData& data = api::data_of(geometry);
         if (data.has_cell_primitives())
-            throw not_now(
-                "a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES does not move; put it in an instance");
+            throw not_now("a geometry with PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES cannot move; put it in an instance");
         data.motion = motion_of(transforms, count, start, end);
         rtcSetGeometryTimeStepCount(data.handle, data.motion.steps());
         rtcSetGeometryTimeRange(data.handle, count > 1 ? start : 0.0f, count > 1 ? end : 1.0f);

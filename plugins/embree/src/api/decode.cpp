@@ -13,8 +13,8 @@ namespace {
 
 unsigned checked_phase(float coordinate, const char* name) {
     if (!(coordinate >= 0) || coordinate >= PHASETREE_MAX_PHASES || coordinate != std::floor(coordinate))
-        throw not_now(
-            fmt::format("rayhit->hit.{} is {}, which is no phase: the hit is another geometry's", name, coordinate));
+        throw not_now(fmt::format("rayhit->hit.{} is {}, which is not a phase; the hit belongs to another geometry",
+                                  name, coordinate));
     return static_cast<unsigned>(coordinate);
 }
 
@@ -50,7 +50,7 @@ HitRay ray_of_hit(const GeometryData& data, const RTCRayHit& rayhit, const float
         direction = placement.direction_within(direction);
     }
     const auto ray = UnitRay::of(origin, direction, rayhit.ray.tnear, rayhit.ray.tfar);
-    if (!ray || !std::isfinite(ray->far)) throw not_now("rayhit->ray is no ray with a hit");
+    if (!ray || !std::isfinite(ray->far)) throw not_now("rayhit->ray is not a valid ray with a hit");
     return {*ray, placement, blur};
 }
 
@@ -117,10 +117,9 @@ PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const RTCRayHit* r
         if (rayhit->hit.geomID == RTC_INVALID_GEOMETRY_ID) throw not_now("the ray hit nothing");
         const Object& object = *data.object;
         if (rayhit->hit.primID >= object.cells().size())
-            throw not_now(
-                fmt::format("rayhit->hit.primID is {}, but the geometry has {} cells: the hit is another "
-                            "geometry's",
-                            rayhit->hit.primID, object.cells().size()));
+            throw not_now(fmt::format(
+                "rayhit->hit.primID is {}, but the geometry has {} cells; the hit belongs to another geometry",
+                rayhit->hit.primID, object.cells().size()));
         PhasetreeHit found{};
         found.phaseLeft = checked_phase(rayhit->hit.u, "u");
         found.phaseEntered = checked_phase(rayhit->hit.v, "v");

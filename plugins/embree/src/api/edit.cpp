@@ -34,7 +34,7 @@ Value value_at(const Document& document, std::string_view pointer) {
         const std::string_view before = pointer.substr(0, begin - 1);
         if (at.is_object()) {
             const std::optional<Value> member = at.find(token);
-            if (!member) throw invalid("path \"{}\": there is no \"{}\" in \"{}\"", pointer, token, before);
+            if (!member) throw invalid("path \"{}\": \"{}\" does not exist in \"{}\"", pointer, token, before);
             at = *member;
         } else if (at.is_array()) {
             std::size_t index = 0;

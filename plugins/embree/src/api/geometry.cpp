@@ -14,7 +14,7 @@ std::uint64_t number_of(PhasetreeGeometry handle) {
 
 ApiError no_geometry(PhasetreeGeometry handle) {
     return {PHASETREE_ERROR_INVALID_HANDLE,
-            handle ? "geometry is no geometry's handle, or that of one already released" : "geometry is NULL"};
+            handle ? "geometry is not a valid handle, or has already been released" : "geometry is NULL"};
 }
 
 // Creates a geometry's handle; object() creates its object.
@@ -40,7 +40,7 @@ GeometryData& data_of(PhasetreeGeometry handle) {
 
 GeometryData::GeometryData(RTCDevice owner, unsigned its_flags)
     : device(owner), handle(rtcNewGeometry(owner, RTC_GEOMETRY_TYPE_USER)), flags(its_flags) {
-    if (!handle) throw ApiError(PHASETREE_ERROR_EMBREE, "Embree makes no geometry");
+    if (!handle) throw ApiError(PHASETREE_ERROR_EMBREE, "Embree cannot create a geometry");
     rtcRetainDevice(device);
     rtcSetGeometryUserPrimitiveCount(handle, 1);
     rtcSetGeometryBoundsFunction(handle, phasetreeBoundsFunction, nullptr);
@@ -128,8 +128,8 @@ PhasetreeError phasetreeGetGeometryFromEmbree(RTCGeometry embree_geometry, Phase
         const GeometryData* data = find(handle);
         if (!data || data->handle != embree_geometry)
             throw ApiError(PHASETREE_ERROR_INVALID_HANDLE,
-                           "embreeGeometry was not made by this library, or its handle "
-                           "is released, or its user pointer was replaced");
+                           "embreeGeometry was not created by this library, its handle has been released, or its user "
+                           "pointer was replaced");
         *geometry = handle;
     });
 }

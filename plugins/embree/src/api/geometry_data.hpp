@@ -68,7 +68,7 @@ inline void write_point(float* out, const glm::vec3& v) {
 inline glm::vec3 read_point(const float* p) {
     require(p, "point");
     for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(p[i])) throw invalid("point has an entry that is no finite number");
+        if (!std::isfinite(p[i])) throw invalid("point has an entry that is not finite");
     return {p[0], p[1], p[2]};
 }
 

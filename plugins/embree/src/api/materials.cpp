@@ -40,7 +40,7 @@ PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int ph
         const TreeData& data = data_of(tree);
         require(json, "json");
         if (phase >= data.materials.size())
-            throw invalid("there is no phase {}; the tree has {}", phase, data.materials.size());
+            throw invalid("phase {} does not exist; the tree has {}", phase, data.materials.size());
         *json = data.materials[phase] ? data.materials[phase]->c_str() : nullptr;
     });
 }

@@ -49,7 +49,7 @@ PhasetreeError phasetreeMakeGeometryMesh(PhasetreeGeometry geometry, const Phase
         const MeshOptions with = checked(options);
         if (!receive) throw invalid("receive is NULL");
         if (!object.cells().opaque().empty())
-            throw not_now("the geometry was built with opaque phases, in which no interfaces are found");
+            throw not_now("the geometry was built with opaque phases, inside which interfaces are not found");
         const PhaseMesh mesh = made(object, with);
         std::vector<float> vertices;
         std::vector<unsigned> indices;

@@ -31,8 +31,8 @@ class Points {
         for (std::size_t i = 0; i < p_.count; ++i) {
             const glm::vec3 p = given(i);
             for (int axis = 0; axis < 3; ++axis)
-                if (!std::isfinite(p[axis])) throw invalid("point {} has an entry that is no finite number", i);
-            if (p_.time && !std::isfinite(time(i))) throw invalid("the time of point {} is no finite number", i);
+                if (!std::isfinite(p[axis])) throw invalid("point {} has an entry that is not finite", i);
+            if (p_.time && !std::isfinite(time(i))) throw invalid("the time of point {} is not finite", i);
             if (moves) (void)placement(i);
         }
     }

@@ -20,7 +20,8 @@ PhasetreeTree make(Document document, std::optional<PhasetreeFileReader> reader)
             if (const char* problem = reader->readImage(reader->userPtr, path.string().c_str(), &sink))
                 throw std::runtime_error(problem);
             if (sink.grid.values.empty())
-                throw std::runtime_error(fmt::format("\"{}\": the application's reader gave no image", path.string()));
+                throw std::runtime_error(
+                    fmt::format("\"{}\": the application's reader returned no image", path.string()));
             return std::move(sink.grid);
         };
     }
@@ -44,7 +45,7 @@ std::optional<PhasetreeFileReader> checked(const PhasetreeFileReader* reader) {
 
 ApiError no_tree(PhasetreeTree handle) {
     return {PHASETREE_ERROR_INVALID_HANDLE,
-            handle ? "tree is no tree's handle, or that of one already released" : "tree is NULL"};
+            handle ? "tree is not a valid handle, or has already been released" : "tree is NULL"};
 }
 
 }  // namespace
@@ -128,7 +129,7 @@ PhasetreeError phasetreeGetTreePhaseName(PhasetreeTree tree, unsigned int phase,
         const TreeData& data = data_of(tree);
         require(name, "name");
         const auto& names = data.tree.phases.names;
-        if (phase >= names.size()) throw invalid("there is no phase {}; the tree has {}", phase, names.size());
+        if (phase >= names.size()) throw invalid("phase {} does not exist; the tree has {}", phase, names.size());
         *name = names[phase].c_str();
     });
 }
@@ -140,7 +141,7 @@ PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, const char* name,
         require(phase, "phase");
         const auto& names = data.tree.phases.names;
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) throw invalid("there is no phase \"{}\"", name);
+        if (found == names.end()) throw invalid("unknown phase \"{}\"", name);
         *phase = static_cast<unsigned>(found - names.begin());
     });
 }

@@ -1,8 +1,9 @@
 // Writes the manual page of the phasetree command, its commands and options from their definitions and the rest from a
-// template, in which the line .\" the commands stands for them:
+// template. In it, the lines .\" the commands and .\" the exit codes stand for these:
 //
 //   phasetree-manual TEMPLATE.1.in PAGE.1
 #include "command/commands.hpp"
+#include "command/exit_codes.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cctype>
@@ -21,7 +22,7 @@ namespace {
 using phasetree::manual::roff;
 using phasetree::manual::roff_code;
 
-constexpr std::string_view commands_mark = R"(.\" the commands)";
+constexpr std::string_view commands_mark = R"(.\" the commands)", exit_codes_mark = R"(.\" the exit codes)";
 
 std::string bold(const std::string& text) {
     return "\\fB" + roff_code(text) + "\\fR";
@@ -101,6 +102,11 @@ void write_command(std::ostream& out, const CLI::App& command) {
     for (const CLI::Option* option : options) write_option(out, *option);
 }
 
+void write_exit_codes(std::ostream& out) {
+    for (const phasetree::tracer::ExitCode& e : phasetree::tracer::exit_codes)
+        out << ".TP\n" << bold(std::to_string(e.code)) << "\n" << roff(sentence(std::string(e.meaning))) << "\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -113,8 +119,13 @@ int main(int argc, char** argv) {
     phasetree::tracer::add_commands(app, run);
     std::ifstream in(argv[1]);
     std::ofstream out(argv[2]);
-    bool has_commands = false;
+    bool has_commands = false, has_exit_codes = false;
     for (std::string line; std::getline(in, line);) {
+        if (line == exit_codes_mark) {
+            has_exit_codes = true;
+            write_exit_codes(out);
+            continue;
+        }
         if (line != commands_mark) {
             out << line << "\n";
             continue;
@@ -124,7 +135,7 @@ int main(int argc, char** argv) {
             write_command(out, *command);
     }
     out.close();
-    if (!in.eof() || !has_commands || !out) {
+    if (!in.eof() || !has_commands || !has_exit_codes || !out) {
         std::fprintf(stderr, "%s cannot be written from %s\n", argv[2], argv[1]);
         return 1;
     }

@@ -160,9 +160,8 @@ class Writer {
         };
         if (returns([](const std::string& type) { return type == error_type; }))
             result.push_back(
-                {"PHASETREE_ERROR_NONE. If anything is wrong, another PhasetreeError: then nothing has changed, "
-                 "nothing was written to what the arguments point to, and phasetreeGetErrorMessage() says what "
-                 "it was.",
+                {"PHASETREE_ERROR_NONE. On failure, another PhasetreeError: nothing has changed, nothing was written "
+                 "to memory behind the arguments, and phasetreeGetErrorMessage() returns the reason.",
                  {}});
         else if (returns([](const std::string& type) { return type == "void"; }))
             result.push_back({entry.declarations.front().kind == Kind::function

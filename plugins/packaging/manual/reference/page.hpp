@@ -1,4 +1,4 @@
-// Pages of the reference, whatever they are written as.
+// Pages of the reference, independent of their output format.
 #pragma once
 
 #include <string>

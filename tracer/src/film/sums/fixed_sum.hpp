@@ -111,7 +111,7 @@ class FixedSum {
     static FixedSum read(ByteReader& in) {
         const auto head = in.template number<std::uint8_t>();
         const std::size_t low = head / (bytes + 1), count = head % (bytes + 1);
-        if (low > most_low || low + count > bytes) throw BytesError("it has a number of impossible length");
+        if (low > most_low || low + count > bytes) throw BytesError("it contains a number of invalid length");
         FixedSum sum;
         for (std::size_t i = low; i < low + count; ++i) sum.set_byte(i, in.template number<std::uint8_t>());
         if (count > 0 && sum.sign_of(low + count - 1) != 0)

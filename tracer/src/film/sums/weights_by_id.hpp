@@ -42,7 +42,7 @@ class WeightsById {
         // until then memory grows only in proportion to them.
         for (std::uint32_t i = 0; i < count; ++i) {
             Entry entry{in.number<std::uint32_t>(), WeightSum::read(in)};
-            if (i > 0 && entry.id <= weights.entries_.back().id) throw BytesError("its numbers are in no order");
+            if (i > 0 && entry.id <= weights.entries_.back().id) throw BytesError("its identifiers are not sorted");
             weights.entries_.push_back(entry);
         }
         return weights;

@@ -8,8 +8,8 @@
 namespace phasetree::tracer {
 
 struct CheckerTexture {
-    static constexpr KindInfo info{"checker",
-                                   "Two colours in alternate cubes, which are squares on any plane along two axes."};
+    static constexpr KindInfo info{
+        "checker", "Cubes of two alternating colours, which appear as squares on planes along the axes."};
 
     glm::vec3 even{0.8f};
     glm::vec3 odd{0.2f};
@@ -22,8 +22,9 @@ struct CheckerTexture {
         v(&P::even, ColourParameter{{"even", "", "Colour of the even cubes.", limits::fraction, true}});
         v(&P::odd, ColourParameter{{"odd", "", "Colour of the odd cubes.", limits::fraction, true}});
         v(&P::size, Parameter{"size", "m", "Length of the edge of a cube.", limits::positive, true});
-        v(&P::origin, Parameter{"origin", "m", "A corner of an even cube. A plane should pass between corners.",
-                                limits::any, true});
+        v(&P::origin,
+          Parameter{"origin", "m", "A corner of an even cube. Axis-aligned surfaces should not pass through corners.",
+                    limits::any, true});
     }
 
     glm::vec3 at(const glm::vec3& position) const;

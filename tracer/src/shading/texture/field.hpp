@@ -14,10 +14,9 @@
 namespace phasetree::tracer {
 
 struct FieldTexture {
-    static constexpr KindInfo info{
-        "field",
-        "A colour or texture for each value of a field, such as the distance to other phases: "
-        "sand that is dark where it is wet."};
+    static constexpr KindInfo info{"field",
+                                   "A colour or texture that depends on a field, such as the distance to other phases: "
+                                   "sand that is dark where it is wet."};
 
     Field of{};
     TextureRamp ramp{};
@@ -27,10 +26,10 @@ struct FieldTexture {
     static void parameters(V&& v) {
         using P = FieldTexture;
         v(&P::of, Parameter{"of", "", "The field, or the name of a shape."});
-        v(&P::ramp, RampParameter{{"ramp", "m",
-                                   "Values of the field and the colour or texture at each, between which "
-                                   "they are mixed.",
-                                   limits::fraction}});
+        v(&P::ramp,
+          RampParameter{{"ramp", "m",
+                         "Values of the field and the colour or texture at each, with interpolation in between.",
+                         limits::fraction}});
     }
     void prepare() { value = FieldValue(of); }
 

@@ -19,8 +19,8 @@
 namespace phasetree::tracer {
 
 struct ImageTexture {
-    static constexpr KindInfo info{"image",
-                                   "An image on all sides, projected along the axes and repeated without end."};
+    static constexpr KindInfo info{
+        "image", "An image on all sides (triplanar mapping), projected along the axes and repeated endlessly."};
 
     std::filesystem::path file{};
     float size = 1.0f;       // width of the image in the scene
@@ -32,13 +32,14 @@ struct ImageTexture {
     static void parameters(V&& v) {
         using P = ImageTexture;
         v(&P::file, image_file_parameter);
-        v(&P::size,
-          Parameter{"size", "m", "Width of the image; its height is as its pixels are.", limits::positive, true});
-        v(&P::origin, Parameter{"origin", "m", "Where its lower left corner is.", limits::any, true});
-        v(&P::blend, Parameter{"blend", "",
-                               "How widely the three projections are mixed where the surface slants: not at "
-                               "0, everywhere at 1.",
-                               limits::fraction, true});
+        v(&P::size, Parameter{"size", "m", "Width of the image; the height follows from its proportions.",
+                              limits::positive, true});
+        v(&P::origin, Parameter{"origin", "m", "Position of the lower left corner.", limits::any, true});
+        v(&P::blend,
+          Parameter{
+              "blend", "",
+              "How widely the three projections are blended on slanted surfaces: not at all at 0, everywhere at 1.",
+              limits::fraction, true});
     }
     void prepare() { image = load_texture_image(file); }
 

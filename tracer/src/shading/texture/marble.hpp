@@ -12,7 +12,7 @@
 namespace phasetree::tracer {
 
 struct MarbleTexture {
-    static constexpr KindInfo info{"marble", "A ground colour that is crossed by veins."};
+    static constexpr KindInfo info{"marble", "A ground colour crossed by veins."};
 
     glm::vec3 color{0.82f, 0.80f, 0.77f};
     glm::vec3 vein{0.20f, 0.21f, 0.24f};
@@ -25,7 +25,7 @@ struct MarbleTexture {
         v(&P::color, ColourParameter{{"color", "", "Colour of the ground.", limits::fraction, true}});
         v(&P::vein, ColourParameter{{"vein", "", "Colour of the veins.", limits::fraction, true}});
         v(&P::scale, Parameter{"scale", "m", "Mean distance of the veins.", limits::positive, true});
-        v(&P::seed, Parameter{"seed", "", "Another whole number gives another piece.", limits::non_negative, true});
+        v(&P::seed, Parameter{"seed", "", "Seed of the pattern.", limits::non_negative, true});
     }
 
     glm::vec3 at(const glm::vec3& position) const;

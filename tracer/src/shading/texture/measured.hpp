@@ -13,15 +13,14 @@ namespace phasetree::tracer {
 struct SpectrumParameter : Parameter {};
 
 struct MeasuredTexture {
-    static constexpr KindInfo info{"measured", "A colour by its spectrum, as it was measured."};
+    static constexpr KindInfo info{"measured", "A colour given by a measured reflectance spectrum."};
 
     SharedSpectrum reflectance{};
 
     template <class V>
     static void parameters(V&& v) {
         v(&MeasuredTexture::reflectance,
-          SpectrumParameter{{"reflectance", "nm", "Wavelengths and the share of light that is reflected at each.",
-                             limits::fraction}});
+          SpectrumParameter{{"reflectance", "nm", "Wavelengths and the reflectance at each.", limits::fraction}});
     }
 
     glm::vec3 at(const glm::vec3& /*position*/) const { return glm::clamp(reflectance->colour(), 0.0f, 1.0f); }

@@ -14,7 +14,7 @@
 namespace phasetree::tracer {
 
 struct MeshImageTexture {
-    static constexpr KindInfo info{"mesh_image", "An image on a mesh by the texture coordinates that its file has."};
+    static constexpr KindInfo info{"mesh_image", "An image on a mesh, by the texture coordinates in the mesh file."};
 
     std::filesystem::path file{};
     glm::vec2 repeat{1.0f};

@@ -18,8 +18,7 @@ namespace phasetree::tracer {
 
 struct MeshImageNumber {
     static constexpr KindInfo info{"mesh_image",
-                                   "A number for each place of an image on a mesh, by the texture coordinates that its "
-                                   "file has."};
+                                   "A number from an image on a mesh, by the texture coordinates in the mesh file."};
 
     static std::vector<std::string_view> names_of_channels() { return {"red", "green", "blue", "alpha"}; }
 
@@ -32,15 +31,13 @@ struct MeshImageNumber {
     template <class V>
     static void parameters(V&& v) {
         using P = MeshImageNumber;
-        v(&P::file, Parameter{"file", "",
-                              "An image, of which one channel counts, as the file stores it: integers are not taken to "
-                              "be encoded as colours are."});
+        v(&P::file,
+          Parameter{"file", "", "Image, of which one channel is used as stored: integers are not decoded from sRGB."});
         v(&P::channel_name,
-          ChoiceParameter{{"channel", "", "Which one; grey images have one in all three.", limits::any, true},
+          ChoiceParameter{{"channel", "", "Channel to use; in grey images all three are the same.", limits::any, true},
                           names_of_channels});
         v(&P::repeat, repeat_parameter);
-        v(&P::range,
-          Parameter{"range", "", "The numbers where the image is black and where it is white.", limits::any, true});
+        v(&P::range, Parameter{"range", "", "Numbers for black and white.", limits::any, true});
     }
     void prepare() {
         const bool is_alpha = channel_name == "alpha";

@@ -17,8 +17,7 @@
 namespace phasetree::tracer {
 
 struct FieldNumber {
-    static constexpr KindInfo info{"field",
-                                   "A number for each value of a field, such as the distance to other phases."};
+    static constexpr KindInfo info{"field", "A number that depends on a field, such as the distance to other phases."};
 
     Field of{};
     std::vector<NumberStop> ramp{};
@@ -28,9 +27,8 @@ struct FieldNumber {
     static void parameters(V&& v) {
         using P = FieldNumber;
         v(&P::of, Parameter{"of", "", "The field, or the name of a shape."});
-        v(&P::ramp, RampParameter{{"ramp", "m",
-                                   "Values of the field and the number at each, between which it is "
-                                   "interpolated."}});
+        v(&P::ramp,
+          RampParameter{{"ramp", "m", "Values of the field and the number at each, with interpolation in between."}});
     }
     void prepare() { value = FieldValue(of); }
 

@@ -21,13 +21,12 @@ inline float random_of_copy(std::uint32_t copy, int seed) {
 }
 
 inline constexpr Parameter per_copy_seed{
-    "seed", "", "Another seed gives each copy another value; parameters with the same seed vary together.",
-    limits::non_negative, true};
+    "seed", "", "Seed of the random numbers; parameters with the same seed vary together.", limits::non_negative, true};
 
 struct PerCopyTexture {
-    static constexpr KindInfo info{"per_copy",
-                                   "A colour or texture for each copy that \"instances\" place: leaves, pebbles and "
-                                   "sweets are not all alike."};
+    static constexpr KindInfo info{
+        "per_copy",
+        "A random colour or texture for each copy made by \"instances\", so that leaves or pebbles differ."};
 
     TextureRamp ramp{};
     int seed = 0;
@@ -36,8 +35,8 @@ struct PerCopyTexture {
     static void parameters(V&& v) {
         using P = PerCopyTexture;
         v(&P::ramp, RampParameter{{"ramp", "",
-                                   "Numbers from 0 to 1, and the colour or texture of a copy that has that random "
-                                   "number; between them they are mixed.",
+                                   "Random numbers from 0 to 1 and the colour or texture of a copy with that number, "
+                                   "with interpolation in between.",
                                    limits::fraction}});
         v(&P::seed, per_copy_seed);
     }
@@ -49,7 +48,7 @@ struct PerCopyTexture {
 };
 
 struct PerCopyNumber {
-    static constexpr KindInfo info{"per_copy", "A number for each copy that \"instances\" place."};
+    static constexpr KindInfo info{"per_copy", "A random number for each copy made by \"instances\"."};
 
     std::vector<NumberStop> ramp{};
     int seed = 0;
@@ -57,9 +56,10 @@ struct PerCopyNumber {
     template <class V>
     static void parameters(V&& v) {
         using P = PerCopyNumber;
-        v(&P::ramp, RampParameter{{"ramp", "",
-                                   "Numbers from 0 to 1, and the value of a copy that has that random number; between "
-                                   "them it is interpolated."}});
+        v(&P::ramp,
+          RampParameter{
+              {"ramp", "",
+               "Random numbers from 0 to 1 and the value of a copy with that number, with interpolation in between."}});
         v(&P::seed, per_copy_seed);
     }
 

@@ -12,7 +12,7 @@
 namespace phasetree::tracer {
 
 struct SpeckleTexture {
-    static constexpr KindInfo info{"speckle", "Grains, as of sand: each has a colour and a brightness of its own."};
+    static constexpr KindInfo info{"speckle", "Grains, as of sand, each with its own colour and brightness."};
 
     glm::vec3 color{0.58f, 0.42f, 0.24f};
     glm::vec3 other{0.70f, 0.57f, 0.39f};  // grains mix the two colours
@@ -25,11 +25,11 @@ struct SpeckleTexture {
         using P = SpeckleTexture;
         v(&P::color, ColourParameter{{"color", "", "One colour of the grains.", limits::fraction, true}});
         v(&P::other,
-          ColourParameter{{"other", "", "The other colour; a grain is a mixture of both.", limits::fraction, true}});
-        v(&P::grain, Parameter{"grain", "m", "Mean distance of the grains.", limits::positive, true});
-        v(&P::contrast, Parameter{"contrast", "", "From grains that are all alike, 0, to very different ones, 1.",
-                                  limits::fraction, true});
-        v(&P::seed, Parameter{"seed", "", "Another whole number gives another piece.", limits::non_negative, true});
+          ColourParameter{{"other", "", "The other colour; each grain is a mixture of both.", limits::fraction, true}});
+        v(&P::grain, Parameter{"grain", "m", "Mean distance between grains.", limits::positive, true});
+        v(&P::contrast,
+          Parameter{"contrast", "", "Variation of the grains, from none at 0 to strong at 1.", limits::fraction, true});
+        v(&P::seed, Parameter{"seed", "", "Seed of the pattern.", limits::non_negative, true});
     }
 
     glm::vec3 at(const glm::vec3& position) const;

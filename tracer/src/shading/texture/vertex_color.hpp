@@ -10,8 +10,7 @@
 namespace phasetree::tracer {
 
 struct VertexColorTexture {
-    static constexpr KindInfo info{"vertex_color",
-                                   "The colours that a mesh's file gives to its vertices, as scans have them."};
+    static constexpr KindInfo info{"vertex_color", "The vertex colours in the mesh file, as scans have them."};
 
     template <class V>
     static void parameters(V&&) {}

@@ -19,8 +19,7 @@
 namespace phasetree::tracer {
 
 struct WoodTexture {
-    static constexpr KindInfo info{"wood",
-                                   "Wood, as a solid: annual rings around an axis, with fibres and pores along it."};
+    static constexpr KindInfo info{"wood", "Solid wood: annual rings around an axis, with fibres and pores along it."};
 
     glm::vec3 light{0.42f, 0.24f, 0.115f};  // early wood
     glm::vec3 dark{0.15f, 0.068f, 0.03f};   // late wood
@@ -36,8 +35,8 @@ struct WoodTexture {
         v(&P::dark, ColourParameter{{"dark", "", "Colour of the late wood.", limits::fraction, true}});
         v(&P::ring_spacing, Parameter{"ring_spacing", "m", "Mean width of a ring.", limits::positive, true});
         v(&P::axis, DirectionParameter{{"axis", "", "Direction of the trunk, of any length.", limits::any, true}});
-        v(&P::pith, Parameter{"pith", "m", "A point on the middle line of the trunk.", limits::any, true});
-        v(&P::seed, Parameter{"seed", "", "Another whole number gives another piece.", limits::non_negative, true});
+        v(&P::pith, Parameter{"pith", "m", "A point on the axis of the trunk.", limits::any, true});
+        v(&P::seed, Parameter{"seed", "", "Seed of the pattern.", limits::non_negative, true});
     }
 
     glm::vec3 at(const glm::vec3& position) const;

@@ -23,7 +23,7 @@ function frame(members) {
     const right = cross(forward, up);
     if (length(right) > 1e-6 * length(up)) return {right: unit(right), up: cross(unit(right), forward), forward};
   }
-  throw new Error("the camera has no direction");
+  throw new Error("the camera's direction is zero");
 }
 
 // Rotates a vector around an axis of unit length (Rodrigues' formula).

@@ -16,12 +16,12 @@ export class Cut {
     elements.direction.addEventListener("change", () => {
       const axis = elements.direction.value;
       if (axis !== "" && axis !== "free") this.#setNormal(axis.split(" ").map(Number));
-      this.#wish();
+      this.#request();
     });
-    elements.offset.addEventListener("input", () => this.#wish());
+    elements.offset.addEventListener("input", () => this.#request());
     elements.normal.forEach((input) => input.addEventListener("change", () => {
       elements.direction.value = "free";
-      this.#wish();
+      this.#request();
     }));
   }
   get isOn() {
@@ -33,7 +33,7 @@ export class Cut {
   #setNormal(normal) {
     this.#elements.normal.forEach((input, i) => { input.value = normal[i]; });
   }
-  #wish() {
+  #request() {
     const normal = this.normal;
     this.#say();
     if (this.isOn && !(length(normal) > 1e-6)) return;
@@ -48,14 +48,14 @@ export class Cut {
   face(direction) {
     this.#elements.direction.value = "free";
     this.#setNormal(direction.map((x) => Number((x / length(direction)).toPrecision(4))));
-    this.#wish();
+    this.#request();
   }
   // Moves the plane along its normal, in scene units.
   move(by) {
     if (!this.isOn) return;
     const {offset} = this.#elements;
     offset.value = Number(offset.value) + by / this.#place.radius;
-    this.#wish();
+    this.#request();
   }
   #say() {
     const {offset, said} = this.#elements;

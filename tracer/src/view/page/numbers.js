@@ -110,7 +110,7 @@ export class Numbers {
     this.#elements.rows.replaceChildren(...this.#rows.map((row) => row.element));
     const of = this.#node ? ` of ${this.#node.name}` : "";
     const more = shown.length > mostRows ? `The first ${mostRows} of ${shown.length}${of}.` : `${shown.length}${of}.`;
-    this.#elements.said.textContent = more + (this.#hasMore ? " The file has more, which are not listed." : "");
+    this.#elements.said.textContent = more + (this.#hasMore ? " The file contains more numbers, which are not listed." : "");
     this.#showValues();
   }
   #showValues() {

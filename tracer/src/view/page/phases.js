@@ -27,19 +27,19 @@ class Row {
   #phase;
   #inputs = {};
 
-  constructor(phase, wish) {
+  constructor(phase, actions) {
     this.element = document.createElement("div");
     const shown = labelled("", "checkbox", {value: phase.name});
     shown.label.append(phase.name);
     this.box = shown.input;
-    this.box.addEventListener("change", () => wish.hide());
+    this.box.addEventListener("change", () => actions.hide());
     const details = document.createElement("details"), summary = document.createElement("summary");
     summary.textContent = `Material of ${phase.name}`;
-    details.append(summary, ...this.#editors(phase, wish));
+    details.append(summary, ...this.#editors(phase, actions));
     this.element.append(shown.label, details);
   }
-  #editors(phase, wish) {
-    const edit = (member) => wish.look(phase.name, member);
+  #editors(phase, actions) {
+    const edit = (member) => actions.look(phase.name, member);
     const clear = labelled("", "checkbox", {});
     clear.label.append("Clear");
     clear.input.addEventListener("change", () => edit({clear: clear.input.checked}));
@@ -55,9 +55,9 @@ class Row {
     if (phase.has.ior) add("ior", "Index", "range", {min: 1, max: 2.5, step: 0.01});
     if (phase.has.roughness) add("roughness", "Roughness", "range", {min: 0, max: 1, step: 0.01});
     const reset = document.createElement("button");
-    Object.assign(reset, {type: "button", textContent: "As in the file"});
-    reset.setAttribute("aria-label", `${phase.name} as in the file`);
-    reset.addEventListener("click", () => wish.look(phase.name, null));
+    Object.assign(reset, {type: "button", textContent: "Reset material"});
+    reset.setAttribute("aria-label", `Reset material of ${phase.name}`);
+    reset.addEventListener("click", () => actions.look(phase.name, null));
     parts.push(reset);
     return parts;
   }
@@ -96,7 +96,7 @@ export class PhaseList {
     this.#rows.forEach((row, i) => row.show(phases[i]));
   }
   #make(phases) {
-    const wish = {
+    const actions = {
       hide: () => this.#changed({hidden: this.#rows.filter((row) => !row.box.checked).map((row) => row.box.value)}),
       look: (name, member) => {
         if (member === null) delete this.#looks[name];
@@ -107,7 +107,7 @@ export class PhaseList {
     const open = new Set(this.#rows.filter((row) => row.element.querySelector("details").open).map((row) => row.box.value));
     const focused = document.activeElement?.closest?.("#phases > div")?.querySelector("input")?.value;
     this.#rows.forEach((row) => row.element.remove());
-    this.#rows = phases.map((phase) => new Row(phase, wish));
+    this.#rows = phases.map((phase) => new Row(phase, actions));
     this.#rows.forEach((row, i) => {
       row.element.querySelector("details").open = open.has(phases[i].name);
       this.#fieldset.append(row.element);

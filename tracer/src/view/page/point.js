@@ -28,7 +28,7 @@ function table(caption, heads, rows) {
 function nodes(path, showNode) {
   const first = path.findIndex((node) => node.line > 0);
   const list = document.createElement("ol");
-  list.setAttribute("aria-label", "Nodes that made it, from the tree's root");
+  list.setAttribute("aria-label", "Nodes that produce this point, from the root of the tree");
   for (const node of first < 0 ? path.slice(-1) : path.slice(first)) {
     const item = document.createElement("li"), button = document.createElement("button");
     const place = node.line > 0 ? ` ${node.file.replace(/^.*\//, "")}:${node.line}:${node.column}` : " added by the viewer";
@@ -43,13 +43,13 @@ function nodes(path, showNode) {
 export function showPoint(section, told, showNode) {
   const said = document.createElement("p");
   const at = told.point.map(number).join(", ");
-  said.textContent = told.met ? `${told.met} at (${at}).` : "Nothing is met there.";
+  said.textContent = told.met ? `${told.met} at (${at}).` : "There is nothing at this point.";
   const parts = [said];
   if (told.path.length > 0) parts.push(nodes(told.path, showNode));
   if (told.distances.length > 0)
     parts.push(table("Φ just before it", ["phase", "Φ"], told.distances.map((d) => [d.phase, d.phi])));
   if (told.crossings.length > 0) {
-    const caption = `Crossings along the ray, which starts in ${told.start}` + (told.has_more ? "; there are more" : "");
+    const caption = `Interfaces along the ray, which starts in ${told.start}` + (told.has_more ? " (the first ones)" : "");
     parts.push(table(caption, ["distance", "from", "to"], told.crossings.map((c) => [c.distance, c.from, c.to])));
   }
   section.replaceChildren(section.querySelector("h2"), ...parts);

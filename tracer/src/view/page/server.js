@@ -1,6 +1,6 @@
 // Communication with the server. Addresses are relative, because the page's own address contains the token.
 
-export const noAnswer = "The server does not answer: it may have ended.";
+export const noAnswer = "The server does not answer; it may have been stopped.";
 
 // The server's answer. Throws an error with the server's message if the request is rejected.
 async function answerTo(address, request) {
@@ -14,11 +14,11 @@ async function answerTo(address, request) {
   return answer;
 }
 
-async function post(name, wish) {
+async function post(name, body) {
   const answer = await answerTo(name, {
     method: "POST",
     headers: {"Content-Type": "application/json"},
-    body: JSON.stringify(wish),
+    body: JSON.stringify(body),
   });
   return answer.json();
 }

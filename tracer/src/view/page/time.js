@@ -15,7 +15,7 @@ export class Time {
     this.#changed = changed;
     elements.slider.addEventListener("input", () => {
       this.#stop();
-      this.#wish(Number(elements.slider.value));
+      this.#request(Number(elements.slider.value));
     });
     elements.play.addEventListener("click", () => (this.#begun === null ? this.#start() : this.#stop()));
   }
@@ -32,7 +32,7 @@ export class Time {
     const picture = state.picture?.number ?? 0;
     if (this.#begun !== null && picture > this.#lastPicture) this.#next(picture);
   }
-  #wish(seconds) {
+  #request(seconds) {
     this.#say(seconds);
     this.#changed({time: seconds});
   }
@@ -57,7 +57,7 @@ export class Time {
     this.#lastPicture = picture;
     const at = Math.min(first + gone, last);
     this.#elements.slider.value = at;
-    this.#wish(at);
+    this.#request(at);
     if (at === last) this.#stop();
   }
 }

@@ -50,7 +50,7 @@ struct EndlessGrid {
         "endless_grid", "",
         "max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' "
         "boxes,  g = half the smallest gap between boxes",
-        "Copies without end along the axes; they must not touch."};
+        "Copies repeated endlessly along the axes; they must not touch."};
     static constexpr bool has_copies = true;
     using Parts = TypeList<FoldMap, FoldedBox>;
     Child of{};
@@ -62,13 +62,13 @@ struct EndlessGrid {
     static void parameters(V&& v) {
         v(&EndlessGrid::of, detail::copied);
         v(&EndlessGrid::spacing,
-          Parameter{"spacing", "m", "From one copy to the next along x, y and z; 0 for no copies along that axis.",
+          Parameter{"spacing", "m", "Distance between copies along x, y and z; 0 for no repetition along that axis.",
                     limits::non_negative});
     }
     void prepare() {
         const Bounds b = phasetree::bounds(of);
-        if (b.empty()) throw ModelError("endless_grid: what is copied is empty");
-        if (!b.finite()) throw ModelError("endless_grid: what is copied must be bounded");
+        if (b.empty()) throw ModelError("endless_grid: the child is empty");
+        if (!b.finite()) throw ModelError("endless_grid: the child must be bounded");
         boxes.fold = {b.centre(), spacing, glm::vec3(0)};
         boxes.half = b.extent() * (0.5f * (1 + 1e-6f));
         clearance = Bounds::infinity;
@@ -78,7 +78,8 @@ struct EndlessGrid {
             clearance = std::min(clearance, 0.5f * spacing[i] - boxes.half[i]);
             if (!(spacing[i] < 1e9f)) throw ModelError("endless_grid: the spacing is too large");
             if (!(clearance > 1e-4f * spacing[i]))
-                throw ModelError("endless_grid: the copies touch, but there must be some space between their boxes");
+                throw ModelError(
+                    "endless_grid: the copies touch; increase \"spacing\" so that there is space between their boxes");
         }
         if (!std::isfinite(clearance)) throw ModelError("endless_grid: \"spacing\" is zero along every axis");
     }

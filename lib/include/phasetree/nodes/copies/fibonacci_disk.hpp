@@ -28,9 +28,12 @@ struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
         v(&FibonacciDisk::of, detail::copied);
         v(&FibonacciDisk::count, Parameter{"count", "", "How many.", {.low = 1, .high = 100'000}});
         v(&FibonacciDisk::radius,
-          Parameter{"radius", "m", "Of the disk that the copies' origins share.", limits::positive});
-        v(&FibonacciDisk::turned,
-          Parameter{"turned", "", "1: each copy's x axis points away from the middle.", {.low = 0, .high = 1}, true});
+          Parameter{"radius", "m", "Radius of the disk of the copies' origins.", limits::positive});
+        v(&FibonacciDisk::turned, Parameter{"turned",
+                                            "",
+                                            "1 turns each copy so that its x axis points away from the centre.",
+                                            {.low = 0, .high = 1},
+                                            true});
     }
     std::size_t many() const { return static_cast<std::size_t>(count); }
     Placement placement(std::size_t i) const {

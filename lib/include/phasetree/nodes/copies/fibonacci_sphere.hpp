@@ -20,7 +20,7 @@ struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
         v(&FibonacciSphere::of, detail::copied);
         v(&FibonacciSphere::count, Parameter{"count", "", "How many.", {.low = 1, .high = 100'000}});
         v(&FibonacciSphere::radius,
-          Parameter{"radius", "m", "Of the sphere that the copies' origins are on.", limits::positive});
+          Parameter{"radius", "m", "Radius of the sphere of the copies' origins.", limits::positive});
     }
     std::size_t many() const { return static_cast<std::size_t>(count); }
     Placement placement(std::size_t i) const {

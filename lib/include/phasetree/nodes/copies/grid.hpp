@@ -8,9 +8,8 @@ template <class Child>
 struct Grid : Copies<Grid<Child>, Child> {
     static constexpr NodeInfo info{
         "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier",
-        "Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts "
-        "fastest, "
-        "then j, then k."};
+        "Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, "
+        "then i."};
     glm::vec3 spacing{1};
     int count_x = 1, count_y = 1, count_z = 1;
 
@@ -18,10 +17,10 @@ struct Grid : Copies<Grid<Child>, Child> {
     static void parameters(V&& v) {
         constexpr Limits counts{.low = 1, .high = 10000};
         v(&Grid::of, detail::copied);
-        v(&Grid::spacing, Parameter{"spacing", "m", "From one copy to the next along x, y and z."});
-        v(&Grid::count_x, Parameter{"count_x", "", "How many along x.", counts, true});
-        v(&Grid::count_y, Parameter{"count_y", "", "How many along y.", counts, true});
-        v(&Grid::count_z, Parameter{"count_z", "", "How many along z.", counts, true});
+        v(&Grid::spacing, Parameter{"spacing", "m", "Distance between copies along x, y and z."});
+        v(&Grid::count_x, Parameter{"count_x", "", "Number of copies along x.", counts, true});
+        v(&Grid::count_y, Parameter{"count_y", "", "Number of copies along y.", counts, true});
+        v(&Grid::count_z, Parameter{"count_z", "", "Number of copies along z.", counts, true});
     }
     void prepare() const {
         if (static_cast<double>(count_x) * count_y * count_z > detail::most_copies)

@@ -8,8 +8,7 @@ template <class Child>
 struct Instances : Copies<Instances<Child>, Child> {
     static constexpr NodeInfo info{"instances", "",
                                    "min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier",
-                                   "Copies at listed positions, each turned about the z axis and scaled if that is "
-                                   "listed too."};
+                                   "Copies at the given positions, optionally rotated about the z axis and scaled."};
     std::vector<glm::vec3> positions{};
     std::vector<float> turns{};
     std::vector<float> scales{};
@@ -17,12 +16,11 @@ struct Instances : Copies<Instances<Child>, Child> {
     template <class V>
     static void parameters(V&& v) {
         v(&Instances::of, detail::copied);
-        v(&Instances::positions, Parameter{"positions", "m", "Where the copies' origins go."});
-        v(&Instances::turns, Parameter{"turns", "degrees",
-                                       "Angle of each copy about its own z axis; one number stands "
-                                       "for all.",
-                                       limits::any, true, true});
-        v(&Instances::scales, Parameter{"scales", "", "Factor of each copy's size; one number stands for all.",
+        v(&Instances::positions, Parameter{"positions", "m", "Positions of the copies' origins."});
+        v(&Instances::turns,
+          Parameter{"turns", "degrees", "Rotation of each copy about its own z axis; one number applies to all.",
+                    limits::any, true, true});
+        v(&Instances::scales, Parameter{"scales", "", "Scale factor of each copy; one number applies to all.",
                                         limits::positive, true, true});
     }
     void prepare() const {

@@ -137,7 +137,7 @@ struct Copies {
 };
 
 namespace detail {
-inline constexpr Parameter copied{"of", "", "What is copied: a field or an object."};
+inline constexpr Parameter copied{"of", "", "The field or object to copy."};
 /// More copies would exceed the limit of instructions anyway.
 inline constexpr int most_copies = 500'000;
 }  // namespace detail

@@ -8,7 +8,7 @@ template <class Child>
 struct PolarArray : Copies<PolarArray<Child>, Child> {
     static constexpr NodeInfo info{"polar_array", "",
                                    "min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier",
-                                   "Copies turned about the z axis by equal angles."};
+                                   "Copies rotated about the z axis by equal angles."};
     int count = 6;
     float angle = 360;
 
@@ -17,7 +17,7 @@ struct PolarArray : Copies<PolarArray<Child>, Child> {
         v(&PolarArray::of, detail::copied);
         v(&PolarArray::count, Parameter{"count", "", "How many.", {.low = 1, .high = 10000}});
         v(&PolarArray::angle,
-          Parameter{"angle", "degrees", "What they share: copy i is turned by i/count of it. Default: all around.",
+          Parameter{"angle", "degrees", "Total angle: copy i is rotated by i/count of it. Default: a full turn.",
                     limits::any, true});
     }
     std::size_t many() const { return static_cast<std::size_t>(count); }

@@ -23,10 +23,11 @@ std::vector<Placement> scattered_placements(const Field& surface, int count, flo
 
 template <class Child>
 struct Scatter : Copies<Scatter<Child>, Child> {
-    static constexpr NodeInfo info{"scatter", "",
-                                   "copies at random points of the surface f = 0, their z axis along ∇f; of objects, "
-                                   "the later over the earlier",
-                                   "Copies strewn over a field's surface, standing on it, each turned at random."};
+    static constexpr NodeInfo info{
+        "scatter", "",
+        "copies at random points of the surface f = 0, their z axis along ∇f; of objects, "
+        "the later over the earlier",
+        "Copies scattered over the surface of a field, standing on it, with random rotations."};
     Field surface{};
     int count = 10;
     float spacing = 0;
@@ -37,14 +38,14 @@ struct Scatter : Copies<Scatter<Child>, Child> {
     template <class V>
     static void parameters(V&& v) {
         v(&Scatter::of, detail::copied);
-        v(&Scatter::surface, Parameter{"on", "", "The field on whose surface they stand; it must be bounded."});
+        v(&Scatter::surface, Parameter{"on", "", "The field whose surface the copies stand on; it must be bounded."});
         v(&Scatter::count,
-          Parameter{"count", "", "How many; fewer if there is not space.", {.low = 1, .high = 100'000}});
+          Parameter{"count", "", "Number of copies; fewer if there is not enough space.", {.low = 1, .high = 100'000}});
         v(&Scatter::spacing,
-          Parameter{"spacing", "m", "The least distance between two copies' origins.", limits::non_negative, true});
-        v(&Scatter::smallest, Parameter{"smallest", "", "Sizes are random between this factor and 1.",
+          Parameter{"spacing", "m", "Minimum distance between the copies' origins.", limits::non_negative, true});
+        v(&Scatter::smallest, Parameter{"smallest", "", "Minimum size: sizes are random between this factor and 1.",
                                         Limits{.low = 0.01f, .high = 1}, true});
-        v(&Scatter::seed, Parameter{"seed", "", "Another number, other places.", {.low = 0, .high = 1'000'000}, true});
+        v(&Scatter::seed, Parameter{"seed", "", "Seed of the random positions.", {.low = 0, .high = 1'000'000}, true});
     }
     void prepare() { found = detail::scattered_placements(surface, count, spacing, smallest, seed); }
     /// Memory of derived data, in bytes.

@@ -11,8 +11,8 @@ namespace phasetree {
 namespace detail {
 inline constexpr Parameter file_of_balls{
     "file", "",
-    "The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those "
-    "names first; in metres, instead of centres.",
+    "File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names "
+    "in its first line; in metres. Replaces centres.",
     limits::any, true};
 /// The centres and radii of balls, given as lists or in a file. Throws ModelError.
 std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
@@ -27,7 +27,7 @@ std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm:
 struct Balls {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"balls", "", "min over i of |p − cᵢ| − rᵢ",
-                                   "Up to sixteen million balls, united: grains, drops, atoms. Exact outside."};
+                                   "The union of up to sixteen million balls: grains, drops, atoms. Exact outside."};
     /// The maximum number of balls listed for a box.
     static constexpr std::size_t most_in_box = 96;
     /// The maximum number of balls in shaders, which have no search.
@@ -41,9 +41,10 @@ struct Balls {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Balls::centres, Parameter{"centres", "m", "Of the balls; absent if they are in a file.", limits::any, true});
+        v(&Balls::centres,
+          Parameter{"centres", "m", "Centres of the balls, unless they are in a file.", limits::any, true});
         v(&Balls::radii,
-          Parameter{"radii", "m", "Of the balls: one number for all, or one for each centre. A file may have its own.",
+          Parameter{"radii", "m", "Radii of the balls: one number for all, or one per centre. A file may have its own.",
                     limits::positive, true, true});
         v(&Balls::file, detail::file_of_balls);
     }

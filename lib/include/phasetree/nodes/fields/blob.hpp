@@ -23,8 +23,8 @@ struct Blob {
     static constexpr NodeInfo info{"blob", "7.5, 9.2",
                                    "max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  "
                                    "λ ≥ sup ‖∇Σ‖",
-                                   "A BlobTree: points, a chain of segments and other fields as skeletons, whose "
-                                   "compactly supported contributions add up and melt into each other."};
+                                   "A BlobTree: the skeletons are points, a chain of segments and other fields. Their "
+                                   "contributions have compact support, add up, and blend into each other."};
     /// The primitive for the distance to a point.
     struct Point {
         glm::vec3 at{0};
@@ -63,16 +63,16 @@ struct Blob {
     static void parameters(V&& v) {
         v(&Blob::points, Parameter{"points", "m", "Point skeletons.", limits::any, true});
         v(&Blob::polyline,
-          Parameter{"polyline", "m", "A chain of points, one skeleton as a whole.", limits::any, true});
+          Parameter{"polyline", "m", "A chain of segments, which is a single skeleton.", limits::any, true});
         v(&Blob::of, Parameter{"of", "", "Fields as skeletons: their distance, zero inside.", limits::any, true});
         v(&Blob::radii, Parameter{"radii", "m",
-                                  "How far each skeleton reaches: one number for all, or one for each of the points, "
-                                  "then the polyline, then the fields.",
+                                  "Radius of influence of each skeleton: one number for all, or one for each of the "
+                                  "points, then the polyline, then the fields.",
                                   limits::positive, false, true});
-        v(&Blob::weights, Parameter{"weights", "", "The skeletons' weights, in the same way; 1 if absent.",
+        v(&Blob::weights, Parameter{"weights", "", "Weights of the skeletons, in the same order; default 1.",
                                     limits::positive, true, true});
         v(&Blob::threshold,
-          Parameter{"threshold", "", "T; the larger, the smaller the solid.", limits::positive, true});
+          Parameter{"threshold", "", "Threshold T; a larger one makes the solid smaller.", limits::positive, true});
     }
 
     /// The number of skeletons.

@@ -10,10 +10,9 @@ namespace phasetree {
 /// pz ≤ c |p|; elsewhere the rim is nearest.
 struct Bowl {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{
-        "bowl", "", "(R pz ≤ c |p| ? ||p| − R| : |(|pxy| − w, pz − c)|) − t/2",
-        "A hollow ball about the origin, cut open at a height, with a round rim; exact where "
-        "the rim does not close the opening."};
+    static constexpr NodeInfo info{"bowl", "", "(R pz ≤ c |p| ? ||p| − R| : |(|pxy| − w, pz − c)|) − t/2",
+                                   "A hollow ball about the origin, cut open at a height, with a rounded rim; exact "
+                                   "unless the rim closes the opening."};
     float radius = 1;
     float cut = 0;
     float thickness = 0.1f;
@@ -21,9 +20,8 @@ struct Bowl {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Bowl::radius, Parameter{"radius", "m", "Radius of the wall's middle.", limits::positive});
-        v(&Bowl::cut,
-          Parameter{"cut", "m", "Height z of the rim; at 0 a half of the ball is left.", limits::any, true});
+        v(&Bowl::radius, Parameter{"radius", "m", "Radius of the middle of the wall.", limits::positive});
+        v(&Bowl::cut, Parameter{"cut", "m", "Height z of the rim; 0 leaves a hemisphere.", limits::any, true});
         v(&Bowl::thickness,
           Parameter{"thickness", "m", "Thickness of the wall, less than twice the radius.", limits::positive});
     }

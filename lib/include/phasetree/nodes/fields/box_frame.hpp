@@ -23,7 +23,7 @@ struct BoxFrame {
     static void parameters(V&& v) {
         v(&BoxFrame::size, Parameter{"size", "m", "Edge lengths along x, y and z.", limits::positive});
         v(&BoxFrame::thickness,
-          Parameter{"thickness", "m", "Width of a bar, less than half of the shortest edge.", limits::positive});
+          Parameter{"thickness", "m", "Width of the bars, less than half of the shortest edge.", limits::positive});
     }
     void prepare() const {
         if (!(thickness < 0.5f * std::min({size.x, size.y, size.z})))

@@ -6,7 +6,7 @@ namespace phasetree {
 
 struct Difference {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"difference", "", "max(f, −min gᵢ)", "A field without others."};
+    static constexpr NodeInfo info{"difference", "", "max(f, −min gᵢ)", "Subtracts fields from a field."};
     Field from{};
     std::vector<Field> subtract{};
 

@@ -13,7 +13,7 @@ struct Displace {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"displace", "",
                                    "min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)",
-                                   "A field whose surface is moved in and out by fractal noise."};
+                                   "Displaces the surface of a field by fractal noise."};
     Field of{};
     float amplitude = 0.1f;
     float scale = 0.5f;
@@ -24,8 +24,9 @@ struct Displace {
         v(&Displace::of, Parameter{"of", "", "The field."});
         v(&Displace::amplitude, Parameter{"amplitude", "m", "Largest displacement, a.", limits::non_negative});
         v(&Displace::scale, Parameter{"scale", "m", "Size of the largest bumps.", limits::positive});
-        v(&Displace::octaves, Parameter{"octaves", "", "Sizes of bumps, each half the one before; a whole number.",
-                                        Limits{.low = 1, .high = 6}, true});
+        v(&Displace::octaves,
+          Parameter{"octaves", "", "Number of octaves of noise, each with half the size of the one before.",
+                    Limits{.low = 1, .high = 6}, true});
     }
     void prepare() const {
         if (octaves != std::floor(octaves)) throw ModelError("displace: \"octaves\" must be a whole number");

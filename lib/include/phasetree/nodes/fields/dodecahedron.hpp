@@ -10,10 +10,9 @@ namespace phasetree {
 struct Dodecahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{
-        "dodecahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
-        "A regular dodecahedron about the origin, an edge's middle on each half axis: on x the "
-        "edge runs along z, on y along x, on z along y; exact."};
+    static constexpr NodeInfo info{"dodecahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
+                                   "A regular dodecahedron about the origin. The middle of an edge lies on each half "
+                                   "axis: on x the edge runs along z, on y along x, on z along y. Exact."};
     float radius = 1;
 
     template <class V>

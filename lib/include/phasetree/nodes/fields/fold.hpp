@@ -28,9 +28,8 @@ inline Bounds intersected(BoundsQuery& q, const std::vector<Field>& children, fl
     });
 }
 inline constexpr Parameter children{"of", "", "The fields, at least one."};
-inline constexpr Parameter blend{"radius", "m",
-                                 "Blending radius: the surfaces melt where they are nearer to each other than this.",
-                                 limits::positive};
+inline constexpr Parameter blend{
+    "radius", "m", "Blending radius: surfaces blend where they are closer to each other than this.", limits::positive};
 }  // namespace detail
 
 }  // namespace phasetree

@@ -133,9 +133,9 @@ struct Formula {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
         "formula", "", "f(x, y, z)/λ;  with bounds B: max(b(p), f(nearest point of B)/λ),  λ ≥ sup |∇f|",
-        "The solid where a formula of x, y and z is negative. It knows + − * / ^ with whole exponents, sqrt, abs, min, "
-        "max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and names: \"r = sqrt(x^2 + y^2); r "
-        "- 1\"."};
+        "The solid where a formula of x, y and z is negative. Formulas may use + − * / ^ with whole exponents, sqrt, "
+        "abs, min, max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and named values: \"r = "
+        "sqrt(x^2 + y^2); r - 1\"."};
 
     /// A term f/λ.
     struct Term {
@@ -172,8 +172,8 @@ struct Formula {
     static void parameters(V&& v) {
         v(&Formula::text, Parameter{"text", "", "The formula."});
         v(&Formula::box, Parameter{"bounds", "m",
-                                   "The lowest and the highest corner of a box to which the solid is cut. Without it "
-                                   "the formula's slope must be bounded everywhere.",
+                                   "Lowest and highest corner of a box to which the solid is cut. Without it, the "
+                                   "slope of the formula must be bounded everywhere.",
                                    limits::any, true});
     }
     /// Throws TextError if the text is wrong or its slope is unbounded.

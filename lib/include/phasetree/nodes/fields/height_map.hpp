@@ -16,12 +16,10 @@ namespace phasetree {
 /// the values at its border.
 struct HeightMap {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{
-        "height_map", "7.1",
-        "min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic "
-        "B-spline of the pixels",
-        "What lies below a terrain that an image gives, black low and white high, about the z "
-        "axis."};
+    static constexpr NodeInfo info{"height_map", "7.1",
+                                   "min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic "
+                                   "B-spline of the pixels",
+                                   "The ground below a height map about the z axis; black is low and white is high."};
     FromFile<HeightGrid> file{};
     float size_x = 10;
     float size_y = 10;
@@ -31,19 +29,20 @@ struct HeightMap {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&HeightMap::file, Parameter{"file", "", "The image; its first channel counts."});
-        v(&HeightMap::size_x, Parameter{"size_x", "m", "Its width, along x.", limits::positive});
-        v(&HeightMap::size_y, Parameter{"size_y", "m", "Its height, along y.", limits::positive});
-        v(&HeightMap::height, Parameter{"height", "m", "The height of white; black is at z = 0.", limits::positive});
+        v(&HeightMap::file, Parameter{"file", "", "Image file, of which the first channel is used."});
+        v(&HeightMap::size_x, Parameter{"size_x", "m", "Width of the image, along x.", limits::positive});
+        v(&HeightMap::size_y, Parameter{"size_y", "m", "Height of the image, along y.", limits::positive});
+        v(&HeightMap::height, Parameter{"height", "m", "Height of white; black is at z = 0.", limits::positive});
     }
     void prepare() {
         const HeightGrid& grid = *file.content;
         detail::require_usable(info.name, {size_x, size_y, height});
-        if (grid.width < 2 || grid.height < 2) throw ModelError("height_map: the image needs two pixels each way");
+        if (grid.width < 2 || grid.height < 2)
+            throw ModelError("height_map: the image must have at least 2 × 2 pixels");
         if (grid.width > 4096 || grid.height > 4096)
-            throw ModelError("height_map: the image is larger than 4096 pixels");
+            throw ModelError("height_map: the image is larger than 4096 × 4096 pixels");
         const auto columns = static_cast<std::size_t>(grid.width), rows = static_cast<std::size_t>(grid.height);
-        if (grid.values.size() != columns * rows) throw ModelError("height_map: the image has not all its pixels");
+        if (grid.values.size() != columns * rows) throw ModelError("height_map: the image lacks some of its pixels");
         const float step_x = static_cast<float>(grid.width) / size_x, step_y = static_cast<float>(grid.height) / size_y;
         table.assign(7, 0.f);
         float low = Bounds::infinity, high = -Bounds::infinity;
@@ -55,7 +54,8 @@ struct HeightMap {
         for (std::size_t y = 0; y < rows; ++y)
             for (std::size_t x = 0; x < columns; ++x) {
                 const float h = at(x, y);
-                if (!(std::abs(h) < 1e9f)) throw ModelError("height_map: the image has a pixel that is not a height");
+                if (!(std::abs(h) < 1e9f))
+                    throw ModelError("height_map: the image has a pixel that is not a finite number");
                 low = std::min(low, h);
                 high = std::max(high, h);
                 if (x > 0)

@@ -13,7 +13,7 @@ struct Heightfield {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
         "heightfield", "", "min(max((z − h)/√(1 + L²), z − a), z + a),  L = 15 a (1 + r) octaves/(4 size Σ 2⁻ⁱ)",
-        "Terrain: the ground below a height made of fractal noise, without end in x and y."};
+        "Terrain: the ground below a surface of fractal noise, infinite in x and y."};
     float size = 1;
     float amplitude = 0.25f;
     float octaves = 4;
@@ -28,12 +28,13 @@ struct Heightfield {
         v(&Heightfield::size, Parameter{"size", "m", "Size of the largest hills.", limits::positive});
         v(&Heightfield::amplitude,
           Parameter{"amplitude", "m", "Largest height above and depth below z = 0, a.", limits::non_negative});
-        v(&Heightfield::octaves, Parameter{"octaves", "", "Sizes of hills, each half the one before; a whole number.",
-                                           Limits{.low = 1, .high = 6}, true});
+        v(&Heightfield::octaves,
+          Parameter{"octaves", "", "Number of octaves of hills, each with half the size of the one before.",
+                    Limits{.low = 1, .high = 6}, true});
         v(&Heightfield::ridged,
           Parameter{"ridged", "", "From rolling hills, 0, to mountains with sharp ridges, 1.", limits::fraction, true});
-        v(&Heightfield::seed, Parameter{"seed", "", "Another whole number is another landscape.",
-                                        Limits{.low = -100000, .high = 100000}, true});
+        v(&Heightfield::seed,
+          Parameter{"seed", "", "Seed of the landscape.", Limits{.low = -100000, .high = 100000}, true});
     }
     void prepare() {
         if (octaves != std::floor(octaves)) throw ModelError("heightfield: \"octaves\" must be a whole number");

@@ -27,9 +27,9 @@ struct Helix {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
         "helix", "", "√((ρ − R)² + 4ρR sin²(x/2) + k²(x − M)²) − r,  x + (ρR/k²) sin x = M,  or from an end",
-        "A coil of round wire about the z axis with round ends, centred at half its height. It rises from its lower "
-        "end, at y = 0 and x > 0, counter-clockwise as seen from above, which is right-handed; a left-handed coil is "
-        "the mirror image across y = 0 and starts there, too. Exact where turns do not touch."};
+        "A coil of round wire about the z axis with round ends, centred at half its height. It rises counter-clockwise "
+        "as seen from above (right-handed) from its lower end, at y = 0 and x > 0. A left-handed coil is its mirror "
+        "image across y = 0 and starts there, too. Exact where turns do not touch."};
     float radius = 1;
     float pitch = 0.5f;
     float turns = 3;
@@ -38,10 +38,11 @@ struct Helix {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Helix::radius, Parameter{"radius", "m", "Distance of the wire's middle from the axis.", limits::positive});
+        v(&Helix::radius,
+          Parameter{"radius", "m", "Distance of the wire's centre line from the axis.", limits::positive});
         v(&Helix::pitch,
-          Parameter{"pitch", "m", "Height of a turn; negative for a left-handed coil, not zero.", limits::any});
-        v(&Helix::turns, Parameter{"turns", "", "Number of turns, 1 at least.", Limits{.low = 1, .high = 10000}});
+          Parameter{"pitch", "m", "Height of one turn; negative for a left-handed coil; not zero.", limits::any});
+        v(&Helix::turns, Parameter{"turns", "", "Number of turns, at least 1.", Limits{.low = 1, .high = 10000}});
         v(&Helix::wire, Parameter{"wire_radius", "m", "Radius of the wire.", limits::positive});
     }
     void prepare() {

@@ -10,10 +10,9 @@ namespace phasetree {
 struct Icosahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{
-        "icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
-        "A regular icosahedron about the origin, an edge's middle on each half axis: on x the "
-        "edge runs along y, on y along z, on z along x; exact."};
+    static constexpr NodeInfo info{"icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
+                                   "A regular icosahedron about the origin. The middle of an edge lies on each half "
+                                   "axis: on x the edge runs along y, on y along z, on z along x. Exact."};
     float radius = 1;
 
     template <class V>

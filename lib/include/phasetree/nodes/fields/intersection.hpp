@@ -6,7 +6,7 @@ namespace phasetree {
 
 struct Intersection {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"intersection", "", "max fᵢ", "What is in all of the fields."};
+    static constexpr NodeInfo info{"intersection", "", "max fᵢ", "The points that are inside all fields."};
     std::vector<Field> of{};
 
     template <class V>

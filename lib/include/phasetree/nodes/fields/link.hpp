@@ -20,7 +20,7 @@ struct Link {
     template <class V>
     static void parameters(V&& v) {
         v(&Link::length, Parameter{"length", "m", "Length of the straight part.", limits::non_negative});
-        v(&Link::major, Parameter{"major", "m", "Radius of the half rings' centre line.", limits::positive});
+        v(&Link::major, Parameter{"major", "m", "Radius of the centre line of the half rings.", limits::positive});
         v(&Link::minor, Parameter{"minor", "m", "Radius of the rod.", limits::positive});
     }
     template <class T>

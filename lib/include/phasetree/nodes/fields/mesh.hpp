@@ -21,7 +21,7 @@ namespace phasetree {
 struct Mesh {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
-                                   "The solid within a closed surface of triangles, exact."};
+                                   "The solid inside a closed triangle mesh; exact."};
     static constexpr std::size_t most_pieces_in_box = 64;
 
     FromFile<TriangleMesh> file{};
@@ -31,10 +31,10 @@ struct Mesh {
     template <class V>
     static void parameters(V&& v) {
         v(&Mesh::file, Parameter{"file", "",
-                                 "The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and "
-                                 "counter-clockwise seen from outside. Corners that differ only by rounding are one; "
-                                 "materials, normals and the like are ignored. Walls and gaps that are thinner than a "
-                                 "millionth of the mesh's size may be taken for each other."});
+                                 "Mesh file: OBJ, PLY or STL, in metres. The surface must be closed, must not "
+                                 "intersect itself, and must be counter-clockwise seen from outside. Vertices that "
+                                 "differ only by rounding are merged; materials, normals and the like are ignored. "
+                                 "Walls and gaps thinner than a millionth of the mesh's size may be confused."});
     }
     /// Throws ModelError, with the place where the surface is wrong.
     void prepare();

@@ -21,7 +21,8 @@ struct Octahedron {
     template <class V>
     static void parameters(V&& v) {
         v(&Octahedron::radius,
-          Parameter{"radius", "m", "Distance of the corners, which are on the axes.", limits::positive});
+          Parameter{"radius", "m", "Distance of the corners, which lie on the axes, from the origin.",
+                    limits::positive});
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

@@ -6,14 +6,14 @@ namespace phasetree {
 
 struct Offset {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"offset", "4.1", "f − t", "A field inflated by t (deflated for a negative t)."};
+    static constexpr NodeInfo info{"offset", "4.1", "f − t", "Inflates a field by t, or deflates it if t is negative."};
     Field of{};
     float amount = 0.1f;
 
     template <class V>
     static void parameters(V&& v) {
         v(&Offset::of, Parameter{"of", "", "The field."});
-        v(&Offset::amount, Parameter{"distance", "m", "How far the surface moves outwards."});
+        v(&Offset::amount, Parameter{"distance", "m", "Distance by which the surface moves outwards."});
     }
     template <class D>
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {

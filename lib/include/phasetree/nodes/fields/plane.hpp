@@ -21,7 +21,7 @@ struct Plane {
           Parameter{"offset", "m", "Distance of the plane from the origin along the normal.", limits::any, true});
     }
     void prepare() {
-        if (normal == glm::vec3(0)) throw ModelError("plane: the normal has no direction");
+        if (normal == glm::vec3(0)) throw ModelError("plane: the normal must not be zero");
         normal = unit_vector(normal);
     }
     template <class T>

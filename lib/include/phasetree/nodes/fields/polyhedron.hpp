@@ -15,7 +15,7 @@ struct Polyhedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"polyhedron", "", "max over i of nᵢ·p − hᵢ",
-                                   "A convex polyhedron with any faces: what is behind all of some planes."};
+                                   "A convex polyhedron: the intersection of half-spaces."};
     static constexpr std::size_t most_planes = 256;
     std::vector<glm::vec3> normals{};
     std::vector<float> offsets{};
@@ -23,20 +23,20 @@ struct Polyhedron {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Polyhedron::normals, Parameter{"normals", "", "The planes' normals, outward, of any length but 0."});
-        v(&Polyhedron::offsets, Parameter{"offsets", "m",
-                                          "How far each plane is from the origin along its normal, h; one number for "
-                                          "all, or as many as there are planes.",
-                                          limits::any, false, true});
+        v(&Polyhedron::normals, Parameter{"normals", "", "Outward normals of the planes, of any length but 0."});
+        v(&Polyhedron::offsets,
+          Parameter{"offsets", "m",
+                    "Distance h of each plane from the origin along its normal; one number for all, or one per plane.",
+                    limits::any, false, true});
     }
     void prepare() {
         if (normals.size() > most_planes) throw ModelError("polyhedron: more than 256 planes");
         if (offsets.size() != 1 && offsets.size() != normals.size())
-            throw ModelError("polyhedron: there must be as many offsets as normals, or one");
+            throw ModelError("polyhedron: \"offsets\" needs one entry per normal, or one for all");
         table = {static_cast<float>(normals.size())};
         for (std::size_t i = 0; i < normals.size(); ++i) {
             const double length = glm::length(glm::dvec3(normals[i]));
-            if (!(length > 0)) throw ModelError("polyhedron: a normal has no length");
+            if (!(length > 0)) throw ModelError("polyhedron: a normal is zero");
             const float offset = offsets[offsets.size() == 1 ? 0 : i];
             if (!(std::abs(offset) < 1e9f)) throw ModelError("polyhedron: a plane is too far from the origin");
             // Rounded down in length, so that the field is 1-Lipschitz.

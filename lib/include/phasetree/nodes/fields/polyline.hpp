@@ -20,11 +20,11 @@ struct Polyline {
     template <class V>
     static void parameters(V&& v) {
         v(&Polyline::points, Parameter{"points", "m", "The chain's points, at least two."});
-        v(&Polyline::radius, Parameter{"radius", "m", "Of the wire.", limits::positive});
+        v(&Polyline::radius, Parameter{"radius", "m", "Radius of the wire.", limits::positive});
     }
     void prepare() {
         detail::require_usable(info.name, {radius});
-        if (points.size() < 2) throw ModelError("polyline: it needs two points at least");
+        if (points.size() < 2) throw ModelError("polyline: at least two points are required");
         table = {static_cast<float>(points.size() - 1), radius};
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const glm::vec3 a = points[i], along = points[i + 1] - a;

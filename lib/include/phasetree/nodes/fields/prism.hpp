@@ -25,7 +25,7 @@ struct Prism {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Prism::sides, Parameter{"sides", "", "Sides of the polygon, a whole number.", Limits{.low = 3, .high = 64}});
+        v(&Prism::sides, Parameter{"sides", "", "Number of sides of the polygon.", Limits{.low = 3, .high = 64}});
         v(&Prism::radius, Parameter{"radius", "m", "Radius of the circle through the corners.", limits::positive});
         v(&Prism::height, Parameter{"height", "m", "Whole height.", limits::positive});
     }

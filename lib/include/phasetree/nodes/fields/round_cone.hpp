@@ -15,7 +15,7 @@ struct RoundCone {
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"round_cone", "",
                                    "k = c x − s y;  k < 0: |p − from| − a;  k > c l: |p − to| − b;  else s x + c y − a",
-                                   "The hull of two balls; exact."};
+                                   "The convex hull of two balls; exact."};
     glm::vec3 from{0, 0, -1};
     float radius_from = 0.5f;
     glm::vec3 to{0, 0, 1};
@@ -35,7 +35,7 @@ struct RoundCone {
     void prepare() {
         const glm::dvec3 along = glm::dvec3(to) - glm::dvec3(from);
         const double l = glm::length(along), s = (static_cast<double>(radius_from) - radius_to) / l;
-        if (!(l > 0) || !(std::abs(s) < 1)) throw ModelError("round_cone: one of the balls holds the other");
+        if (!(l > 0) || !(std::abs(s) < 1)) throw ModelError("round_cone: one of the balls contains the other");
         detail::require_usable(info.name, {radius_from, radius_to, static_cast<float>(l)});
         axis = glm::vec3(along / l);
         separation = static_cast<float>(l);

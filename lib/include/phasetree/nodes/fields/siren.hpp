@@ -85,21 +85,20 @@ struct Siren {
     template <class V>
     static void parameters(V&& v) {
         v(&Siren::file, Parameter{"file", "",
-                                  "The weights: JSON, {\"radius\": R, \"layers\": [{\"weights\": [[…], …], "
-                                  "\"bias\": […]}, …]} with the frequencies multiplied in."});
+                                  "File of weights: JSON, {\"radius\": R, \"layers\": [{\"weights\": [[…], …], "
+                                  "\"bias\": […]}, …]}, with the frequencies multiplied in."});
         v(&Siren::samples,
           Parameter{"samples",
                     "",
-                    "0: λ is the product of the layers' spectral norms, which is proven. More: λ is the "
-                    "steepest slope at this many points, plus a tenth: tighter and faster, but without "
-                    "proof.",
+                    "0: λ is the product of the layers' spectral norms, which is a proven bound. More: λ is the "
+                    "steepest slope at this many points, plus a tenth: tighter and faster, but without proof.",
                     {.low = 0, .high = 10'000'000},
                     true});
     }
     void prepare() {
         if (const char* mistake = file.content->mistake()) throw ModelError(std::string("siren: ") + mistake);
         const double slope = samples > 0 ? file.content->sampled_slope(samples) : file.content->spectral_bound();
-        if (!(slope > 1e-6 && slope < 1e9)) throw ModelError("siren: the network is too steep or flat");
+        if (!(slope > 1e-6 && slope < 1e9)) throw ModelError("siren: the network is too steep or too flat");
         lipschitz = static_cast<float>(slope);
         network.values = file.content->table(static_cast<float>(1 / slope));
     }

@@ -7,20 +7,20 @@ namespace phasetree {
 
 struct Slab {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"slab", "", "|p·n − d| − t/2", "What is between two parallel planes; exact."};
+    static constexpr NodeInfo info{"slab", "", "|p·n − d| − t/2", "The space between two parallel planes; exact."};
     glm::vec3 normal{0, 0, 1};
     float offset = 0;
     float thickness = 1;
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Slab::normal, Parameter{"normal", "", "Direction across the slab; any length but zero.", limits::any, true});
-        v(&Slab::offset,
-          Parameter{"offset", "m", "Distance of its middle from the origin along the normal.", limits::any, true});
-        v(&Slab::thickness, Parameter{"thickness", "m", "Distance of the two planes.", limits::positive});
+        v(&Slab::normal, Parameter{"normal", "", "Normal of the slab; any length but zero.", limits::any, true});
+        v(&Slab::offset, Parameter{"offset", "m", "Distance of the slab's middle from the origin along the normal.",
+                                   limits::any, true});
+        v(&Slab::thickness, Parameter{"thickness", "m", "Distance between the two planes.", limits::positive});
     }
     void prepare() {
-        if (normal == glm::vec3(0)) throw ModelError("slab: the normal has no direction");
+        if (normal == glm::vec3(0)) throw ModelError("slab: the normal must not be zero");
         normal = unit_vector(normal);
     }
     template <class T>

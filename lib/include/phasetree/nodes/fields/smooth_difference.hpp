@@ -7,7 +7,7 @@ namespace phasetree {
 struct SmoothDifference {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"smooth_difference", "9.3", "−smin(−f, smin gᵢ)",
-                                   "A field without others, its new edges worn."};
+                                   "Subtracts fields from a field and rounds the new edges."};
     Field from{};
     std::vector<Field> subtract{};
     float radius = 0.1f;

@@ -7,7 +7,7 @@ namespace phasetree {
 struct SmoothIntersection {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"smooth_intersection", "9.3", "−smin(−a, −b)",
-                                   "Intersection whose edges are worn; folded from the first field to the last."};
+                                   "Intersection with rounded edges; folded from the first field to the last."};
     std::vector<Field> of{};
     float radius = 0.1f;
 

@@ -12,7 +12,7 @@ struct SphericalCap {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"spherical_cap", "", "± min(distance to the disk, ||p| − r| where r pz ≥ c |p|)",
-                                   "What a plane leaves of a ball about the origin: the part above z = c; exact."};
+                                   "The part of a ball about the origin above the plane z = c; exact."};
     float radius = 1;
     float cut = 0;
     float rim = 1;  ///< radius of the disk, derived

@@ -15,16 +15,16 @@ namespace phasetree {
 struct Tetrahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{"tetrahedron", "",
-                                   "fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| "
-                                   "beyond the edge",
-                                   "A regular tetrahedron about the origin, corners on the diagonals of the axes; "
-                                   "exact."};
+    static constexpr NodeInfo info{
+        "tetrahedron", "",
+        "fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| "
+        "beyond the edge",
+        "A regular tetrahedron about the origin, with corners on the space diagonals; exact."};
     float radius = 1;
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Tetrahedron::radius, Parameter{"radius", "m", "Distance of the corners.", limits::positive});
+        v(&Tetrahedron::radius, Parameter{"radius", "m", "Distance of the corners from the origin.", limits::positive});
     }
     template <class T>
     T distance(const Vec3<T>& p) const {

@@ -27,14 +27,14 @@ inline float sheet_scale(float period) {
     return period * 0.09188814f;
 }
 
-inline constexpr Parameter sheet_period{"period", "m", "Edge of the cube that repeats.", limits::positive};
-inline constexpr Parameter sheet_thickness{"thickness", "m", "Least thickness of the wall.", limits::positive};
+inline constexpr Parameter sheet_period{"period", "m", "Edge length of the unit cell.", limits::positive};
+inline constexpr Parameter sheet_thickness{"thickness", "m", "Minimum thickness of the wall.", limits::positive};
 
 /// Throw ModelError if the sizes are unusable, or if the wall fills all of space. `most` is the maximum of |g|.
 inline void check_sheet(std::string_view node, float period, float thickness, float most) {
     require_usable(node, {period, thickness});
     if (thickness * 0.5f >= most * sheet_scale(period))
-        throw ModelError(std::string(node) + ": the wall is so thick that it fills all space");
+        throw ModelError(std::string(node) + ": the wall is so thick that it fills all of space");
 }
 inline Bounds sheet_bounds(float thickness, float level) {
     return thickness * 0.5f + level < 0 ? Bounds() : Bounds::everything();

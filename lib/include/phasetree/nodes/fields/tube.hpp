@@ -24,7 +24,7 @@ struct Tube {
         v(&Tube::height, Parameter{"height", "m", "Whole height.", limits::positive});
     }
     void prepare() const {
-        if (inner_radius >= radius) throw ModelError("tube: the inner radius is not less than the outer one");
+        if (inner_radius >= radius) throw ModelError("tube: the inner radius must be less than the outer one");
         detail::require_usable(info.name, {radius, inner_radius, height});
     }
     template <class T>

@@ -6,7 +6,7 @@ namespace phasetree {
 
 struct Union {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"union", "", "min fᵢ", "All that is in any of the fields."};
+    static constexpr NodeInfo info{"union", "", "min fᵢ", "The points that are inside any field."};
     std::vector<Field> of{};
 
     template <class V>

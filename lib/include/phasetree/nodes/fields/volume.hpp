@@ -23,9 +23,8 @@ struct Volume {
     static constexpr NodeInfo info{
         "volume", "",
         "max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box",
-        "The solid of a level set in an OpenVDB file, at its place in the file. Beyond the file's narrow band the "
-        "field "
-        "does not grow."};
+        "The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the "
+        "file's narrow band."};
 
     /// The primitive f/λ.
     struct Samples {
@@ -47,14 +46,14 @@ struct Volume {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Volume::file, Parameter{"file", "",
-                                   "The OpenVDB file. Its grid must be a level set of floats or doubles whose axes lie "
-                                   "along those of space, in any order and direction; lengths in it are metres."});
-        v(&Volume::grid,
-          Parameter{"grid", "",
-                    "Which of the file's grids; needed if it has several level sets. If several have the same name, "
-                    "its index follows: \"name[0]\", \"name[1]\".",
-                    limits::any, true});
+        v(&Volume::file,
+          Parameter{"file", "",
+                    "OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those "
+                    "of space, in any order and direction. Lengths in it are metres."});
+        v(&Volume::grid, Parameter{"grid", "",
+                                   "Name of the grid; required if the file has several level sets. If several have the "
+                                   "same name, append the index: \"name[0]\", \"name[1]\".",
+                                   limits::any, true});
     }
     /// The part of the file that is read.
     std::string part_of_file() const { return grid; }

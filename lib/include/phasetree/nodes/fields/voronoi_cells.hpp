@@ -35,7 +35,7 @@ struct VoronoiCells {
         v(&VoronoiCells::size, detail::voronoi_size);
         v(&VoronoiCells::gap, Parameter{"gap", "m", "Between blocks.", limits::positive});
         v(&VoronoiCells::rounding,
-          Parameter{"rounding", "m", "Of the edges, c; 0 for sharp ones.", limits::non_negative, true});
+          Parameter{"rounding", "m", "Rounding c of the edges; 0 for sharp ones.", limits::non_negative, true});
         v(&VoronoiCells::jitter, detail::voronoi_jitter);
         v(&VoronoiCells::seed, detail::voronoi_seed);
     }

@@ -143,12 +143,12 @@ struct SpecialisedVoronoi {
 };
 
 namespace detail {
-inline constexpr Parameter voronoi_size{"size", "m", "Of the cubes that have a site each.", limits::positive};
+inline constexpr Parameter voronoi_size{"size", "m", "Edge length of the cubes, each of which has one site.",
+                                        limits::positive};
 inline constexpr Parameter voronoi_jitter{
-    "jitter", "", "How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes.", limits::fraction,
+    "jitter", "", "Irregularity: 0 puts the sites on a cubic lattice, 1 anywhere in their cubes.", limits::fraction,
     true};
-inline constexpr Parameter voronoi_seed{"seed", "", "Another number, another pattern.", Limits{.low = 0, .high = 288},
-                                        true};
+inline constexpr Parameter voronoi_seed{"seed", "", "Seed of the pattern.", Limits{.low = 0, .high = 288}, true};
 }  // namespace detail
 
 }  // namespace phasetree

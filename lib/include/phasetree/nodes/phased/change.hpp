@@ -17,12 +17,13 @@ struct Change {
     template <class V>
     static void parameters(V&& v) {
         v(&Change::of, Parameter{"of", "", "The object."});
-        v(&Change::from, Parameter{"from", "", "The phase to turn."});
-        v(&Change::to, Parameter{"to", "", "What it becomes."});
-        v(&Change::shape, Parameter{"shape", "", "Where; everywhere if left out.", limits::any, true});
+        v(&Change::from, Parameter{"from", "", "The phase to change."});
+        v(&Change::to, Parameter{"to", "", "The phase that it becomes."});
+        v(&Change::shape,
+          Parameter{"shape", "", "The field inside which to change it; by default everywhere.", limits::any, true});
     }
     void prepare() const {
-        if (from == to) throw ModelError("change: a phase is turned into itself");
+        if (from == to) throw ModelError("change: a phase cannot be changed into itself");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

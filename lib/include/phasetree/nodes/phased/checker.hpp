@@ -35,7 +35,7 @@ struct Checker {
     static constexpr NodeInfo info{"checker", "9.1",
                                    "φⱼ = s · a · min(q, 1 − q),  φᵢ = −φⱼ,  u = (p − o)/a,  q = u − ⌊u⌋,  "
                                    "s = +1 if ⌊ux⌋ + ⌊uy⌋ + ⌊uz⌋ is even, else −1",
-                                   "Cubes of two phases by turns, filling space."};
+                                   "Cubes of two alternating phases, filling space."};
     using Parts = TypeList<CheckerCells>;
     Phase even{1};
     Phase odd{2};
@@ -46,9 +46,9 @@ struct Checker {
     template <class V>
     static void parameters(V&& v) {
         v(&Checker::even, Parameter{"even", "", "The phase of the cube at the origin, towards +x, +y, +z."});
-        v(&Checker::odd, Parameter{"odd", "", "The phase of its neighbours."});
+        v(&Checker::odd, Parameter{"odd", "", "The phase of the neighbouring cubes."});
         v(&Checker::size, Parameter{"size", "m", "Edge length of a cube.", limits::positive});
-        v(&Checker::origin, Parameter{"origin", "m", "A corner where cubes meet.", limits::any, true});
+        v(&Checker::origin, Parameter{"origin", "m", "A point where corners of cubes meet.", limits::any, true});
     }
     void prepare() {
         if (even == odd) throw ModelError("checker: both phases are the same");

@@ -29,10 +29,9 @@ Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S&
 }
 inline constexpr Parameter contact_a{"a", "", "The object A."};
 inline constexpr Parameter contact_b{"b", "", "The object B, which replaces A where they are not in contact."};
-inline constexpr Parameter contact_alpha{"alpha", "",
-                                         "Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both "
-                                         "are as deep in it.",
-                                         limits::fraction};
+inline constexpr Parameter contact_alpha{
+    "alpha", "", "Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it.",
+    limits::fraction};
 }  // namespace detail
 
 /// The paper's φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) would leave most of A ∪ B empty; and α → 0 makes f tend to −bⱼ.
@@ -43,7 +42,7 @@ struct Contact {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"contact", "4.4",
                                    "f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)",
-                                   "Two phases pressed against each other: they share the space that both claim."};
+                                   "Two phases pressed against each other: they share the overlap."};
     Phased a{};
     Phase phase_a{1};
     Phased b{};
@@ -59,9 +58,9 @@ struct Contact {
         v(&Contact::alpha, detail::contact_alpha);
     }
     void prepare() const {
-        if (phase_a == phase_b) throw ModelError("contact: a phase does not make contact with itself");
-        if (!phasetree::phases(a).contains(phase_a)) throw ModelError("contact: \"a\" has nothing of \"phase_a\"");
-        if (!phasetree::phases(b).contains(phase_b)) throw ModelError("contact: \"b\" has nothing of \"phase_b\"");
+        if (phase_a == phase_b) throw ModelError("contact: a phase cannot be in contact with itself");
+        if (!phasetree::phases(a).contains(phase_a)) throw ModelError("contact: \"a\" does not contain \"phase_a\"");
+        if (!phasetree::phases(b).contains(phase_b)) throw ModelError("contact: \"b\" does not contain \"phase_b\"");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

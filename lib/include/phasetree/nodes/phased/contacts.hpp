@@ -24,15 +24,15 @@ struct Contacts {
     static void parameters(V&& v) {
         v(&Contacts::a, detail::contact_a);
         v(&Contacts::phases_a,
-          Parameter{"phases_a", "", "The phases of A in contact; all if left out.", limits::any, true});
+          Parameter{"phases_a", "", "The phases of A in contact; by default all.", limits::any, true});
         v(&Contacts::b, detail::contact_b);
         v(&Contacts::phases_b,
-          Parameter{"phases_b", "", "The phases of B in contact; all if left out.", limits::any, true});
+          Parameter{"phases_b", "", "The phases of B in contact; by default all.", limits::any, true});
         v(&Contacts::alpha, detail::contact_alpha);
     }
     void prepare() const {
-        if (chosen(a, phases_a).empty()) throw ModelError("contacts: \"a\" has nothing of \"phases_a\"");
-        if (chosen(b, phases_b).empty()) throw ModelError("contacts: \"b\" has nothing of \"phases_b\"");
+        if (chosen(a, phases_a).empty()) throw ModelError("contacts: \"a\" contains none of \"phases_a\"");
+        if (chosen(b, phases_b).empty()) throw ModelError("contacts: \"b\" contains none of \"phases_b\"");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

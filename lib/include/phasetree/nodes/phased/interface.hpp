@@ -12,7 +12,7 @@ struct Interface {
     static constexpr NodeInfo info{
         "interface", "7.4",
         "S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)",
-        "The thin volume about the interface between two phases, as deep in either."};
+        "A thin volume about the interface between two phases, equally deep in both."};
     Phased of{};
     Phase phase_a{1};
     Phase phase_b{2};
@@ -23,14 +23,13 @@ struct Interface {
         v(&Interface::of, Parameter{"of", "", "The object."});
         v(&Interface::phase_a, Parameter{"phase_a", "", "The phase on one side."});
         v(&Interface::phase_b, Parameter{"phase_b", "", "The phase on the other side."});
-        v(&Interface::half_thickness,
-          Parameter{"half_thickness", "m", "How deep in either phase, ε.", limits::positive});
+        v(&Interface::half_thickness, Parameter{"half_thickness", "m", "Depth ε in each phase.", limits::positive});
     }
     void prepare() const {
         if (phase_a == phase_b) throw ModelError("interface: a phase has no interface with itself");
         const PhaseSet there = phasetree::phases(of);
-        if (!there.contains(phase_a)) throw ModelError("interface: the object has nothing of \"phase_a\"");
-        if (!there.contains(phase_b)) throw ModelError("interface: the object has nothing of \"phase_b\"");
+        if (!there.contains(phase_a)) throw ModelError("interface: the object does not contain \"phase_a\"");
+        if (!there.contains(phase_b)) throw ModelError("interface: the object does not contain \"phase_b\"");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

@@ -10,19 +10,18 @@ struct Interfaces {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"interfaces", "7.4",
                                    "S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)",
-                                   "The thin volumes about all interfaces between phases."};
+                                   "Thin volumes about all interfaces between phases."};
     Phased of{};
     float half_thickness = 0.05f;
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Interfaces::of, Parameter{"of", "", "The object, of two phases at least."});
-        v(&Interfaces::half_thickness,
-          Parameter{"half_thickness", "m", "How deep in either phase, ε.", limits::positive});
+        v(&Interfaces::of, Parameter{"of", "", "The object, with at least two phases."});
+        v(&Interfaces::half_thickness, Parameter{"half_thickness", "m", "Depth ε in each phase.", limits::positive});
     }
     void prepare() const {
         if (PhaseSet{phasetree::phases(of).bits & ~std::uint64_t{1}}.size() < 2)
-            throw ModelError("interfaces: the object has fewer than two phases");
+            throw ModelError("interfaces: the object must have at least two phases");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

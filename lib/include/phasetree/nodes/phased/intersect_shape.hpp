@@ -8,10 +8,11 @@ namespace phasetree {
 /// below the other phases.
 struct IntersectShape {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"intersect_shape", "5.1",
-                                   "φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, "
-                                   "else min(a₀, min over the cut k of max(aₖ, −f))",
-                                   "Keeps what lies within a shape: of all phases, or of some and the rest unchanged."};
+    static constexpr NodeInfo info{
+        "intersect_shape", "5.1",
+        "φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, "
+        "else min(a₀, min over the cut k of max(aₖ, −f))",
+        "Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged."};
     Phased of{};
     Field shape{};
     PhaseSet phases_cut{};

@@ -35,9 +35,9 @@ struct Labels {
         "labels", "",
         "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the "
         "voxels",
-        "A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's "
-        "centre is of the phase of its number, and interfaces between are smooth. Distances are known up to about two "
-        "voxels, and do not grow beyond."};
+        "A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of "
+        "each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about "
+        "two voxels and do not grow beyond."};
 
     /// The primitive Dₖ.
     struct Depth {
@@ -73,29 +73,29 @@ struct Labels {
     template <class V>
     static void parameters(V&& v) {
         v(&Labels::file,
-          Parameter{
-              "file", "",
-              "An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the "
-              "highest: a name in which #### stands for their numbers, such as \"layer_###.png\". Images are grey, "
-              "of integers of up to 32 bits, are seen from above as height_map's are, and the object stands about the "
-              "origin."});
-        v(&Labels::of_phases, Parameter{"phases", "", "The phases that there are."});
-        v(&Labels::values,
-          Parameter{"values", "", "The whole numbers of the phases, in their order: 1, 2, 3 … if left out.",
-                    Limits{.low = -16777216, .high = 16777216}, true});
+          Parameter{"file", "",
+                    "OpenVDB file with a grid of whole numbers. Or images, one per layer from the lowest z to the "
+                    "highest: a name in which each # stands for a digit of the layer's number, such as "
+                    "\"layer_###.png\". Images are grey, with integers of up to 32 bits, and seen from above, like "
+                    "those of height_map. The object is centred at the origin."});
+        v(&Labels::of_phases, Parameter{"phases", "", "The phases of the object."});
+        v(&Labels::values, Parameter{"values", "", "The number of each phase; by default 1, 2, 3 …",
+                                     Limits{.low = -16777216, .high = 16777216}, true});
         v(&Labels::empty,
-          Parameter{"empty", "", "The whole numbers of the vacuum, unless they are a phase's; 0 if left out.",
+          Parameter{"empty", "", "The numbers of the vacuum, unless they belong to a phase; by default 0.",
                     Limits{.low = -16777216, .high = 16777216}, true});
         v(&Labels::spacing,
-          Parameter{"spacing", "m", "From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own.",
+          Parameter{"spacing", "m",
+                    "Distance between voxels along x, y and z, for images. OpenVDB grids have their own.",
                     limits::non_negative, true});
         v(&Labels::smoothing,
-          Parameter{"smoothing", "voxels", "σ of the blur: 0 for none, when interfaces show the voxels' steps.",
+          Parameter{"smoothing", "voxels",
+                    "Standard deviation σ of the blur; at 0, interfaces show the steps of the voxels.",
                     Limits{.low = 0, .high = 4}, true});
         v(&Labels::grid,
           Parameter{"grid", "",
-                    "Which of an OpenVDB file's grids; needed if it has several of whole numbers. If several have the "
-                    "same name, its index follows: \"name[0]\", \"name[1]\".",
+                    "Name of the grid in an OpenVDB file; required if there are several of whole numbers. If several "
+                    "have the same name, append the index: \"name[0]\", \"name[1]\".",
                     limits::any, true});
     }
     /// The part of the file that is read.

@@ -7,7 +7,7 @@ namespace phasetree {
 struct Layered {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"layered", "4.5", "φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t",
-                                   "Embeds an object in a layer of one more phase."};
+                                   "Embeds an object in a layer of another phase."};
     Phased of{};
     Phase phase{1};
     float thickness = 0.1f;

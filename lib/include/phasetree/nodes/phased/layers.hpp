@@ -30,7 +30,7 @@ struct Layers {
     static constexpr NodeInfo info{"layers", "9.1",
                                    "φₖ = |m| − tₖ/2,  m = u − P⌊u/P + 1/2⌋,  u = p·n − cₖ,  P = Σ t,  "
                                    "cₖ the middle of layer k",
-                                   "Parallel layers of several phases, repeated without end, filling space."};
+                                   "Parallel layers of several phases, repeated endlessly, filling space."};
     using Parts = TypeList<PeriodicSlab>;
     std::vector<Phase> of_phases{};
     std::vector<float> thicknesses{};
@@ -40,20 +40,22 @@ struct Layers {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Layers::of_phases, Parameter{"phases", "", "The phases of a period in their order, two or more."});
-        v(&Layers::thicknesses, Parameter{"thicknesses", "m", "The layers' thicknesses; one number stands for all.",
+        v(&Layers::of_phases, Parameter{"phases", "", "The phases of one period in order, at least two."});
+        v(&Layers::thicknesses, Parameter{"thicknesses", "m", "Thicknesses of the layers; one number applies to all.",
                                           limits::positive, false, true});
         v(&Layers::direction,
-          Parameter{"direction", "", "Where the layers follow each other; any length but zero.", limits::any, true});
+          Parameter{"direction", "", "Direction in which the layers follow each other; any length but zero.",
+                    limits::any, true});
         v(&Layers::offset,
-          Parameter{"offset", "m", "Where along it the first layer begins, from the origin.", limits::any, true});
+          Parameter{"offset", "m", "Position along this direction, from the origin, where the first layer begins.",
+                    limits::any, true});
     }
     void prepare() {
-        if (of_phases.size() < 2) throw ModelError("layers: two phases at least are needed");
+        if (of_phases.size() < 2) throw ModelError("layers: at least two phases are required");
         if (thicknesses.size() != 1 && thicknesses.size() != of_phases.size())
-            throw ModelError("layers: as many thicknesses as phases are needed, or one for all");
+            throw ModelError("layers: \"thicknesses\" needs one entry per phase, or one for all");
         const glm::dvec3 n(direction);
-        if (!(glm::length(n) > 0)) throw ModelError("layers: the direction has no direction");
+        if (!(glm::length(n) > 0)) throw ModelError("layers: \"direction\" must not be zero");
         double period = 0;
         for (std::size_t i = 0; i < of_phases.size(); ++i) period += thickness(i);
         slabs.clear();

@@ -36,14 +36,13 @@ struct Particles {
     static void parameters(V&& v) {
         v(&Particles::of_phases,
           Parameter{"phases", "",
-                    "With centres: one phase for all balls, or one for each. With a file: those that its column "
-                    "`phase` numbers from 0, or one for all."});
+                    "With centres: one phase for all balls, or one per ball. With a file: the phases that its column "
+                    "`phase` refers to, counted from 0, or one for all."});
         v(&Particles::centres,
-          Parameter{"centres", "m", "Of the balls; absent if they are in a file.", limits::any, true});
-        v(&Particles::radii, Parameter{"radii", "m",
-                                       "Of the balls: one number for all, or one for each centre. A file may have its "
-                                       "own.",
-                                       limits::positive, true, true});
+          Parameter{"centres", "m", "Centres of the balls, unless they are in a file.", limits::any, true});
+        v(&Particles::radii,
+          Parameter{"radii", "m", "Radii of the balls: one number for all, or one per centre. A file may have its own.",
+                    limits::positive, true, true});
         v(&Particles::file, detail::file_of_balls);
     }
     /// Throws ModelError if parameters are missing or inconsistent.

@@ -6,8 +6,7 @@ namespace phasetree {
 
 struct Remove {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"remove", "5.2", "φₖ absent,  φ₀ = min(a₀, aₖ)",
-                                   "Empties phases: vacuum takes their place."};
+    static constexpr NodeInfo info{"remove", "5.2", "φₖ absent,  φ₀ = min(a₀, aₖ)", "Replaces phases by vacuum."};
     Phased of{};
     PhaseSet gone{};
 

@@ -6,7 +6,7 @@ namespace phasetree {
 
 struct Set {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"set", "4.1", "φₖ = f,  φ₀ = −f", "A field filled with one phase."};
+    static constexpr NodeInfo info{"set", "4.1", "φₖ = f,  φ₀ = −f", "Fills a field with one phase."};
     Phase phase{1};
     Field of{};
 

@@ -34,6 +34,6 @@ inline PhaseSet phases_after_cut(PhaseSet there, PhaseSet chosen) {
 }
 
 inline constexpr Parameter cut_object{"of", "", "The object."};
-inline constexpr Parameter cut_phases{"phases", "", "The phases that are cut; all if left out.", limits::any, true};
+inline constexpr Parameter cut_phases{"phases", "", "The phases to cut; by default all.", limits::any, true};
 
 }  // namespace phasetree::detail

@@ -34,6 +34,6 @@ inline PhaseSet smooth_cut_phases(const Phased& of, Phase phase) {
     return there.contains(phase) ? there | PhaseSet::of(vacuum) : there;
 }
 inline constexpr Parameter smooth_cut_object{"of", "", "The object."};
-inline constexpr Parameter smooth_cut_phase{"phase", "", "The phase that is cut."};
+inline constexpr Parameter smooth_cut_phase{"phase", "", "The phase to cut."};
 
 }  // namespace phasetree::detail

@@ -8,7 +8,7 @@ struct SmoothIntersectShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_intersect_shape", "5.3",
                                    "s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))",
-                                   "Keeps of one phase what lies within a shape, its new edges worn."};
+                                   "Keeps only the part of one phase inside a shape, and rounds the new edges."};
     Phased of{};
     Phase phase{1};
     Field shape{};

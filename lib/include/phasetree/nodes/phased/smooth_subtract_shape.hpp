@@ -8,7 +8,7 @@ struct SmoothSubtractShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_subtract_shape", "5.3",
                                    "s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))",
-                                   "Cuts a shape away from one phase, its new edges worn."};
+                                   "Cuts a shape away from one phase, and rounds the new edges."};
     Phased of{};
     Phase phase{1};
     Field shape{};

@@ -26,7 +26,7 @@ struct SmoothUniteShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_unite_shape", "5.3",
                                    "s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)",
-                                   "Melts a shape into one phase, over the other phases."};
+                                   "Blends a shape into one phase, over the other phases."};
     Phased of{};
     Phase phase{1};
     Field shape{};

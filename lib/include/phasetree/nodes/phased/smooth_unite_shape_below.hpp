@@ -11,7 +11,7 @@ struct SmoothUniteShapeBelow {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_unite_shape_below", "5.3",
                                    "s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)",
-                                   "Melts a shape into one phase, below the other phases."};
+                                   "Blends a shape into one phase, below the other phases."};
     Phased of{};
     Phase phase{1};
     Field shape{};

@@ -11,9 +11,9 @@ namespace phasetree {
 /// A phase that is listed several times is the union of its layers.
 struct Strata {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{"strata", "9.1", "φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ",
-                                   "Parallel layers of several phases, filling space: the first and the last have no "
-                                   "end."};
+    static constexpr NodeInfo info{
+        "strata", "9.1", "φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ",
+        "Parallel layers of several phases, filling space: the first and the last are unbounded."};
     std::vector<Phase> of_phases{};
     std::vector<float> thicknesses{};
     glm::vec3 direction{0, 0, 1};
@@ -23,21 +23,23 @@ struct Strata {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Strata::of_phases, Parameter{"phases", "", "The phases in their order, two or more."});
+        v(&Strata::of_phases, Parameter{"phases", "", "The phases in order, at least two."});
         v(&Strata::thicknesses,
-          Parameter{"thicknesses", "m",
-                    "The layers' thicknesses, the last layer's left out; one number stands for all.", limits::positive,
-                    false, true});
+          Parameter{"thicknesses", "m", "Thicknesses of all layers but the last; one number applies to all.",
+                    limits::positive, false, true});
         v(&Strata::direction,
-          Parameter{"direction", "", "Where the layers follow each other; any length but zero.", limits::any, true});
-        v(&Strata::offset, Parameter{"offset", "m", "From where along it the first layer is measured, from the origin.",
-                                     limits::any, true});
+          Parameter{"direction", "", "Direction in which the layers follow each other; any length but zero.",
+                    limits::any, true});
+        v(&Strata::offset,
+          Parameter{"offset", "m",
+                    "Position along this direction, from the origin, from which the first layer is measured.",
+                    limits::any, true});
     }
     void prepare() {
-        if (of_phases.size() < 2) throw ModelError("strata: two phases at least are needed");
+        if (of_phases.size() < 2) throw ModelError("strata: at least two phases are required");
         if (thicknesses.size() != 1 && thicknesses.size() + 1 != of_phases.size())
-            throw ModelError("strata: one thickness less than phases is needed, or one for all");
-        if (direction == glm::vec3(0)) throw ModelError("strata: the direction has no direction");
+            throw ModelError("strata: \"thicknesses\" needs one entry per phase but the last, or one for all");
+        if (direction == glm::vec3(0)) throw ModelError("strata: \"direction\" must not be zero");
         base = Plane{.normal = direction, .offset = offset};
         base.prepare();
         heights.clear();

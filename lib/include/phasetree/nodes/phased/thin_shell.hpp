@@ -7,7 +7,7 @@ namespace phasetree {
 struct ThinShell {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"thin_shell", "4.1", "φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f",
-                                   "A wall of thickness 2t about a field's surface, and what it encloses."};
+                                   "A wall of thickness 2t about the surface of a field, and its interior."};
     Field of{};
     Phase shell{1};
     Phase inside{2};
@@ -21,7 +21,7 @@ struct ThinShell {
         v(&ThinShell::half_thickness, Parameter{"half_thickness", "m", "Half of the wall, t.", limits::positive});
     }
     void prepare() const {
-        if (shell == inside) throw ModelError("thin_shell: the wall and what it encloses are the same phase");
+        if (shell == inside) throw ModelError("thin_shell: the wall and the interior must be different phases");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

@@ -15,9 +15,8 @@ struct Voronoi {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
         "voronoi", "4.3, 9.1", "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k",
-        "Blocks of several phases, filling space: the cells of an irregular lattice of sites, "
-        "each with one of the phases. With the same size, jitter and seed they are those of "
-        "voronoi_cells."};
+        "Blocks of several phases, filling space: the cells of an irregular lattice of sites, each with one of the "
+        "phases. With the same size, jitter and seed, the cells are those of voronoi_cells."};
     /// The primitive for the distance to the nearest site of one kind.
     struct Nearest {
         static constexpr bool is_long = true;  ///< a LongPrimitive
@@ -69,7 +68,7 @@ struct Voronoi {
     static void parameters(V&& v) {
         v(&Voronoi::of_phases,
           Parameter{"phases", "",
-                    "Two at least; a cell has each of them as likely, or more so if it is listed twice."});
+                    "The phases, at least two. All are equally likely; list one twice to make it more likely."});
         v(&Voronoi::size, detail::voronoi_size);
         v(&Voronoi::jitter, detail::voronoi_jitter);
         v(&Voronoi::seed, detail::voronoi_seed);
@@ -77,8 +76,8 @@ struct Voronoi {
     void prepare() {
         detail::require_usable(info.name, {size});
         seed = std::floor(seed);
-        if (phases().size() < 2) throw ModelError("voronoi: it needs two different phases at least");
-        if (of_phases.size() > 16) throw ModelError("voronoi: it takes up to 16 phases");
+        if (phases().size() < 2) throw ModelError("voronoi: at least two different phases are required");
+        if (of_phases.size() > 16) throw ModelError("voronoi: at most 16 phases are allowed");
     }
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {

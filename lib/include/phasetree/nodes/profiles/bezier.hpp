@@ -25,13 +25,12 @@ struct Bezier {
     template <class V>
     static void parameters(V&& v) {
         v(&Bezier::points, Parameter{"points", "m",
-                                     "[x, y] of a point on the curve, then of a control point, and so on, at most "
-                                     "2048. An even number is a closed curve, an odd one, which needs a thickness, "
-                                     "ends on its last point."});
-        v(&Bezier::thickness, Parameter{"thickness", "m",
-                                        "Width of a line along the curve; 0 fills a closed curve, even-odd where it "
-                                        "crosses itself.",
-                                        limits::non_negative, true});
+                                     "[x, y] of a point on the curve, then of a control point, and so on; at most 2048 "
+                                     "points. An even number makes a closed curve. An odd number makes an open one, "
+                                     "which needs a thickness and ends at its last point."});
+        v(&Bezier::thickness,
+          Parameter{"thickness", "m", "Width of a line along the curve; 0 fills a closed curve by the even-odd rule.",
+                    limits::non_negative, true});
     }
     void prepare() {
         if (points.size() > most_points) throw ModelError("bezier: more than 2048 points");

@@ -30,7 +30,7 @@ struct Extrude {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"extrude", "",
                                    "a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)",
-                                   "A field's cross-section at z = 0, moved along z; exact where the field is the "
+                                   "Extrudes a field's cross-section at z = 0 along z; exact where the field is the "
                                    "exact distance to its cross-section."};
     using Parts = TypeList<CrossSection, HeightBand>;
     Field of{};

@@ -22,14 +22,14 @@ struct Polygon {
     template <class V>
     static void parameters(V&& v) {
         v(&Polygon::points, Parameter{"points", "m",
-                                      "Its corners [x, y] in order, either way around, at most 4096; the last is "
+                                      "The corners [x, y] in order, in either direction, at most 4096. The last is "
                                       "joined to the first, and edges must not cross."});
     }
     void prepare() {
         if (points.size() > most_points) throw ModelError("polygon: more than 4096 points");
         points.erase(std::unique(points.begin(), points.end()), points.end());
         while (points.size() > 1 && points.front() == points.back()) points.pop_back();
-        if (points.size() < 3) throw ModelError("polygon: it needs three different points");
+        if (points.size() < 3) throw ModelError("polygon: at least three different points are required");
         for (const glm::vec2& v : points)
             if (std::abs(v.x) > 1e9f || std::abs(v.y) > 1e9f)
                 throw ModelError("polygon: its points must be within 1e9 m of the origin");

@@ -19,9 +19,8 @@ struct Rectangle {
     static void parameters(V&& v) {
         v(&Rectangle::width, Parameter{"width", "m", "Whole length along x.", limits::positive});
         v(&Rectangle::height, Parameter{"height", "m", "Whole length along y.", limits::positive});
-        v(&Rectangle::corner_radius,
-          Parameter{"radius", "m", "Radius of the corners; half of the shorter side at most.", limits::non_negative,
-                    true});
+        v(&Rectangle::corner_radius, Parameter{"radius", "m", "Radius of the corners, at most half the shorter side.",
+                                               limits::non_negative, true});
     }
     void prepare() const {
         if (corner_radius > std::min(width, height) * 0.5f)

@@ -19,19 +19,19 @@ struct IntoHalfPlane {
 /// if its cross section lies on one side of the axis, or is symmetric about it.
 struct Revolve {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"revolve", "", "f(|pxy| − o, z, 0)",
-                                   "A field's cross-section at z = 0 turned about its y axis, which becomes the z "
-                                   "axis; exact where the field is the exact distance to its cross-section and that "
-                                   "does not cross the axis."};
+    static constexpr NodeInfo info{
+        "revolve", "", "f(|pxy| − o, z, 0)",
+        "Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field "
+        "is the exact distance to its cross-section, which must not cross the axis."};
     using Parts = TypeList<IntoHalfPlane>;
     Field of{};
     float offset = 0;
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Revolve::of, Parameter{"of", "", "The field; what its section has beyond the axis is cut off."});
-        v(&Revolve::offset,
-          Parameter{"offset", "m", "How far the section is moved away from the axis first.", limits::any, true});
+        v(&Revolve::of, Parameter{"of", "", "The field; the part of its section beyond the axis is cut off."});
+        v(&Revolve::offset, Parameter{"offset", "m", "Distance by which the section is first moved away from the axis.",
+                                      limits::any, true});
     }
     template <class D>
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {

@@ -22,14 +22,15 @@ struct Star {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Star::points, Parameter{"points", "", "How many tips, a whole number.", Limits{.low = 3, .high = 64}});
+        v(&Star::points, Parameter{"points", "", "Number of tips.", Limits{.low = 3, .high = 64}});
         v(&Star::radius, Parameter{"radius", "m", "Distance of the tips from the centre.", limits::positive});
         v(&Star::inner_radius,
-          Parameter{"inner_radius", "m", "Distance of the notches, less than that of the tips.", limits::positive});
+          Parameter{"inner_radius", "m", "Distance of the notches from the centre, less than that of the tips.",
+                    limits::positive});
     }
     void prepare() {
         if (points != std::floor(points)) throw ModelError("star: \"points\" must be a whole number");
-        if (!(inner_radius < radius)) throw ModelError("star: the inner radius is not less than the outer one");
+        if (!(inner_radius < radius)) throw ModelError("star: the inner radius must be less than the outer one");
         detail::require_usable(info.name, {radius, inner_radius});
         mirrors = detail::PolygonMirrors::of(points);
         const double step = 3.14159265358979323846 / static_cast<double>(points), r = inner_radius;

@@ -14,9 +14,10 @@ namespace phasetree {
 /// strokes of a letter, which occur in some fonts, therefore form one solid. Within a stroke, contours must not cross.
 struct Text {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"text", "", "min over the letters of ± min over their curves of |p − B(t)|",
-                                   "Letters of a font, for extruding; the same at every z, exact where no two letters "
-                                   "overlap. The first line stands on y = 0 and lines follow downwards."};
+    static constexpr NodeInfo info{
+        "text", "", "min over the letters of ± min over their curves of |p − B(t)|",
+        "Text in a font, for extruding; the same at every z, exact where no two letters overlap. The baseline of the "
+        "first line is at y = 0, and further lines follow below."};
     static constexpr std::size_t most_strokes = 4096, most_pieces = 1 << 16;
 
     /// The primitive of one stroke, a filled outline.
@@ -46,19 +47,17 @@ struct Text {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Text::text, Parameter{"text", "", "What is written; \\n begins another line."});
-        v(&Text::file, Parameter{"file", "", "The font: TrueType or OpenType (.ttf, .otf)."});
+        v(&Text::text, Parameter{"text", "", "The text; \\n begins a new line."});
+        v(&Text::file, Parameter{"file", "", "Font file: TrueType or OpenType (.ttf, .otf)."});
         v(&Text::size,
-          Parameter{"size", "m", "The font's em: capitals are about 0.7 of it high.", limits::positive, true});
+          Parameter{"size", "m", "Em size of the font; capitals are about 0.7 em high.", limits::positive, true});
         v(&Text::align,
-          Parameter{"align", "", "What of each line is at x = 0: its beginning at 0, its middle at 0.5, its end at 1.",
+          Parameter{"align", "", "Alignment: the point of each line at x = 0, from 0, its beginning, to 1, its end.",
                     limits::fraction, true});
-        v(&Text::spacing, Parameter{"spacing",
-                                    "em",
-                                    "More room behind each letter than the font leaves; less, if it is negative.",
-                                    {.low = -1, .high = 100},
-                                    true});
-        v(&Text::line_height, Parameter{"line_height", "em", "From one line to the next.", limits::positive, true});
+        v(&Text::spacing,
+          Parameter{
+              "spacing", "em", "Additional space after each letter; may be negative.", {.low = -1, .high = 100}, true});
+        v(&Text::line_height, Parameter{"line_height", "em", "Distance between lines.", limits::positive, true});
     }
     /// The part of the file that is read.
     std::string part_of_file() const { return text; }

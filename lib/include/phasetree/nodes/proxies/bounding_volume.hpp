@@ -12,8 +12,8 @@ template <class Child>
 struct BoundingVolume {
     static constexpr NodeInfo info{"bounding_volume", "4.1, 7.3",
                                    "max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))",
-                                   "A field or an object, and a volume around it whose distance stands in far away. "
-                                   "What sticks out of the volume is cut off."};
+                                   "A field or an object with a bounding volume, whose distance replaces it far away. "
+                                   "Parts outside the volume are cut off."};
     Child of{};
     Field volume{};
     float margin = 0.1f;
@@ -21,18 +21,17 @@ struct BoundingVolume {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&BoundingVolume::of, Parameter{"of", "", "What is bounded: a field or an object."});
+        v(&BoundingVolume::of, Parameter{"of", "", "The field or object to bound."});
         v(&BoundingVolume::volume,
-          Parameter{"volume", "", "A field around it. Default: the box around it.", limits::any, true});
+          Parameter{"volume", "", "The bounding volume, a field. Default: the bounding box.", limits::any, true});
         v(&BoundingVolume::margin, detail::guard_margin);
     }
     void prepare() {
         if (volume) return;
         const Bounds b = phasetree::bounds(of);
-        if (b.empty()) throw ModelError("bounding_volume: what is bounded is empty");
+        if (b.empty()) throw ModelError("bounding_volume: the child is empty");
         if (!b.finite())
-            throw ModelError(
-                "bounding_volume: what is bounded is endless, so there is no box around it; give a volume");
+            throw ModelError("bounding_volume: the child is unbounded, so it has no bounding box; give \"volume\"");
         box = {b.centre(), b.extent() * (0.5f * (1 + 1e-6f))};
     }
     template <class D>

@@ -57,7 +57,6 @@ Phases<float> object_guarded_by(float b, float margin, PhaseSet there, int k, co
 }
 
 inline constexpr Parameter guard_margin{
-    "margin", "m", "How far from there the distance to it takes over. The child does not matter beyond.",
-    limits::positive};
+    "margin", "m", "Distance from the volume beyond which its distance replaces the child.", limits::positive};
 
 }  // namespace phasetree::detail

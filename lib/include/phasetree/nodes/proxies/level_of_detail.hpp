@@ -37,10 +37,11 @@ Phases<T> switched(const T& n, const Phases<T>& a, const Phases<T>& b) {
 template <class Child>
 struct LevelOfDetail {
     static constexpr bool is_level_of_detail = true;
-    static constexpr NodeInfo info{
-        "level_of_detail", "4.1, 7.3", "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
-        "Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. "
-        "Without distances the finest stands everywhere, unless a picture is rendered with --detail."};
+    static constexpr NodeInfo info{"level_of_detail", "4.1, 7.3",
+                                   "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
+                                   "Levels of detail of a field or an object, from fine to coarse, each used within a "
+                                   "range of distances from a viewpoint. Without distances, the finest level is used "
+                                   "everywhere, unless a picture is rendered with --detail."};
     std::vector<Child> of{};
     glm::vec3 viewpoint{0};
     std::vector<float> distances{};
@@ -50,14 +51,15 @@ struct LevelOfDetail {
     static void parameters(V&& v) {
         v(&LevelOfDetail::of, Parameter{"of", "", "The levels, fields or objects, the finest first."});
         v(&LevelOfDetail::viewpoint,
-          Parameter{"viewpoint", "m", "From where distances are measured.", limits::any, true});
+          Parameter{"viewpoint", "m", "The viewpoint from which distances are measured.", limits::any, true});
         v(&LevelOfDetail::distances,
-          Parameter{"distances", "m", "Where each level gives way to the next, rising; one less than there are levels.",
+          Parameter{"distances", "m",
+                    "Increasing distances at which each level is replaced by the next; one less than there are levels.",
                     limits::positive, true});
         v(&LevelOfDetail::errors,
           Parameter{"errors", "m",
-                    "How far the surface of each level but the finest is from that of the finest, rising: what "
-                    "--detail compares with the size of a pixel. A promise of the scene's.",
+                    "Increasing distances between the surface of each coarser level and that of the finest, which "
+                    "--detail compares with the size of a pixel. They are trusted, not checked.",
                     limits::positive, true});
     }
     void prepare() const {
@@ -101,7 +103,7 @@ struct LevelOfDetail {
     void check(const std::vector<float>& list, const char* name) const {
         const std::string subject = std::string("level_of_detail: \"") + name + "\" ";
         if (list.empty()) return;
-        if (list.size() + 1 != of.size()) throw ModelError(subject + "must be one less than the levels");
+        if (list.size() + 1 != of.size()) throw ModelError(subject + "must have one entry less than there are levels");
         for (std::size_t i = 1; i < list.size(); ++i)
             if (!(list[i] > list[i - 1])) throw ModelError(subject + "must rise");
     }

@@ -9,11 +9,11 @@ namespace phasetree {
 /// two surfaces cut it off or fill it.
 template <class Child>
 struct Proxy {
-    static constexpr NodeInfo info{
-        "proxy", "4.1, 7.3", "min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e",
-        "A field or an object, and a simpler field g near it, which replaces it away from the surface, outside "
-        "and "
-        "inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled."};
+    static constexpr NodeInfo info{"proxy", "4.1, 7.3",
+                                   "min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e",
+                                   "A field or an object with a proxy, a simpler field g near it, which replaces it "
+                                   "away from the surface, outside and inside. Parts more than e outside the proxy are "
+                                   "cut off, and gaps more than e inside it are filled."};
     Child of{};
     Field proxy{};
     float error = 0.1f;
@@ -22,21 +22,20 @@ struct Proxy {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Proxy::of, Parameter{"of", "", "What is stood in for: a field or an object."});
+        v(&Proxy::of, Parameter{"of", "", "The field or object to replace."});
         v(&Proxy::proxy, Parameter{"proxy", "", "The simpler field, g."});
-        v(&Proxy::error,
-          Parameter{"error", "m", "How far apart the surfaces of both may be, e.", limits::non_negative});
+        v(&Proxy::error, Parameter{"error", "m", "Maximum distance e between the two surfaces.", limits::non_negative});
         v(&Proxy::margin, detail::guard_margin);
         v(&Proxy::inside, Parameter{"inside", "",
-                                    "Of an object: the phase that fills it from e inside of the proxy on. Without it "
-                                    "the proxy stands in outside alone.",
+                                    "For an object: the phase that fills the proxy more than e inside. Without it, the "
+                                    "proxy is used outside only.",
                                     limits::any, true});
     }
     void prepare() const {
         if (inside.size() > 1) throw ModelError("proxy: \"inside\" must be one phase");
         if (inside.contains(vacuum)) throw ModelError("proxy: \"inside\" must be a phase other than the vacuum");
         if (std::is_same_v<Child, Field> && !inside.empty())
-            throw ModelError("proxy: \"inside\" is for objects, but this is a plain field");
+            throw ModelError("proxy: \"inside\" applies only to objects, but this is a plain field");
     }
     template <class D>
     auto evaluate(D& d, const typename D::Point& p) const {

@@ -11,8 +11,8 @@ namespace phasetree {
 /// J of ω⁻¹ is M⁻¹ everywhere, and λ is its spectral norm: the square root of the largest eigenvalue of M⁻ᵀM⁻¹.
 struct Affine {
     static constexpr NodeInfo info{"affine", "6", "φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂",
-                                   "Takes the unit vectors to any three that span space, and the origin to a point: "
-                                   "shears, stretches, turns and mirrors."};
+                                   "Maps the unit vectors to any three vectors that span space, and the origin to a "
+                                   "point: shears, stretches, rotates and mirrors."};
     glm::vec3 x{1, 0, 0};
     glm::vec3 y{0, 1, 0};
     glm::vec3 z{0, 0, 1};
@@ -33,10 +33,10 @@ struct Affine {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Affine::x, Parameter{"x", "", "Where [1, 0, 0] goes, from the image of the origin.", limits::any, true});
-        v(&Affine::y, Parameter{"y", "", "Where [0, 1, 0] goes.", limits::any, true});
-        v(&Affine::z, Parameter{"z", "", "Where [0, 0, 1] goes.", limits::any, true});
-        v(&Affine::by, Parameter{"by", "m", "Where the origin goes.", limits::any, true});
+        v(&Affine::x, Parameter{"x", "", "Image of the vector [1, 0, 0].", limits::any, true});
+        v(&Affine::y, Parameter{"y", "", "Image of the vector [0, 1, 0].", limits::any, true});
+        v(&Affine::z, Parameter{"z", "", "Image of the vector [0, 0, 1].", limits::any, true});
+        v(&Affine::by, Parameter{"by", "m", "Image of the origin.", limits::any, true});
     }
     void prepare() {
         const glm::dmat3 m{glm::dvec3(x), glm::dvec3(y), glm::dvec3(z)};

@@ -44,7 +44,8 @@ struct Bend {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Bend::rate, Parameter{"rate", "degrees/m", "Angle for each unit along x; negative to bend towards −z."});
+        v(&Bend::rate,
+          Parameter{"rate", "degrees/m", "Angle per unit of length along x; negative to bend towards −z."});
     }
     void fit(const Bounds& child) {
         inverse = {0, 1, 0, 1, 0};

@@ -12,7 +12,7 @@ struct Distort {
     static constexpr NodeInfo info{"distort", "6",
                                    "φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  "
                                    "L = 15 octaves/(4 scale Σ 2⁻ⁱ)",
-                                   "Moves space by fractal noise: bends what is straight, as rock or smoke is bent."};
+                                   "Distorts space by fractal noise, as in rock or smoke."};
     float amplitude = 0.1f;
     float scale = 1;
     float octaves = 1;
@@ -37,8 +37,9 @@ struct Distort {
         v(&Distort::amplitude,
           Parameter{"amplitude", "m", "Largest displacement along each axis, a.", limits::non_negative});
         v(&Distort::scale, Parameter{"scale", "m", "Size of the largest swirls.", limits::positive});
-        v(&Distort::octaves, Parameter{"octaves", "", "Sizes of swirls, each half the one before; a whole number.",
-                                       Limits{.low = 1, .high = 6}, true});
+        v(&Distort::octaves,
+          Parameter{"octaves", "", "Number of octaves of swirls, each with half the size of the one before.",
+                    Limits{.low = 1, .high = 6}, true});
     }
     void prepare() const {
         if (octaves != std::floor(octaves)) throw ModelError("distort: \"octaves\" must be a whole number");

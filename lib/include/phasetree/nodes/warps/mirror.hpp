@@ -10,9 +10,9 @@ namespace phasetree {
 /// The part with p·n < 0 is replaced by the image of the other half. The map folds space along the plane: it is
 /// continuous, and an isometry on either side, so λ = 1.
 struct Mirror {
-    static constexpr NodeInfo info{"mirror", "6", "φ(p − 2 min(p·n, 0) n)",
-                                   "Makes symmetric to a plane through the origin: the half that the normal points to "
-                                   "is kept and reflected."};
+    static constexpr NodeInfo info{
+        "mirror", "6", "φ(p − 2 min(p·n, 0) n)",
+        "Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image."};
     glm::vec3 normal{1, 0, 0};
 
     struct Map {
@@ -32,7 +32,7 @@ struct Mirror {
                                      limits::any, true});
     }
     void prepare() {
-        if (normal == glm::vec3(0)) throw ModelError("mirror: the normal has no direction");
+        if (normal == glm::vec3(0)) throw ModelError("mirror: the normal must not be zero");
         normal = unit_vector(normal);
     }
     Map map() const { return {normal}; }

@@ -8,7 +8,8 @@
 namespace phasetree {
 
 struct Rotate {
-    static constexpr NodeInfo info{"rotate", "6", "φ(Rᵀ p)", "Turns about an axis through the origin, right-handed."};
+    static constexpr NodeInfo info{"rotate", "6", "φ(Rᵀ p)",
+                                   "Rotates about an axis through the origin, by the right-hand rule."};
     glm::vec3 axis{0, 0, 1};
     float angle = 0;
     glm::mat3 matrix{1};  ///< R, derived
@@ -29,7 +30,7 @@ struct Rotate {
     }
     void prepare() {
         const glm::dvec3 direction(axis);
-        if (!(glm::length(direction) > 0)) throw ModelError("rotate: the axis has no direction");
+        if (!(glm::length(direction) > 0)) throw ModelError("rotate: the axis must not be zero");
         matrix =
             glm::mat3(glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(angle)), glm::normalize(direction)));
     }

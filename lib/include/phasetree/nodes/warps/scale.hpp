@@ -5,8 +5,7 @@
 namespace phasetree {
 
 struct Scale {
-    static constexpr NodeInfo info{"scale", "6", "s · φ(p / s)",
-                                   "Makes larger or smaller by the same factor everywhere."};
+    static constexpr NodeInfo info{"scale", "6", "s · φ(p / s)", "Scales by the same factor along all axes."};
     float factor = 1;
 
     struct Map {

@@ -7,7 +7,7 @@ namespace phasetree {
 /// J of ω⁻¹ is diag(1/s). Its norm is 1 over the smallest factor, everywhere.
 struct Stretch {
     static constexpr NodeInfo info{"stretch", "6", "φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)",
-                                   "Makes larger or smaller by a factor of its own along each axis."};
+                                   "Scales by a different factor along each axis."};
     glm::vec3 factors{1};
 
     struct Map {

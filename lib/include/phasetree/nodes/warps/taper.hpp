@@ -33,7 +33,7 @@ struct Taper {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Taper::rate, Parameter{"rate", "1/m", "Change of size for each unit of height; at z = 0 the size stays."});
+        v(&Taper::rate, Parameter{"rate", "1/m", "Change of size per unit of height; the size at z = 0 is unchanged."});
     }
     void fit(const Bounds& child) {
         narrowest = std::min(scale_at(child.low.z), scale_at(child.high.z));

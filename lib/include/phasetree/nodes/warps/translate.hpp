@@ -5,7 +5,7 @@
 namespace phasetree {
 
 struct Translate {
-    static constexpr NodeInfo info{"translate", "6", "φ(p − v)", "Moves without turning."};
+    static constexpr NodeInfo info{"translate", "6", "φ(p − v)", "Translates."};
     glm::vec3 by{0};
 
     struct Map {
@@ -19,7 +19,7 @@ struct Translate {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Translate::by, Parameter{"by", "m", "Where the origin goes."});
+        v(&Translate::by, Parameter{"by", "m", "Image of the origin."});
     }
     Map map() const { return {by}; }
     float value_scale() const { return 1; }

@@ -28,7 +28,7 @@ struct Twist {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Twist::rate, Parameter{"rate", "degrees/m", "Angle for each unit of height."});
+        v(&Twist::rate, Parameter{"rate", "degrees/m", "Angle per unit of height."});
     }
     void fit(const Bounds& child) {
         reach = 0;

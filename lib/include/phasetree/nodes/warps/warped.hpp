@@ -66,7 +66,7 @@ struct Warped {
     template <class V>
     static void parameters(V&& v) {
         Warp::parameters([&](auto member, const Parameter& p) { v(Through<decltype(member)>{member}, p); });
-        v(&Warped::of, Parameter{"of", "", "What is warped: a field or an object."});
+        v(&Warped::of, Parameter{"of", "", "The field or object to warp."});
     }
     /// Accesses a member of the warp through the node.
     template <class Member>
@@ -79,7 +79,7 @@ struct Warped {
         phasetree::prepare(warp);
         if constexpr (LocalWarp<Warp>) {
             const Bounds inner = phasetree::bounds(of);
-            if (!inner.finite()) throw ModelError(std::string(info.name) + ": what is warped must be bounded");
+            if (!inner.finite()) throw ModelError(std::string(info.name) + ": the child must be bounded");
             warp.fit(inner);
             const Bounds outer = warp.image(inner);
             bound = {outer.centre(), outer.extent() * 0.5f};
@@ -143,19 +143,18 @@ struct WarpedPhased : Warped<Warp, Phased> {
     template <class V>
     static void parameters(V&& v) {
         Whole::parameters(v);
-        v(&WarpedPhased::over, Parameter{"over", "",
-                                         "Of an object: only these phases are warped, and replace the others where "
-                                         "they come to lie.",
-                                         limits::any, true});
-        v(&WarpedPhased::under, Parameter{"under", "",
-                                          "Of an object: only these phases are warped, and the others stay where "
-                                          "they are.",
-                                          limits::any, true});
+        v(&WarpedPhased::over,
+          Parameter{"over", "", "For an object: warp only these phases, and let them replace the others.", limits::any,
+                    true});
+        v(&WarpedPhased::under,
+          Parameter{"under", "", "For an object: warp only these phases, and let the others replace them.", limits::any,
+                    true});
     }
     void prepare() {
         Whole::prepare();
         const std::string name(Whole::info.name);
-        if (!over.empty() && !under.empty()) throw ModelError(name + ": \"over\" and \"under\" exclude each other");
+        if (!over.empty() && !under.empty())
+            throw ModelError(name + ": \"over\" and \"under\" cannot be combined; remove one of them");
         if (chosen().contains(vacuum)) throw ModelError(name + ": the vacuum cannot be warped on its own");
     }
     template <class D>

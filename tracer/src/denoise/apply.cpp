@@ -1,4 +1,4 @@
-#include "denoise/as_asked.hpp"
+#include "denoise/apply.hpp"
 
 #include <fmt/format.h>
 
@@ -26,14 +26,14 @@ void keep_noisy(Image& image) {
 Denoiser denoiser_named(const std::string& name) {
     if (name == "best") return Denoiser::best;
     if (name == "regression") return Denoiser::regression;
-    if (name != "oidn") throw DenoiseError(fmt::format("\"regression\" or \"oidn\", not \"{}\"", name));
+    if (name != "oidn") throw DenoiseError(fmt::format("must be \"regression\" or \"oidn\", but is \"{}\"", name));
     if (!has_open_image_denoise()) throw DenoiseError("phasetree was built without Open Image Denoise");
     return Denoiser::network;
 }
 
 void check_samples_to_denoise(int samples) {
     if (samples < fewest_samples_to_denoise)
-        throw DenoiseError(fmt::format("it needs {} samples a pixel at least, and the picture is to have {}",
+        throw DenoiseError(fmt::format("needs at least {} samples per pixel, but the picture has {}",
                                        fewest_samples_to_denoise, samples));
 }
 
