@@ -86,7 +86,7 @@ inline void check_against_paths(const Scene& scene, const glm::vec3& origin, con
 }
 
 // That a picture is as bright in the mean with photons as without: `made` gives the scene with "caustics" on or off
-// told, and `planted` is a factor of the brightness that is found. Pictures of grey scenes are compared by one channel.
+// and `planted` is a factor of the brightness that is found. Pictures of grey scenes are compared by one channel.
 // How far photons blur a picture does not matter to its mean.
 inline float red(const glm::vec3& pixel) {
     return pixel.x;
