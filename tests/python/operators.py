@@ -127,6 +127,12 @@ class Objects(unittest.TestCase):
 class Sentences(unittest.TestCase):
     """The errors are the reader's."""
 
+    def test_both_spellings_of_names(self):
+        self.assertEqual(repr(pt.balls(centers=[(0, 0, 0)], radii=1)), repr(pt.balls(centres=[(0, 0, 0)], radii=1)))
+        self.assertEqual(repr(pt.materials.diffuse(colour=(1, 0, 0))), repr(pt.materials.diffuse(color=(1, 0, 0))))
+        with self.assertRaisesRegex(TypeError, 'diffuse: "color" is given twice, in two spellings'):
+            pt.materials.diffuse(colour=(1, 0, 0), color=(1, 0, 0))
+
     def test_errors(self):
         glass = pt.phase("glass")
         for expected, call in (
@@ -142,7 +148,7 @@ class Sentences(unittest.TestCase):
             ('capsule: "to" must be [x, y, z] as one list', lambda: pt.capsule((0, 0, 0), 1, 0.1)),
             ('translate: "of" must be', lambda: pt.translate(3, (1, 0, 0))),
             ('"of" is an object of phases, but a plain field is required here', lambda: pt.shell(glass(pt.sphere(1)), 0.1)),
-            ('"of[1]" is a plain field, but an object of phases is needed', lambda: glass(pt.sphere(1)).over(pt.sphere(1))),
+            ('"of[1]" is a plain field, but an object of phases is required', lambda: glass(pt.sphere(1)).over(pt.sphere(1))),
             ('unknown key "over" in "translate"', lambda: pt.sphere(1).translate((1, 0, 0), over=glass)),
             ("a phase does not make contact with itself", lambda: glass(pt.sphere(1)).contact(glass(pt.sphere(1)), glass, glass, 0.5)),
             ('the material of "x" must be one', lambda: pt.phase("x", "glass")),

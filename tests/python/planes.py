@@ -1,4 +1,4 @@
-"""What a render makes beside the picture, and how long it takes: what the command makes of the same wishes."""
+"""What a render makes beside the picture, and how long it takes: the same as the command makes."""
 
 import filecmp
 import pathlib
@@ -29,11 +29,11 @@ class WithFiles(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.scene = self.folder / "scene.json"
 
-    def check_command(self, options, **wishes):
+    def check_command(self, options, **arguments):
         """The files are the command's to the last bit."""
         theirs, own = self.folder / "theirs.exr", self.folder / "own.exr"
         run("render", self.scene, "-o", theirs, "--quiet", *options)
-        image = pt.load(self.scene).render(**wishes)
+        image = pt.load(self.scene).render(**arguments)
         image.save(own)
         self.assertTrue(filecmp.cmp(theirs, own, shallow=False), options)
         return image
@@ -113,7 +113,7 @@ class Planes(unittest.TestCase):
 
     def test_what_cannot_be_is_refused(self):
         scene = ball_on_floor()
-        for said, wishes in (
+        for said, arguments in (
             ('planes: unknown plane "dept"; choose from .*depth.*, or "all"', {"planes": ["depth", "dept"]}),
             ('planes: unknown plane "all"', {"planes": ["all", "depth"]}),
             ('denoise: must be "regression" or "oidn", but is "magic"', {"denoise": "magic"}),
@@ -124,7 +124,7 @@ class Planes(unittest.TestCase):
         ):
             with self.subTest(said):
                 with self.assertRaisesRegex(pt.Error, said):
-                    scene.render(**wishes)
+                    scene.render(**arguments)
         image = scene.render(samples=1, crop=(0, 0, 5, 5))
         self.assertEqual(image.crop, (0, 0, 33, 25))
         image.crop = (30, 0, 33, 25)

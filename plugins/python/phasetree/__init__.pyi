@@ -131,21 +131,21 @@ class Field:
     def __and__(self, other: Field | Expression) -> Field: ...
     def __sub__(self, other: Field | Expression) -> Field: ...
     def union(self, *of: Field) -> Field:
-        r"""All that is in any of the fields.
+        r"""The points that are inside any field.
 
             min fᵢ
 
         of: The fields, at least one. (list of fields)
         """
     def intersection(self, *of: Field) -> Field:
-        r"""What is in all of the fields.
+        r"""The points that are inside all fields.
 
             max fᵢ
 
         of: The fields, at least one. (list of fields)
         """
     def difference(self, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
-        r"""A field without others.
+        r"""Subtracts fields from a field.
 
             max(f, −min gᵢ)
 
@@ -153,27 +153,27 @@ class Field:
         subtract: The fields to cut away, at least one. (list of fields)
         """
     def smooth_union(self, *of: Field, radius: float) -> Field:
-        r"""Union whose seams are filled; folded from the first field to the last.
+        r"""Union with filleted seams; folded from the first field to the last.
 
             smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
         Section 9.3 of the paper.
 
         of: The fields, at least one. (list of fields)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_intersection(self, *of: Field, radius: float) -> Field:
-        r"""Intersection whose edges are worn; folded from the first field to the last.
+        r"""Intersection with rounded edges; folded from the first field to the last.
 
             −smin(−a, −b)
 
         Section 9.3 of the paper.
 
         of: The fields, at least one. (list of fields)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_difference(self, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-        r"""A field without others, its new edges worn.
+        r"""Subtracts fields from a field and rounds the new edges.
 
             −smin(−f, smin gᵢ)
 
@@ -181,17 +181,17 @@ class Field:
 
         from_: The field to cut. (field)
         subtract: The fields to cut away, at least one. (list of fields)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def offset(self, distance: float) -> Field:
-        r"""A field inflated by t (deflated for a negative t).
+        r"""Inflates a field by t, or deflates it if t is negative.
 
             f − t
 
         Section 4.1 of the paper.
 
         of: The field. (field)
-        distance: How far the surface moves outwards. (number in m)
+        distance: Distance by which the surface moves outwards. (number in m)
         """
     def shell(self, half_thickness: float) -> Field:
         r"""A wall of thickness 2t about a field's surface.
@@ -204,52 +204,52 @@ class Field:
         half_thickness: Half of the wall, t. (number in m; positive)
         """
     def displace(self, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
-        r"""A field whose surface is moved in and out by fractal noise.
+        r"""Displaces the surface of a field by fractal noise.
 
             min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
         of: The field. (field)
         amplitude: Largest displacement, a. (number in m; zero or more)
         scale: Size of the largest bumps. (number in m; positive)
-        octaves: Sizes of bumps, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+        octaves: Number of octaves of noise, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
         """
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
-        r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+        r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
             min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        positions: Where the copies' origins go. (list of [x, y, z]s in m)
-        turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
-        scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+        of: The field or object to copy. (object)
+        positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+        turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+        scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
         """
     def polar_array(self, count: int, angle: float | None = ...) -> Field:
-        r"""Copies turned about the z axis by equal angles.
+        r"""Copies rotated about the z axis by equal angles.
 
             min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 10000)
-        angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+        angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
         """
     def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
-        r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+        r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
             min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
-        count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
-        count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
-        count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+        of: The field or object to copy. (object)
+        spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+        count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+        count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+        count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Field:
-        r"""Copies without end along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; they must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
-        of: What is copied: a field or an object. (object)
-        spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+        of: The field or object to copy. (object)
+        spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
         """
     def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Field:
         r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
@@ -258,10 +258,10 @@ class Field:
 
         Section 7.7 of the paper.
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 100000)
-        radius: Of the disk that the copies' origins share. (number in m; positive)
-        turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+        radius: Radius of the disk of the copies' origins. (number in m; positive)
+        turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Field:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
@@ -270,24 +270,24 @@ class Field:
 
         Section 7.7 of the paper.
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 100000)
-        radius: Of the sphere that the copies' origins are on. (number in m; positive)
+        radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-        r"""Copies strewn over a field's surface, standing on it, each turned at random.
+        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        on: The field on whose surface they stand; it must be bounded. (field)
-        count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
-        spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
-        smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-        seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        of: The field or object to copy. (object)
+        on: The field whose surface the copies stand on; it must be bounded. (field)
+        count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+        spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+        smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+        seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
         """
     def extrude(self, height: float) -> Field:
-        r"""A field's cross-section at z = 0, moved along z; exact where the field is the exact distance to its cross-section.
+        r"""Extrudes a field's cross-section at z = 0 along z; exact where the field is the exact distance to its cross-section.
 
             a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
 
@@ -295,51 +295,51 @@ class Field:
         height: Whole height, centred at z = 0. (number in m; positive)
         """
     def revolve(self, offset: float | None = ...) -> Field:
-        r"""A field's cross-section at z = 0 turned about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section and that does not cross the axis.
+        r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
 
             f(|pxy| − o, z, 0)
 
-        of: The field; what its section has beyond the axis is cut off. (field)
-        offset: How far the section is moved away from the axis first. (number in m; default 0)
+        of: The field; the part of its section beyond the axis is cut off. (field)
+        offset: Distance by which the section is first moved away from the axis. (number in m; default 0)
         """
     def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Field:
-        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+        r"""A field or an object with a bounding volume, whose distance replaces it far away. Parts outside the volume are cut off.
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
         Section 4.1, 7.3 of the paper.
 
-        of: What is bounded: a field or an object. (object)
-        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-        volume: A field around it. Default: the box around it. (field; default none)
+        of: The field or object to bound. (object)
+        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+        r"""A field or an object with a proxy, a simpler field g near it, which replaces it away from the surface, outside and inside. Parts more than e outside the proxy are cut off, and gaps more than e inside it are filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
         Section 4.1, 7.3 of the paper.
 
-        of: What is stood in for: a field or an object. (object)
+        of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
-        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
-        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        error: Maximum distance e between the two surfaces. (number in m; zero or more)
+        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
         Section 4.1, 7.3 of the paper.
 
         of: The levels, fields or objects, the finest first. (list of objects)
-        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
-        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+        viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def set(self, phase: Phase | str) -> Object:
-        r"""A field filled with one phase.
+        r"""Fills a field with one phase.
 
             φₖ = f,  φ₀ = −f
 
@@ -349,7 +349,7 @@ class Field:
         phase: The phase inside. (phase)
         """
     def thin_shell(self, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
-        r"""A wall of thickness 2t about a field's surface, and what it encloses.
+        r"""A wall of thickness 2t about the surface of a field, and its interior.
 
             φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
 
@@ -361,41 +361,41 @@ class Field:
         half_thickness: Half of the wall, t. (number in m; positive)
         """
     def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Moves without turning.
+        r"""Translates.
 
             φ(p − v)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        by: Where the origin goes. ([x, y, z] in m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        by: Image of the origin. ([x, y, z] in m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Turns about an axis through the origin, right-handed.
+        r"""Rotates about an axis through the origin, by the right-hand rule.
 
             φ(Rᵀ p)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         angle: Angle. (number in degrees)
         axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Makes larger or smaller by the same factor everywhere.
+        r"""Scales by the same factor along all axes.
 
             s · φ(p / s)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         factor: The factor. (number; positive)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Twists about the z axis.
@@ -404,34 +404,34 @@ class Field:
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Angle for each unit of height. (number in degrees/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Angle per unit of height. (number in degrees/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Makes larger or smaller by a factor of its own along each axis.
+        r"""Scales by a different factor along each axis.
 
             φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         factors: The factors along x, y and z. ([x, y, z]; positive)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+        r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
             φ(p − 2 min(p·n, 0) n)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Narrows or widens along the z axis.
@@ -440,10 +440,10 @@ class Field:
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Bends the x axis into an arc towards +z.
@@ -452,39 +452,39 @@ class Field:
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+        r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
             φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
-        y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
-        z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
-        by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
+        y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
+        z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
+        by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-        r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+        r"""Distorts space by fractal noise, as in rock or smoke.
 
             φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         amplitude: Largest displacement along each axis, a. (number in m; zero or more)
         scale: Size of the largest swirls. (number in m; positive)
-        octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
 
 class Object:
@@ -544,45 +544,45 @@ tolerance: by which share the distance may be more than the least."""
         Section 4.2 of the paper.
 
         of: The object. (object)
-        phases: The phases to merge; all if left out. (phase or list of phases; default all)
+        phases: The phases to merge; by default all. (phase or list of phases; default all)
         """
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
-        r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+        r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
             min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        positions: Where the copies' origins go. (list of [x, y, z]s in m)
-        turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
-        scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+        of: The field or object to copy. (object)
+        positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+        turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+        scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
         """
     def polar_array(self, count: int, angle: float | None = ...) -> Object:
-        r"""Copies turned about the z axis by equal angles.
+        r"""Copies rotated about the z axis by equal angles.
 
             min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 10000)
-        angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+        angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
         """
     def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
-        r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+        r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
             min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
-        count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
-        count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
-        count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+        of: The field or object to copy. (object)
+        spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+        count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+        count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+        count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Object:
-        r"""Copies without end along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; they must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
-        of: What is copied: a field or an object. (object)
-        spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+        of: The field or object to copy. (object)
+        spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
         """
     def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Object:
         r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
@@ -591,10 +591,10 @@ tolerance: by which share the distance may be more than the least."""
 
         Section 7.7 of the paper.
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 100000)
-        radius: Of the disk that the copies' origins share. (number in m; positive)
-        turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+        radius: Radius of the disk of the copies' origins. (number in m; positive)
+        turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Object:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
@@ -603,60 +603,60 @@ tolerance: by which share the distance may be more than the least."""
 
         Section 7.7 of the paper.
 
-        of: What is copied: a field or an object. (object)
+        of: The field or object to copy. (object)
         count: How many. (whole number; at least 1 and at most 100000)
-        radius: Of the sphere that the copies' origins are on. (number in m; positive)
+        radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-        r"""Copies strewn over a field's surface, standing on it, each turned at random.
+        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
 
-        of: What is copied: a field or an object. (object)
-        on: The field on whose surface they stand; it must be bounded. (field)
-        count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
-        spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
-        smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-        seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+        of: The field or object to copy. (object)
+        on: The field whose surface the copies stand on; it must be bounded. (field)
+        count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+        spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+        smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+        seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
         """
     def bounding_volume(self, margin: float, volume: Field | Expression | None = ...) -> Object:
-        r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+        r"""A field or an object with a bounding volume, whose distance replaces it far away. Parts outside the volume are cut off.
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
         Section 4.1, 7.3 of the paper.
 
-        of: What is bounded: a field or an object. (object)
-        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-        volume: A field around it. Default: the box around it. (field; default none)
+        of: The field or object to bound. (object)
+        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+        r"""A field or an object with a proxy, a simpler field g near it, which replaces it away from the surface, outside and inside. Parts more than e outside the proxy are cut off, and gaps more than e inside it are filled.
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
         Section 4.1, 7.3 of the paper.
 
-        of: What is stood in for: a field or an object. (object)
+        of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
-        error: How far apart the surfaces of both may be, e. (number in m; zero or more)
-        margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-        inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+        error: Maximum distance e between the two surfaces. (number in m; zero or more)
+        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-        r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
         Section 4.1, 7.3 of the paper.
 
         of: The levels, fields or objects, the finest first. (list of objects)
-        viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
-        distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+        viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
+        distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
+        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
-        r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
+        r"""Combines objects; where they overlap, later ones replace earlier ones. Folded from the first object to the last.
 
             φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
@@ -665,7 +665,7 @@ tolerance: by which share the distance may be more than the least."""
         of: The objects, at least one. (list of objects)
         """
     def over(self, *of: Object) -> Object:
-        r"""Objects together; where several are, an earlier one replaces the later. Folded from the last object to the first.
+        r"""Combines objects; where they overlap, earlier ones replace later ones. Folded from the last object to the first.
 
             A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
@@ -674,7 +674,7 @@ tolerance: by which share the distance may be more than the least."""
         of: The objects, at least one. (list of objects)
         """
     def layered(self, phase: Phase | str, thickness: float) -> Object:
-        r"""Embeds an object in a layer of one more phase.
+        r"""Embeds an object in a layer of another phase.
 
             φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
 
@@ -685,7 +685,7 @@ tolerance: by which share the distance may be more than the least."""
         thickness: Thickness of the layer. (number in m; positive)
         """
     def intersect_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
+        r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
 
             φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -693,10 +693,10 @@ tolerance: by which share the distance may be more than the least."""
 
         of: The object. (object)
         shape: The field to keep within. (field)
-        phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+        phases: The phases to cut; by default all. (phase or list of phases; default all)
         """
     def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
+        r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
 
             φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
@@ -704,7 +704,7 @@ tolerance: by which share the distance may be more than the least."""
 
         of: The object. (object)
         shape: The field to cut away. (field)
-        phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+        phases: The phases to cut; by default all. (phase or list of phases; default all)
         """
     def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
         r"""Turns one phase into another within a shape (everywhere without one).
@@ -714,12 +714,12 @@ tolerance: by which share the distance may be more than the least."""
         Section 5.2 of the paper.
 
         of: The object. (object)
-        from_: The phase to turn. (phase)
-        to: What it becomes. (phase)
-        shape: Where; everywhere if left out. (field; default none)
+        from_: The phase to change. (phase)
+        to: The phase that it becomes. (phase)
+        shape: The field inside which to change it; by default everywhere. (field; default none)
         """
     def remove(self, phases: Phase | str | Sequence[Phase | str]) -> Object:
-        r"""Empties phases: vacuum takes their place.
+        r"""Replaces phases by vacuum.
 
             φₖ absent,  φ₀ = min(a₀, aₖ)
 
@@ -729,7 +729,7 @@ tolerance: by which share the distance may be more than the least."""
         phases: The phases to remove. (phase or list of phases)
         """
     def contact(self, b: Object, phase_a: Phase | str, phase_b: Phase | str, alpha: float) -> Object:
-        r"""Two phases pressed against each other: they share the space that both claim.
+        r"""Two phases pressed against each other: they share the overlap.
 
             f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
 
@@ -739,7 +739,7 @@ tolerance: by which share the distance may be more than the least."""
         b: The object B, which replaces A where they are not in contact. (object)
         phase_a: The phase of A that is in contact. (phase)
         phase_b: The phase of B that is in contact. (phase)
-        alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+        alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
         """
     def contacts(self, b: Object, alpha: float, phases_a: Phase | str | Sequence[Phase | str] | None = ..., phases_b: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Contact between sets of phases: objects that press against each other and keep their phases.
@@ -750,9 +750,9 @@ tolerance: by which share the distance may be more than the least."""
 
         a: The object A. (object)
         b: The object B, which replaces A where they are not in contact. (object)
-        alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
-        phases_a: The phases of A in contact; all if left out. (phase or list of phases; default all)
-        phases_b: The phases of B in contact; all if left out. (phase or list of phases; default all)
+        alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
+        phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
+        phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
         """
     def layered_sequence(self, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:
         r"""Embeds an object in layers, the innermost first.
@@ -775,7 +775,7 @@ tolerance: by which share the distance may be more than the least."""
         of: The object. (object)
         phase: The phase of the layer. (phase)
         thickness: Thickness of the layer away from the grooves. (number in m; positive)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def unite_shape_below(self, shape: Field | Expression, phase: Phase | str) -> Object:
         r"""Adds a shape to one phase, below the other phases.
@@ -789,7 +789,7 @@ tolerance: by which share the distance may be more than the least."""
         phase: The phase that grows. (phase)
         """
     def smooth_unite_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-        r"""Melts a shape into one phase, over the other phases.
+        r"""Blends a shape into one phase, over the other phases.
 
             s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
 
@@ -798,10 +798,10 @@ tolerance: by which share the distance may be more than the least."""
         of: The object. (object)
         shape: The field to add. (field)
         phase: The phase that grows. (phase)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_unite_shape_below(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-        r"""Melts a shape into one phase, below the other phases.
+        r"""Blends a shape into one phase, below the other phases.
 
             s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
 
@@ -810,10 +810,10 @@ tolerance: by which share the distance may be more than the least."""
         of: The object. (object)
         shape: The field to add. (field)
         phase: The phase that grows. (phase)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_intersect_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-        r"""Keeps of one phase what lies within a shape, its new edges worn.
+        r"""Keeps only the part of one phase inside a shape, and rounds the new edges.
 
             s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
 
@@ -821,11 +821,11 @@ tolerance: by which share the distance may be more than the least."""
 
         of: The object. (object)
         shape: The field to keep within. (field)
-        phase: The phase that is cut. (phase)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        phase: The phase to cut. (phase)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_subtract_shape(self, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-        r"""Cuts a shape away from one phase, its new edges worn.
+        r"""Cuts a shape away from one phase, and rounds the new edges.
 
             s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
 
@@ -833,11 +833,11 @@ tolerance: by which share the distance may be more than the least."""
 
         of: The object. (object)
         shape: The field to cut away. (field)
-        phase: The phase that is cut. (phase)
-        radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+        phase: The phase to cut. (phase)
+        radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def interface(self, phase_a: Phase | str, phase_b: Phase | str, half_thickness: float) -> Object:
-        r"""The thin volume about the interface between two phases, as deep in either.
+        r"""A thin volume about the interface between two phases, equally deep in both.
 
             S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
 
@@ -846,54 +846,54 @@ tolerance: by which share the distance may be more than the least."""
         of: The object. (object)
         phase_a: The phase on one side. (phase)
         phase_b: The phase on the other side. (phase)
-        half_thickness: How deep in either phase, ε. (number in m; positive)
+        half_thickness: Depth ε in each phase. (number in m; positive)
         """
     def interfaces(self, half_thickness: float) -> Object:
-        r"""The thin volumes about all interfaces between phases.
+        r"""Thin volumes about all interfaces between phases.
 
             S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
 
         Section 7.4 of the paper.
 
-        of: The object, of two phases at least. (object)
-        half_thickness: How deep in either phase, ε. (number in m; positive)
+        of: The object, with at least two phases. (object)
+        half_thickness: Depth ε in each phase. (number in m; positive)
         """
     def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Moves without turning.
+        r"""Translates.
 
             φ(p − v)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        by: Where the origin goes. ([x, y, z] in m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        by: Image of the origin. ([x, y, z] in m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Turns about an axis through the origin, right-handed.
+        r"""Rotates about an axis through the origin, by the right-hand rule.
 
             φ(Rᵀ p)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         angle: Angle. (number in degrees)
         axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Makes larger or smaller by the same factor everywhere.
+        r"""Scales by the same factor along all axes.
 
             s · φ(p / s)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         factor: The factor. (number; positive)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Twists about the z axis.
@@ -902,34 +902,34 @@ tolerance: by which share the distance may be more than the least."""
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Angle for each unit of height. (number in degrees/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Angle per unit of height. (number in degrees/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Makes larger or smaller by a factor of its own along each axis.
+        r"""Scales by a different factor along each axis.
 
             φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         factors: The factors along x, y and z. ([x, y, z]; positive)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+        r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
             φ(p − 2 min(p·n, 0) n)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Narrows or widens along the z axis.
@@ -938,10 +938,10 @@ tolerance: by which share the distance may be more than the least."""
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Bends the x axis into an arc towards +z.
@@ -950,39 +950,39 @@ tolerance: by which share the distance may be more than the least."""
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+        r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
             φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
-        x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
-        y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
-        z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
-        by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        of: The field or object to warp. (object)
+        x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
+        y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
+        z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
+        by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
     def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+        r"""Distorts space by fractal noise, as in rock or smoke.
 
             φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
         Section 6 of the paper.
 
-        of: What is warped: a field or an object. (object)
+        of: The field or object to warp. (object)
         amplitude: Largest displacement along each axis, a. (number in m; zero or more)
         scale: Size of the largest swirls. (number in m; positive)
-        octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
-        over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-        under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+        octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
+        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
         """
 
 class Image:
@@ -1175,7 +1175,7 @@ def plane(normal: Sequence[float] | np.ndarray | None = ..., offset: float | Non
     """
 
 def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""All that is in any of the fields.
+    r"""The points that are inside any field.
 
         min fᵢ
 
@@ -1183,7 +1183,7 @@ def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
     """
 
 def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""What is in all of the fields.
+    r"""The points that are inside all fields.
 
         max fᵢ
 
@@ -1191,7 +1191,7 @@ def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Fiel
     """
 
 def difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""A field without others.
+    r"""Subtracts fields from a field.
 
         max(f, −min gᵢ)
 
@@ -1200,29 +1200,29 @@ def difference(from_: Field | Expression, *subtract: Field | Expression | Sequen
     """
 
 def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Union whose seams are filled; folded from the first field to the last.
+    r"""Union with filleted seams; folded from the first field to the last.
 
         smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
     Section 9.3 of the paper.
 
     of: The fields, at least one. (list of fields)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Intersection whose edges are worn; folded from the first field to the last.
+    r"""Intersection with rounded edges; folded from the first field to the last.
 
         −smin(−a, −b)
 
     Section 9.3 of the paper.
 
     of: The fields, at least one. (list of fields)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def smooth_difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""A field without others, its new edges worn.
+    r"""Subtracts fields from a field and rounds the new edges.
 
         −smin(−f, smin gᵢ)
 
@@ -1230,18 +1230,18 @@ def smooth_difference(from_: Field | Expression, *subtract: Field | Expression |
 
     from_: The field to cut. (field)
     subtract: The fields to cut away, at least one. (list of fields)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def offset(of: Field | Expression, distance: float) -> Field:
-    r"""A field inflated by t (deflated for a negative t).
+    r"""Inflates a field by t, or deflates it if t is negative.
 
         f − t
 
     Section 4.1 of the paper.
 
     of: The field. (field)
-    distance: How far the surface moves outwards. (number in m)
+    distance: Distance by which the surface moves outwards. (number in m)
     """
 
 def shell(of: Field | Expression, half_thickness: float) -> Field:
@@ -1263,7 +1263,7 @@ def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) 
     Section 4.2 of the paper.
 
     of: The object. (object)
-    phases: The phases to merge; all if left out. (phase or list of phases; default all)
+    phases: The phases to merge; by default all. (phase or list of phases; default all)
     """
 
 def ellipsoid(radii: Sequence[float] | np.ndarray) -> Field:
@@ -1290,7 +1290,7 @@ def link(length: float, major: float, minor: float) -> Field:
         y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r
 
     length: Length of the straight part. (number in m; zero or more)
-    major: Radius of the half rings' centre line. (number in m; positive)
+    major: Radius of the centre line of the half rings. (number in m; positive)
     minor: Radius of the rod. (number in m; positive)
     """
 
@@ -1315,7 +1315,7 @@ def rounded_cylinder(radius: float, height: float, edge: float) -> Field:
     """
 
 def round_cone(from_: Sequence[float] | np.ndarray, radius_from: float, to: Sequence[float] | np.ndarray, radius_to: float) -> Field:
-    r"""The hull of two balls; exact.
+    r"""The convex hull of two balls; exact.
 
         k = c x − s y;  k < 0: |p − from| − a;  k > c l: |p − to| − b;  else s x + c y − a
 
@@ -1326,7 +1326,7 @@ def round_cone(from_: Sequence[float] | np.ndarray, radius_from: float, to: Sequ
     """
 
 def spherical_cap(radius: float, cut: float | None = ...) -> Field:
-    r"""What a plane leaves of a ball about the origin: the part above z = c; exact.
+    r"""The part of a ball about the origin above the plane z = c; exact.
 
         ± min(distance to the disk, ||p| − r| where r pz ≥ c |p|)
 
@@ -1339,7 +1339,7 @@ def prism(sides: float, radius: float, height: float) -> Field:
 
         fold to one sector;  q = (polygon, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)
 
-    sides: Sides of the polygon, a whole number. (number; at least 3 and at most 64)
+    sides: Number of sides of the polygon. (number; at least 3 and at most 64)
     radius: Radius of the circle through the corners. (number in m; positive)
     height: Whole height. (number in m; positive)
     """
@@ -1366,15 +1366,15 @@ def octahedron(radius: float) -> Field:
 
         distance to the projection of |p| onto x + y + z = r
 
-    radius: Distance of the corners, which are on the axes. (number in m; positive)
+    radius: Distance of the corners, which lie on the axes, from the origin. (number in m; positive)
     """
 
 def tetrahedron(radius: float) -> Field:
-    r"""A regular tetrahedron about the origin, corners on the diagonals of the axes; exact.
+    r"""A regular tetrahedron about the origin, with corners on the space diagonals; exact.
 
         fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge
 
-    radius: Distance of the corners. (number in m; positive)
+    radius: Distance of the corners from the origin. (number in m; positive)
     """
 
 def gyroid(period: float, thickness: float) -> Field:
@@ -1382,8 +1382,8 @@ def gyroid(period: float, thickness: float) -> Field:
 
         |sin x cos y + sin y cos z + sin z cos x|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
-    period: Edge of the cube that repeats. (number in m; positive)
-    thickness: Least thickness of the wall. (number in m; positive)
+    period: Edge length of the unit cell. (number in m; positive)
+    thickness: Minimum thickness of the wall. (number in m; positive)
     """
 
 def schwarz_p(period: float, thickness: float) -> Field:
@@ -1391,8 +1391,8 @@ def schwarz_p(period: float, thickness: float) -> Field:
 
         |cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
-    period: Edge of the cube that repeats. (number in m; positive)
-    thickness: Least thickness of the wall. (number in m; positive)
+    period: Edge length of the unit cell. (number in m; positive)
+    thickness: Minimum thickness of the wall. (number in m; positive)
     """
 
 def schwarz_d(period: float, thickness: float) -> Field:
@@ -1400,88 +1400,88 @@ def schwarz_d(period: float, thickness: float) -> Field:
 
         |sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
-    period: Edge of the cube that repeats. (number in m; positive)
-    thickness: Least thickness of the wall. (number in m; positive)
+    period: Edge length of the unit cell. (number in m; positive)
+    thickness: Minimum thickness of the wall. (number in m; positive)
     """
 
 def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
-    r"""A field whose surface is moved in and out by fractal noise.
+    r"""Displaces the surface of a field by fractal noise.
 
         min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
     of: The field. (field)
     amplitude: Largest displacement, a. (number in m; zero or more)
     scale: Size of the largest bumps. (number in m; positive)
-    octaves: Sizes of bumps, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
+    octaves: Number of octaves of noise, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
     """
 
 @overload
 def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
-    r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
         min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    positions: Where the copies' origins go. (list of [x, y, z]s in m)
-    turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
-    scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+    of: The field or object to copy. (object)
+    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
     """
 @overload
 def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
-    r"""Copies at listed positions, each turned about the z axis and scaled if that is listed too.
+    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
         min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    positions: Where the copies' origins go. (list of [x, y, z]s in m)
-    turns: Angle of each copy about its own z axis; one number stands for all. (number or list of numbers in degrees; default [])
-    scales: Factor of each copy's size; one number stands for all. (number or list of numbers; positive; default [])
+    of: The field or object to copy. (object)
+    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
     """
 
 @overload
 def polar_array(of: Field, count: int, angle: float | None = ...) -> Field:
-    r"""Copies turned about the z axis by equal angles.
+    r"""Copies rotated about the z axis by equal angles.
 
         min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 10000)
-    angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
     """
 @overload
 def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
-    r"""Copies turned about the z axis by equal angles.
+    r"""Copies rotated about the z axis by equal angles.
 
         min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 10000)
-    angle: What they share: copy i is turned by i/count of it. Default: all around. (number in degrees; default 360)
+    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
     """
 
 @overload
 def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
-    r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
         min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
-    count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
-    count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
-    count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
     """
 @overload
 def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
-    r"""Copies in rows along x, y and z; the first stays where it is. They may overlap. Their order: i counts fastest, then j, then k.
+    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
         min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    spacing: From one copy to the next along x, y and z. ([x, y, z] in m)
-    count_x: How many along x. (whole number; at least 1 and at most 10000; default 1)
-    count_y: How many along y. (whole number; at least 1 and at most 10000; default 1)
-    count_z: How many along z. (whole number; at least 1 and at most 10000; default 1)
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
     """
 
 def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> Field:
@@ -1490,41 +1490,41 @@ def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> F
         min over segments ab of |p − a − t (b − a)| − r, t in [0, 1]
 
     points: The chain's points, at least two. (list of [x, y, z]s in m)
-    radius: Of the wire. (number in m; positive)
+    radius: Radius of the wire. (number in m; positive)
     """
 
 @overload
 def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
-    r"""Copies without end along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; they must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
-    of: What is copied: a field or an object. (object)
-    spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
     """
 @overload
 def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
-    r"""Copies without end along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; they must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
-    of: What is copied: a field or an object. (object)
-    spacing: From one copy to the next along x, y and z; 0 for no copies along that axis. ([x, y, z] in m; zero or more)
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
     """
 
 def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Expression | Sequence[Field | Expression] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
-    r"""A BlobTree: points, a chain of segments and other fields as skeletons, whose compactly supported contributions add up and melt into each other.
+    r"""A BlobTree: the skeletons are points, a chain of segments and other fields. Their contributions have compact support, add up, and blend into each other.
 
         max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
 
     Section 7.5, 9.2 of the paper.
 
-    radii: How far each skeleton reaches: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
+    radii: Radius of influence of each skeleton: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
     points: Point skeletons. (list of [x, y, z]s in m; default [])
-    polyline: A chain of points, one skeleton as a whole. (list of [x, y, z]s in m; default [])
+    polyline: A chain of segments, which is a single skeleton. (list of [x, y, z]s in m; default [])
     of: Fields as skeletons: their distance, zero inside. (list of fields; default [])
-    weights: The skeletons' weights, in the same way; 1 if absent. (number or list of numbers; positive; default [])
-    threshold: T; the larger, the smaller the solid. (number; positive; default 0.5)
+    weights: Weights of the skeletons, in the same order; default 1. (number or list of numbers; positive; default [])
+    threshold: Threshold T; a larger one makes the solid smaller. (number; positive; default 0.5)
     """
 
 def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter: float | None = ..., seed: float | None = ...) -> Field:
@@ -1534,11 +1534,11 @@ def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter:
 
     Section 4.3, 9.1 of the paper.
 
-    size: Of the cubes that have a site each. (number in m; positive)
+    size: Edge length of the cubes, each of which has one site. (number in m; positive)
     gap: Between blocks. (number in m; positive)
-    rounding: Of the edges, c; 0 for sharp ones. (number in m; zero or more; default 0)
-    jitter: How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes. (number; at least 0 and at most 1; default 0.9)
-    seed: Another number, another pattern. (number; at least 0 and at most 288; default 0)
+    rounding: Rounding c of the edges; 0 for sharp ones. (number in m; zero or more; default 0)
+    jitter: Irregularity: 0 puts the sites on a cubic lattice, 1 anywhere in their cubes. (number; at least 0 and at most 1; default 0.9)
+    seed: Seed of the pattern. (number; at least 0 and at most 288; default 0)
     """
 
 def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
@@ -1548,38 +1548,38 @@ def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
 
     Section 7.5, 9.4 of the paper.
 
-    file: The weights: JSON, {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]} with the frequencies multiplied in. (name of a file)
-    samples: 0: λ is the product of the layers' spectral norms, which is proven. More: λ is the steepest slope at this many points, plus a tenth: tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
+    file: File of weights: JSON, {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}, with the frequencies multiplied in. (name of a file)
+    samples: 0: λ is the product of the layers' spectral norms, which is a proven bound. More: λ is the steepest slope at this many points, plus a tenth: tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
     """
 
 def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
-    r"""What lies below a terrain that an image gives, black low and white high, about the z axis.
+    r"""The ground below a height map about the z axis; black is low and white is high.
 
         min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic B-spline of the pixels
 
     Section 7.1 of the paper.
 
-    file: The image; its first channel counts. (name of a file)
-    size_x: Its width, along x. (number in m; positive)
-    size_y: Its height, along y. (number in m; positive)
-    height: The height of white; black is at z = 0. (number in m; positive)
+    file: Image file, of which the first channel is used. (name of a file)
+    size_x: Width of the image, along x. (number in m; positive)
+    size_y: Height of the image, along y. (number in m; positive)
+    height: Height of white; black is at z = 0. (number in m; positive)
     """
 
 def mesh(file: str | PathLike[str]) -> Field:
-    r"""The solid within a closed surface of triangles, exact.
+    r"""The solid inside a closed triangle mesh; exact.
 
         ± min over the triangles of |p − nearest point|
 
-    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are ignored. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    file: Mesh file: OBJ, PLY or STL, in metres. The surface must be closed, must not intersect itself, and must be counter-clockwise seen from outside. Vertices that differ only by rounding are merged; materials, normals and the like are ignored. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
-    r"""The solid of a level set in an OpenVDB file, at its place in the file. Beyond the file's narrow band the field does not grow.
+    r"""The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the file's narrow band.
 
         max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
 
-    file: The OpenVDB file. Its grid must be a level set of floats or doubles whose axes lie along those of space, in any order and direction; lengths in it are metres. (name of a file)
-    grid: Which of the file's grids; needed if it has several level sets. If several have the same name, its index follows: "name[0]", "name[1]". (text; default "")
+    file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Lengths in it are metres. (name of a file)
+    grid: Name of the grid; required if the file has several level sets. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
     """
 
 @overload
@@ -1590,10 +1590,10 @@ def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ..
 
     Section 7.7 of the paper.
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 100000)
-    radius: Of the disk that the copies' origins share. (number in m; positive)
-    turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+    radius: Radius of the disk of the copies' origins. (number in m; positive)
+    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
     """
 @overload
 def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
@@ -1603,10 +1603,10 @@ def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = .
 
     Section 7.7 of the paper.
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 100000)
-    radius: Of the disk that the copies' origins share. (number in m; positive)
-    turned: 1: each copy's x axis points away from the middle. (whole number; at least 0 and at most 1; default 0)
+    radius: Radius of the disk of the copies' origins. (number in m; positive)
+    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
     """
 
 @overload
@@ -1617,9 +1617,9 @@ def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
 
     Section 7.7 of the paper.
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 100000)
-    radius: Of the sphere that the copies' origins are on. (number in m; positive)
+    radius: Radius of the sphere of the copies' origins. (number in m; positive)
     """
 @overload
 def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
@@ -1629,40 +1629,40 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
 
     Section 7.7 of the paper.
 
-    of: What is copied: a field or an object. (object)
+    of: The field or object to copy. (object)
     count: How many. (whole number; at least 1 and at most 100000)
-    radius: Of the sphere that the copies' origins are on. (number in m; positive)
+    radius: Radius of the sphere of the copies' origins. (number in m; positive)
     """
 
 @overload
 def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-    r"""Copies strewn over a field's surface, standing on it, each turned at random.
+    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    on: The field on whose surface they stand; it must be bounded. (field)
-    count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
-    spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
-    smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-    seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+    of: The field or object to copy. (object)
+    on: The field whose surface the copies stand on; it must be bounded. (field)
+    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
     """
 @overload
 def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-    r"""Copies strewn over a field's surface, standing on it, each turned at random.
+    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
 
-    of: What is copied: a field or an object. (object)
-    on: The field on whose surface they stand; it must be bounded. (field)
-    count: How many; fewer if there is not space. (whole number; at least 1 and at most 100000)
-    spacing: The least distance between two copies' origins. (number in m; zero or more; default 0)
-    smallest: Sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-    seed: Another number, other places. (whole number; at least 0 and at most 1000000; default 1)
+    of: The field or object to copy. (object)
+    on: The field whose surface the copies stand on; it must be bounded. (field)
+    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
     """
 
 def extrude(of: Field | Expression, height: float) -> Field:
-    r"""A field's cross-section at z = 0, moved along z; exact where the field is the exact distance to its cross-section.
+    r"""Extrudes a field's cross-section at z = 0 along z; exact where the field is the exact distance to its cross-section.
 
         a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
 
@@ -1671,12 +1671,12 @@ def extrude(of: Field | Expression, height: float) -> Field:
     """
 
 def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
-    r"""A field's cross-section at z = 0 turned about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section and that does not cross the axis.
+    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
 
         f(|pxy| − o, z, 0)
 
-    of: The field; what its section has beyond the axis is cut off. (field)
-    offset: How far the section is moved away from the axis first. (number in m; default 0)
+    of: The field; the part of its section beyond the axis is cut off. (field)
+    offset: Distance by which the section is first moved away from the axis. (number in m; default 0)
     """
 
 def circle(radius: float) -> Field:
@@ -1694,7 +1694,7 @@ def rectangle(width: float, height: float, radius: float | None = ...) -> Field:
 
     width: Whole length along x. (number in m; positive)
     height: Whole length along y. (number in m; positive)
-    radius: Radius of the corners; half of the shorter side at most. (number in m; zero or more; default 0)
+    radius: Radius of the corners, at most half the shorter side. (number in m; zero or more; default 0)
     """
 
 def star(points: float, radius: float, inner_radius: float) -> Field:
@@ -1702,19 +1702,19 @@ def star(points: float, radius: float, inner_radius: float) -> Field:
 
         fold to one sector;  ± distance to its edge
 
-    points: How many tips, a whole number. (number; at least 3 and at most 64)
+    points: Number of tips. (number; at least 3 and at most 64)
     radius: Distance of the tips from the centre. (number in m; positive)
-    inner_radius: Distance of the notches, less than that of the tips. (number in m; positive)
+    inner_radius: Distance of the notches from the centre, less than that of the tips. (number in m; positive)
     """
 
 def slab(thickness: float, normal: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Field:
-    r"""What is between two parallel planes; exact.
+    r"""The space between two parallel planes; exact.
 
         |p·n − d| − t/2
 
-    thickness: Distance of the two planes. (number in m; positive)
-    normal: Direction across the slab; any length but zero. ([x, y, z]; default [0, 0, 1])
-    offset: Distance of its middle from the origin along the normal. (number in m; default 0)
+    thickness: Distance between the two planes. (number in m; positive)
+    normal: Normal of the slab; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Distance of the slab's middle from the origin along the normal. (number in m; default 0)
     """
 
 def box_frame(size: Sequence[float] | np.ndarray, thickness: float) -> Field:
@@ -1723,21 +1723,21 @@ def box_frame(size: Sequence[float] | np.ndarray, thickness: float) -> Field:
         min over the bars of |max(|bar| − size/2, 0)| − depth within the union
 
     size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
-    thickness: Width of a bar, less than half of the shortest edge. (number in m; positive)
+    thickness: Width of the bars, less than half of the shortest edge. (number in m; positive)
     """
 
 def bowl(radius: float, thickness: float, cut: float | None = ...) -> Field:
-    r"""A hollow ball about the origin, cut open at a height, with a round rim; exact where the rim does not close the opening.
+    r"""A hollow ball about the origin, cut open at a height, with a rounded rim; exact unless the rim closes the opening.
 
         (R pz ≤ c |p| ? ||p| − R| : |(|pxy| − w, pz − c)|) − t/2
 
-    radius: Radius of the wall's middle. (number in m; positive)
+    radius: Radius of the middle of the wall. (number in m; positive)
     thickness: Thickness of the wall, less than twice the radius. (number in m; positive)
-    cut: Height z of the rim; at 0 a half of the ball is left. (number in m; default 0)
+    cut: Height z of the rim; 0 leaves a hemisphere. (number in m; default 0)
     """
 
 def dodecahedron(radius: float) -> Field:
-    r"""A regular dodecahedron about the origin, an edge's middle on each half axis: on x the edge runs along z, on y along x, on z along y; exact.
+    r"""A regular dodecahedron about the origin. The middle of an edge lies on each half axis: on x the edge runs along z, on y along x, on z along y. Exact.
 
         fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
 
@@ -1745,7 +1745,7 @@ def dodecahedron(radius: float) -> Field:
     """
 
 def icosahedron(radius: float) -> Field:
-    r"""A regular icosahedron about the origin, an edge's middle on each half axis: on x the edge runs along y, on y along z, on z along x; exact.
+    r"""A regular icosahedron about the origin. The middle of an edge lies on each half axis: on x the edge runs along y, on y along z, on z along x. Exact.
 
         fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
 
@@ -1753,26 +1753,26 @@ def icosahedron(radius: float) -> Field:
     """
 
 def helix(radius: float, pitch: float, turns: float, wire_radius: float) -> Field:
-    r"""A coil of round wire about the z axis with round ends, centred at half its height. It rises from its lower end, at y = 0 and x > 0, counter-clockwise as seen from above, which is right-handed; a left-handed coil is the mirror image across y = 0 and starts there, too. Exact where turns do not touch.
+    r"""A coil of round wire about the z axis with round ends, centred at half its height. It rises counter-clockwise as seen from above (right-handed) from its lower end, at y = 0 and x > 0. A left-handed coil is its mirror image across y = 0 and starts there, too. Exact where turns do not touch.
 
         √((ρ − R)² + 4ρR sin²(x/2) + k²(x − M)²) − r,  x + (ρR/k²) sin x = M,  or from an end
 
-    radius: Distance of the wire's middle from the axis. (number in m; positive)
-    pitch: Height of a turn; negative for a left-handed coil, not zero. (number in m)
-    turns: Number of turns, 1 at least. (number; at least 1 and at most 10000)
+    radius: Distance of the wire's centre line from the axis. (number in m; positive)
+    pitch: Height of one turn; negative for a left-handed coil; not zero. (number in m)
+    turns: Number of turns, at least 1. (number; at least 1 and at most 10000)
     wire_radius: Radius of the wire. (number in m; positive)
     """
 
 def heightfield(size: float, amplitude: float, octaves: float | None = ..., ridged: float | None = ..., seed: float | None = ...) -> Field:
-    r"""Terrain: the ground below a height made of fractal noise, without end in x and y.
+    r"""Terrain: the ground below a surface of fractal noise, infinite in x and y.
 
         min(max((z − h)/√(1 + L²), z − a), z + a),  L = 15 a (1 + r) octaves/(4 size Σ 2⁻ⁱ)
 
     size: Size of the largest hills. (number in m; positive)
     amplitude: Largest height above and depth below z = 0, a. (number in m; zero or more)
-    octaves: Sizes of hills, each half the one before; a whole number. (number; at least 1 and at most 6; default 4)
+    octaves: Number of octaves of hills, each with half the size of the one before. (number; at least 1 and at most 6; default 4)
     ridged: From rolling hills, 0, to mountains with sharp ridges, 1. (number; at least 0 and at most 1; default 0)
-    seed: Another whole number is another landscape. (number; at least -100000 and at most 100000; default 0)
+    seed: Seed of the landscape. (number; at least -100000 and at most 100000; default 0)
     """
 
 def polygon(points: Sequence[Sequence[float]] | np.ndarray) -> Field:
@@ -1780,7 +1780,7 @@ def polygon(points: Sequence[Sequence[float]] | np.ndarray) -> Field:
 
         ± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|
 
-    points: Its corners [x, y] in order, either way around, at most 4096; the last is joined to the first, and edges must not cross. (list of [x, y]s in m)
+    points: The corners [x, y] in order, in either direction, at most 4096. The last is joined to the first, and edges must not cross. (list of [x, y]s in m)
     """
 
 def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | None = ...) -> Field:
@@ -1788,134 +1788,134 @@ def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | No
 
         ± min over the curves of |p − B(t)|, t from the cubic (p − B)·B′ = 0;  for a line, less half of its thickness
 
-    points: [x, y] of a point on the curve, then of a control point, and so on, at most 2048. An even number is a closed curve, an odd one, which needs a thickness, ends on its last point. (list of [x, y]s in m)
-    thickness: Width of a line along the curve; 0 fills a closed curve, even-odd where it crosses itself. (number in m; zero or more; default 0)
+    points: [x, y] of a point on the curve, then of a control point, and so on; at most 2048 points. An even number makes a closed curve. An odd number makes an open one, which needs a thickness and ends at its last point. (list of [x, y]s in m)
+    thickness: Width of a line along the curve; 0 fills a closed curve by the even-odd rule. (number in m; zero or more; default 0)
     """
 
 def text(text: str | Expression, file: str | PathLike[str], size: float | None = ..., align: float | None = ..., spacing: float | None = ..., line_height: float | None = ...) -> Field:
-    r"""Letters of a font, for extruding; the same at every z, exact where no two letters overlap. The first line stands on y = 0 and lines follow downwards.
+    r"""Text in a font, for extruding; the same at every z, exact where no two letters overlap. The baseline of the first line is at y = 0, and further lines follow below.
 
         min over the letters of ± min over their curves of |p − B(t)|
 
-    text: What is written; \n begins another line. (text)
-    file: The font: TrueType or OpenType (.ttf, .otf). (name of a file)
-    size: The font's em: capitals are about 0.7 of it high. (number in m; positive; default 1)
-    align: What of each line is at x = 0: its beginning at 0, its middle at 0.5, its end at 1. (number; at least 0 and at most 1; default 0)
-    spacing: More room behind each letter than the font leaves; less, if it is negative. (number in em; at least -1 and at most 100; default 0)
-    line_height: From one line to the next. (number in em; positive; default 1.2)
+    text: The text; \n begins a new line. (text)
+    file: Font file: TrueType or OpenType (.ttf, .otf). (name of a file)
+    size: Em size of the font; capitals are about 0.7 em high. (number in m; positive; default 1)
+    align: Alignment: the point of each line at x = 0, from 0, its beginning, to 1, its end. (number; at least 0 and at most 1; default 0)
+    spacing: Additional space after each letter; may be negative. (number in em; at least -1 and at most 100; default 0)
+    line_height: Distance between lines. (number in em; positive; default 1.2)
     """
 
 def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Field:
-    r"""The solid where a formula of x, y and z is negative. It knows + − * / ^ with whole exponents, sqrt, abs, min, max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and names: "r = sqrt(x^2 + y^2); r - 1".
+    r"""The solid where a formula of x, y and z is negative. Formulas may use + − * / ^ with whole exponents, sqrt, abs, min, max, sin, cos, tan, exp, tanh, length, clamp, smooth_min, smooth_max, pi, and named values: "r = sqrt(x^2 + y^2); r - 1".
 
         f(x, y, z)/λ;  with bounds B: max(b(p), f(nearest point of B)/λ),  λ ≥ sup |∇f|
 
     text: The formula. (text)
-    bounds: The lowest and the highest corner of a box to which the solid is cut. Without it the formula's slope must be bounded everywhere. (list of [x, y, z]s in m; default [])
+    bounds: Lowest and highest corner of a box to which the solid is cut. Without it, the slope of the formula must be bounded everywhere. (list of [x, y, z]s in m; default [])
     """
 
 def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
-    r"""A convex polyhedron with any faces: what is behind all of some planes.
+    r"""A convex polyhedron: the intersection of half-spaces.
 
         max over i of nᵢ·p − hᵢ
 
-    normals: The planes' normals, outward, of any length but 0. (list of [x, y, z]s)
-    offsets: How far each plane is from the origin along its normal, h; one number for all, or as many as there are planes. (number or list of numbers in m)
+    normals: Outward normals of the planes, of any length but 0. (list of [x, y, z]s)
+    offsets: Distance h of each plane from the origin along its normal; one number for all, or one per plane. (number or list of numbers in m)
     """
 
 def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Field:
-    r"""Up to sixteen million balls, united: grains, drops, atoms. Exact outside.
+    r"""The union of up to sixteen million balls: grains, drops, atoms. Exact outside.
 
         min over i of |p − cᵢ| − rᵢ
 
-    centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
-    radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, instead of centres. (name of a file; default none)
+    centres: Centres of the balls, unless they are in a file. (list of [x, y, z]s in m; default [])
+    radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
     """
 
 @overload
 def bounding_volume(of: Field, margin: float, volume: Field | Expression | None = ...) -> Field:
-    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+    r"""A field or an object with a bounding volume, whose distance replaces it far away. Parts outside the volume are cut off.
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
     Section 4.1, 7.3 of the paper.
 
-    of: What is bounded: a field or an object. (object)
-    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-    volume: A field around it. Default: the box around it. (field; default none)
+    of: The field or object to bound. (object)
+    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 @overload
 def bounding_volume(of: Object, margin: float, volume: Field | Expression | None = ...) -> Object:
-    r"""A field or an object, and a volume around it whose distance stands in far away. What sticks out of the volume is cut off.
+    r"""A field or an object with a bounding volume, whose distance replaces it far away. Parts outside the volume are cut off.
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
     Section 4.1, 7.3 of the paper.
 
-    of: What is bounded: a field or an object. (object)
-    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-    volume: A field around it. Default: the box around it. (field; default none)
+    of: The field or object to bound. (object)
+    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 
 @overload
 def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+    r"""A field or an object with a proxy, a simpler field g near it, which replaces it away from the surface, outside and inside. Parts more than e outside the proxy are cut off, and gaps more than e inside it are filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
     Section 4.1, 7.3 of the paper.
 
-    of: What is stood in for: a field or an object. (object)
+    of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
-    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
-    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    error: Maximum distance e between the two surfaces. (number in m; zero or more)
+    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
     """
 @overload
 def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""A field or an object, and a simpler field g near it, which replaces it away from the surface, outside and inside. What lies more than e outside of the proxy is cut off, and within e inside it is filled.
+    r"""A field or an object with a proxy, a simpler field g near it, which replaces it away from the surface, outside and inside. Parts more than e outside the proxy are cut off, and gaps more than e inside it are filled.
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
     Section 4.1, 7.3 of the paper.
 
-    of: What is stood in for: a field or an object. (object)
+    of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
-    error: How far apart the surfaces of both may be, e. (number in m; zero or more)
-    margin: How far from there the distance to it takes over. The child does not matter beyond. (number in m; positive)
-    inside: Of an object: the phase that fills it from e inside of the proxy on. Without it the proxy stands in outside alone. (phase or list of phases; default all)
+    error: Maximum distance e between the two surfaces. (number in m; zero or more)
+    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
     """
 
 @overload
 def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
     Section 4.1, 7.3 of the paper.
 
     of: The levels, fields or objects, the finest first. (list of objects)
-    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
-    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 @overload
 def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-    r"""Levels of a field or an object, from fine to coarse: each stands between two distances from a viewpoint. Without distances the finest stands everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
     Section 4.1, 7.3 of the paper.
 
     of: The levels, fields or objects, the finest first. (list of objects)
-    viewpoint: From where distances are measured. ([x, y, z] in m; default [0, 0, 0])
-    distances: Where each level gives way to the next, rising; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: How far the surface of each level but the finest is from that of the finest, rising: what --detail compares with the size of a pixel. A promise of the scene's. (list of numbers in m; positive; default [])
+    viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
+    distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
+    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 
 def set(of: Field | Expression, phase: Phase | str) -> Object:
-    r"""A field filled with one phase.
+    r"""Fills a field with one phase.
 
         φₖ = f,  φ₀ = −f
 
@@ -1926,7 +1926,7 @@ def set(of: Field | Expression, phase: Phase | str) -> Object:
     """
 
 def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, half_thickness: float) -> Object:
-    r"""A wall of thickness 2t about a field's surface, and what it encloses.
+    r"""A wall of thickness 2t about the surface of a field, and its interior.
 
         φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
 
@@ -1939,7 +1939,7 @@ def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, 
     """
 
 def under(*of: Object | Sequence[Object]) -> Object:
-    r"""Objects together; where several are, a later one replaces the earlier. Folded from the first object to the last.
+    r"""Combines objects; where they overlap, later ones replace earlier ones. Folded from the first object to the last.
 
         φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
@@ -1949,7 +1949,7 @@ def under(*of: Object | Sequence[Object]) -> Object:
     """
 
 def over(*of: Object | Sequence[Object]) -> Object:
-    r"""Objects together; where several are, an earlier one replaces the later. Folded from the last object to the first.
+    r"""Combines objects; where they overlap, earlier ones replace later ones. Folded from the last object to the first.
 
         A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
@@ -1959,7 +1959,7 @@ def over(*of: Object | Sequence[Object]) -> Object:
     """
 
 def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
-    r"""Embeds an object in a layer of one more phase.
+    r"""Embeds an object in a layer of another phase.
 
         φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
 
@@ -1971,7 +1971,7 @@ def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
     """
 
 def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Keeps what lies within a shape: of all phases, or of some and the rest unchanged.
+    r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
 
         φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -1979,11 +1979,11 @@ def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str |
 
     of: The object. (object)
     shape: The field to keep within. (field)
-    phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+    phases: The phases to cut; by default all. (phase or list of phases; default all)
     """
 
 def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Cuts a shape away: from all phases, or from some and the rest unchanged.
+    r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
 
         φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
@@ -1991,7 +1991,7 @@ def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | 
 
     of: The object. (object)
     shape: The field to cut away. (field)
-    phases: The phases that are cut; all if left out. (phase or list of phases; default all)
+    phases: The phases to cut; by default all. (phase or list of phases; default all)
     """
 
 def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
@@ -2002,13 +2002,13 @@ def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expre
     Section 5.2 of the paper.
 
     of: The object. (object)
-    from_: The phase to turn. (phase)
-    to: What it becomes. (phase)
-    shape: Where; everywhere if left out. (field; default none)
+    from_: The phase to change. (phase)
+    to: The phase that it becomes. (phase)
+    shape: The field inside which to change it; by default everywhere. (field; default none)
     """
 
 def remove(of: Object, phases: Phase | str | Sequence[Phase | str]) -> Object:
-    r"""Empties phases: vacuum takes their place.
+    r"""Replaces phases by vacuum.
 
         φₖ absent,  φ₀ = min(a₀, aₖ)
 
@@ -2019,7 +2019,7 @@ def remove(of: Object, phases: Phase | str | Sequence[Phase | str]) -> Object:
     """
 
 def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, alpha: float) -> Object:
-    r"""Two phases pressed against each other: they share the space that both claim.
+    r"""Two phases pressed against each other: they share the overlap.
 
         f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
 
@@ -2029,7 +2029,7 @@ def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, al
     b: The object B, which replaces A where they are not in contact. (object)
     phase_a: The phase of A that is in contact. (phase)
     phase_b: The phase of B that is in contact. (phase)
-    alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
+    alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
     """
 
 def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequence[Phase | str] | None = ..., phases_b: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2041,9 +2041,9 @@ def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequenc
 
     a: The object A. (object)
     b: The object B, which replaces A where they are not in contact. (object)
-    alpha: Where in the overlap they meet: at 0 B has all of it, at 1 A, at 1/2 both are as deep in it. (number; at least 0 and at most 1)
-    phases_a: The phases of A in contact; all if left out. (phase or list of phases; default all)
-    phases_b: The phases of B in contact; all if left out. (phase or list of phases; default all)
+    alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
+    phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
+    phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
     """
 
 def layered_sequence(of: Object, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:
@@ -2068,7 +2068,7 @@ def smooth_layered(of: Object, phase: Phase | str, thickness: float, radius: flo
     of: The object. (object)
     phase: The phase of the layer. (phase)
     thickness: Thickness of the layer away from the grooves. (number in m; positive)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str) -> Object:
@@ -2084,7 +2084,7 @@ def unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str)
     """
 
 def smooth_unite_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-    r"""Melts a shape into one phase, over the other phases.
+    r"""Blends a shape into one phase, over the other phases.
 
         s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
 
@@ -2093,11 +2093,11 @@ def smooth_unite_shape(of: Object, shape: Field | Expression, phase: Phase | str
     of: The object. (object)
     shape: The field to add. (field)
     phase: The phase that grows. (phase)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def smooth_unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-    r"""Melts a shape into one phase, below the other phases.
+    r"""Blends a shape into one phase, below the other phases.
 
         s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
 
@@ -2106,11 +2106,11 @@ def smooth_unite_shape_below(of: Object, shape: Field | Expression, phase: Phase
     of: The object. (object)
     shape: The field to add. (field)
     phase: The phase that grows. (phase)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def smooth_intersect_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-    r"""Keeps of one phase what lies within a shape, its new edges worn.
+    r"""Keeps only the part of one phase inside a shape, and rounds the new edges.
 
         s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
 
@@ -2118,12 +2118,12 @@ def smooth_intersect_shape(of: Object, shape: Field | Expression, phase: Phase |
 
     of: The object. (object)
     shape: The field to keep within. (field)
-    phase: The phase that is cut. (phase)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    phase: The phase to cut. (phase)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def smooth_subtract_shape(of: Object, shape: Field | Expression, phase: Phase | str, radius: float) -> Object:
-    r"""Cuts a shape away from one phase, its new edges worn.
+    r"""Cuts a shape away from one phase, and rounds the new edges.
 
         s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
 
@@ -2131,12 +2131,12 @@ def smooth_subtract_shape(of: Object, shape: Field | Expression, phase: Phase | 
 
     of: The object. (object)
     shape: The field to cut away. (field)
-    phase: The phase that is cut. (phase)
-    radius: Blending radius: the surfaces melt where they are nearer to each other than this. (number in m; positive)
+    phase: The phase to cut. (phase)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
     """
 
 def interface(of: Object, phase_a: Phase | str, phase_b: Phase | str, half_thickness: float) -> Object:
-    r"""The thin volume about the interface between two phases, as deep in either.
+    r"""A thin volume about the interface between two phases, equally deep in both.
 
         S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
 
@@ -2145,84 +2145,84 @@ def interface(of: Object, phase_a: Phase | str, phase_b: Phase | str, half_thick
     of: The object. (object)
     phase_a: The phase on one side. (phase)
     phase_b: The phase on the other side. (phase)
-    half_thickness: How deep in either phase, ε. (number in m; positive)
+    half_thickness: Depth ε in each phase. (number in m; positive)
     """
 
 def interfaces(of: Object, half_thickness: float) -> Object:
-    r"""The thin volumes about all interfaces between phases.
+    r"""Thin volumes about all interfaces between phases.
 
         S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
 
     Section 7.4 of the paper.
 
-    of: The object, of two phases at least. (object)
-    half_thickness: How deep in either phase, ε. (number in m; positive)
+    of: The object, with at least two phases. (object)
+    half_thickness: Depth ε in each phase. (number in m; positive)
     """
 
 def checker(even: Phase | str, odd: Phase | str, size: float, origin: Sequence[float] | np.ndarray | None = ...) -> Object:
-    r"""Cubes of two phases by turns, filling space.
+    r"""Cubes of two alternating phases, filling space.
 
         φⱼ = s · a · min(q, 1 − q),  φᵢ = −φⱼ,  u = (p − o)/a,  q = u − ⌊u⌋,  s = +1 if ⌊ux⌋ + ⌊uy⌋ + ⌊uz⌋ is even, else −1
 
     Section 9.1 of the paper.
 
     even: The phase of the cube at the origin, towards +x, +y, +z. (phase)
-    odd: The phase of its neighbours. (phase)
+    odd: The phase of the neighbouring cubes. (phase)
     size: Edge length of a cube. (number in m; positive)
-    origin: A corner where cubes meet. ([x, y, z] in m; default [0, 0, 0])
+    origin: A point where corners of cubes meet. ([x, y, z] in m; default [0, 0, 0])
     """
 
 def layers(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], direction: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Object:
-    r"""Parallel layers of several phases, repeated without end, filling space.
+    r"""Parallel layers of several phases, repeated endlessly, filling space.
 
         φₖ = |m| − tₖ/2,  m = u − P⌊u/P + 1/2⌋,  u = p·n − cₖ,  P = Σ t,  cₖ the middle of layer k
 
     Section 9.1 of the paper.
 
-    phases: The phases of a period in their order, two or more. (list of phases)
-    thicknesses: The layers' thicknesses; one number stands for all. (number or list of numbers in m; positive)
-    direction: Where the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
-    offset: Where along it the first layer begins, from the origin. (number in m; default 0)
+    phases: The phases of one period in order, at least two. (list of phases)
+    thicknesses: Thicknesses of the layers; one number applies to all. (number or list of numbers in m; positive)
+    direction: Direction in which the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Position along this direction, from the origin, where the first layer begins. (number in m; default 0)
     """
 
 def strata(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], direction: Sequence[float] | np.ndarray | None = ..., offset: float | None = ...) -> Object:
-    r"""Parallel layers of several phases, filling space: the first and the last have no end.
+    r"""Parallel layers of several phases, filling space: the first and the last are unbounded.
 
         φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ
 
     Section 9.1 of the paper.
 
-    phases: The phases in their order, two or more. (list of phases)
-    thicknesses: The layers' thicknesses, the last layer's left out; one number stands for all. (number or list of numbers in m; positive)
-    direction: Where the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
-    offset: From where along it the first layer is measured, from the origin. (number in m; default 0)
+    phases: The phases in order, at least two. (list of phases)
+    thicknesses: Thicknesses of all layers but the last; one number applies to all. (number or list of numbers in m; positive)
+    direction: Direction in which the layers follow each other; any length but zero. ([x, y, z]; default [0, 0, 1])
+    offset: Position along this direction, from the origin, from which the first layer is measured. (number in m; default 0)
     """
 
 def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = ..., seed: float | None = ...) -> Object:
-    r"""Blocks of several phases, filling space: the cells of an irregular lattice of sites, each with one of the phases. With the same size, jitter and seed they are those of voronoi_cells.
+    r"""Blocks of several phases, filling space: the cells of an irregular lattice of sites, each with one of the phases. With the same size, jitter and seed, the cells are those of voronoi_cells.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k
 
     Section 4.3, 9.1 of the paper.
 
-    phases: Two at least; a cell has each of them as likely, or more so if it is listed twice. (list of phases)
-    size: Of the cubes that have a site each. (number in m; positive)
-    jitter: How irregular: 0 for sites on a cubic lattice, 1 for any place in their cubes. (number; at least 0 and at most 1; default 0.9)
-    seed: Another number, another pattern. (number; at least 0 and at most 288; default 0)
+    phases: The phases, at least two. All are equally likely; list one twice to make it more likely. (list of phases)
+    size: Edge length of the cubes, each of which has one site. (number in m; positive)
+    jitter: Irregularity: 0 puts the sites on a cubic lattice, 1 anywhere in their cubes. (number; at least 0 and at most 1; default 0.9)
+    seed: Seed of the pattern. (number; at least 0 and at most 288; default 0)
     """
 
 def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | Expression | None = ...) -> Object:
-    r"""A segmented scan: whole numbers at voxels, from images or OpenVDB, as an object of many phases. Each voxel's centre is of the phase of its number, and interfaces between are smooth. Distances are known up to about two voxels, and do not grow beyond.
+    r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about two voxels and do not grow beyond.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the voxels
 
-    file: An OpenVDB file with a grid of whole numbers, or images, one for each layer from the lowest z to the highest: a name in which #### stands for their numbers, such as "layer_###.png". Images are grey, of integers of up to 32 bits, are seen from above as height_map's are, and the object stands about the origin. (name of a file)
-    phases: The phases that there are. (list of phases)
-    values: The whole numbers of the phases, in their order: 1, 2, 3 … if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
-    empty: The whole numbers of the vacuum, unless they are a phase's; 0 if left out. (list of numbers; at least -16777216 and at most 16777216; default [])
-    spacing: From voxel to voxel along x, y and z: of images. A grid of OpenVDB has its own. ([x, y, z] in m; zero or more; default [0, 0, 0])
-    smoothing: σ of the blur: 0 for none, when interfaces show the voxels' steps. (number in voxels; at least 0 and at most 4; default 1)
-    grid: Which of an OpenVDB file's grids; needed if it has several of whole numbers. If several have the same name, its index follows: "name[0]", "name[1]". (text; default "")
+    file: OpenVDB file with a grid of whole numbers. Or images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Images are grey, with integers of up to 32 bits, and seen from above, like those of height_map. The object is centred at the origin. (name of a file)
+    phases: The phases of the object. (list of phases)
+    values: The number of each phase; by default 1, 2, 3 … (list of numbers; at least -16777216 and at most 16777216; default [])
+    empty: The numbers of the vacuum, unless they belong to a phase; by default 0. (list of numbers; at least -16777216 and at most 16777216; default [])
+    spacing: Distance between voxels along x, y and z, for images. OpenVDB grids have their own. ([x, y, z] in m; zero or more; default [0, 0, 0])
+    smoothing: Standard deviation σ of the blur; at 0, interfaces show the steps of the voxels. (number in voxels; at least 0 and at most 4; default 1)
+    grid: Name of the grid in an OpenVDB file; required if there are several of whole numbers. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
     """
 
 def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Object:
@@ -2230,93 +2230,93 @@ def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] 
 
         φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r
 
-    phases: With centres: one phase for all balls, or one for each. With a file: those that its column `phase` numbers from 0, or one for all. (list of phases)
-    centres: Of the balls; absent if they are in a file. (list of [x, y, z]s in m; default [])
-    radii: Of the balls: one number for all, or one for each centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: The balls: PLY, whose element `vertex` has x, y, z and may have radius and phase, or CSV with a line of those names first; in metres, instead of centres. (name of a file; default none)
+    phases: With centres: one phase for all balls, or one per ball. With a file: the phases that its column `phase` refers to, counted from 0, or one for all. (list of phases)
+    centres: Centres of the balls, unless they are in a file. (list of [x, y, z]s in m; default [])
+    radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
     """
 
 @overload
 def translate(of: Field, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Moves without turning.
+    r"""Translates.
 
         φ(p − v)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    by: Where the origin goes. ([x, y, z] in m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    by: Image of the origin. ([x, y, z] in m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def translate(of: Object, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Moves without turning.
+    r"""Translates.
 
         φ(p − v)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    by: Where the origin goes. ([x, y, z] in m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    by: Image of the origin. ([x, y, z] in m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def rotate(of: Field, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Turns about an axis through the origin, right-handed.
+    r"""Rotates about an axis through the origin, by the right-hand rule.
 
         φ(Rᵀ p)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     angle: Angle. (number in degrees)
     axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def rotate(of: Object, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Turns about an axis through the origin, right-handed.
+    r"""Rotates about an axis through the origin, by the right-hand rule.
 
         φ(Rᵀ p)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     angle: Angle. (number in degrees)
     axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def scale(of: Field, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Makes larger or smaller by the same factor everywhere.
+    r"""Scales by the same factor along all axes.
 
         s · φ(p / s)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     factor: The factor. (number; positive)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def scale(of: Object, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Makes larger or smaller by the same factor everywhere.
+    r"""Scales by the same factor along all axes.
 
         s · φ(p / s)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     factor: The factor. (number; positive)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
@@ -2327,10 +2327,10 @@ def twist(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Angle for each unit of height. (number in degrees/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Angle per unit of height. (number in degrees/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def twist(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2340,64 +2340,64 @@ def twist(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | N
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Angle for each unit of height. (number in degrees/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Angle per unit of height. (number in degrees/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def stretch(of: Field, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Makes larger or smaller by a factor of its own along each axis.
+    r"""Scales by a different factor along each axis.
 
         φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     factors: The factors along x, y and z. ([x, y, z]; positive)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def stretch(of: Object, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Makes larger or smaller by a factor of its own along each axis.
+    r"""Scales by a different factor along each axis.
 
         φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     factors: The factors along x, y and z. ([x, y, z]; positive)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def mirror(of: Field, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+    r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
         φ(p − 2 min(p·n, 0) n)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def mirror(of: Object, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Makes symmetric to a plane through the origin: the half that the normal points to is kept and reflected.
+    r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
         φ(p − 2 min(p·n, 0) n)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
@@ -2408,10 +2408,10 @@ def taper(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def taper(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2421,10 +2421,10 @@ def taper(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | N
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Change of size for each unit of height; at z = 0 the size stays. (number in 1/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
@@ -2435,10 +2435,10 @@ def bend(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | Non
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def bend(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2448,135 +2448,135 @@ def bend(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    rate: Angle for each unit along x; negative to bend towards −z. (number in degrees/m)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def affine(of: Field, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+    r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
         φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
-    y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
-    z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
-    by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
+    y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
+    z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
+    by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def affine(of: Object, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Takes the unit vectors to any three that span space, and the origin to a point: shears, stretches, turns and mirrors.
+    r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
         φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
-    x: Where [1, 0, 0] goes, from the image of the origin. ([x, y, z]; default [1, 0, 0])
-    y: Where [0, 1, 0] goes. ([x, y, z]; default [0, 1, 0])
-    z: Where [0, 0, 1] goes. ([x, y, z]; default [0, 0, 1])
-    by: Where the origin goes. ([x, y, z] in m; default [0, 0, 0])
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    of: The field or object to warp. (object)
+    x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
+    y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
+    z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
+    by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 @overload
 def distort(of: Field, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+    r"""Distorts space by fractal noise, as in rock or smoke.
 
         φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     amplitude: Largest displacement along each axis, a. (number in m; zero or more)
     scale: Size of the largest swirls. (number in m; positive)
-    octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 @overload
 def distort(of: Object, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Moves space by fractal noise: bends what is straight, as rock or smoke is bent.
+    r"""Distorts space by fractal noise, as in rock or smoke.
 
         φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
     Section 6 of the paper.
 
-    of: What is warped: a field or an object. (object)
+    of: The field or object to warp. (object)
     amplitude: Largest displacement along each axis, a. (number in m; zero or more)
     scale: Size of the largest swirls. (number in m; positive)
-    octaves: Sizes of swirls, each half the one before; a whole number. (number; at least 1 and at most 6; default 1)
-    over: Of an object: only these phases are warped, and replace the others where they come to lie. (phase or list of phases; default all)
-    under: Of an object: only these phases are warped, and the others stay where they are. (phase or list of phases; default all)
+    octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
+    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
+    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
     """
 
 class materials:
     @staticmethod
     def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
-        r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
+        r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
             exp(−(a + s) d)
 
-        ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
-        glass: Instead of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
-        abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
-        absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
-        absorption_spectrum: Instead of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
-        color: Instead of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
-        color_distance: The distance after which the colour is left. (number in m; positive; default 1)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-        scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
-        albedo: Instead of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
-        mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
+        ior: Refractive index relative to vacuum; required unless a glass is named. (number; at least 0.1 and at most 10; default none)
+        glass: Instead of the index: a measured substance whose index depends on the wavelength, which causes dispersion. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+        abbe_number: Abbe number; the smaller, the stronger the dispersion: crown glass has 60, flint glass 30. Without it, the index is the same for all colours. (number; at least 10 and at most 1000; default none)
+        absorption: Absorption coefficients a of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
+        absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Without "spectral", this is converted to red, green and blue such that a layer that transmits a third of white light or more looks the same. (list of [nm, number] in nm, 1/m; zero or more; default none)
+        color: Instead of the absorption: the colour of white light after a distance. (colour; more than 0 and at most 1; default none)
+        color_distance: The distance after which white light has this colour. (number in m; positive; default 1)
+        roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        scattering: Scattering coefficients s of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
+        albedo: Instead of absorption and scattering: the single-scattering albedo, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+        mean_free_path: With the albedo: the mean free path, 1/(a + s). ([r, g, b] in m; positive; default none)
         medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
-        scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
-        anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
-        emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
-        emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
-        density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
-        density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
-        density_grid: Instead of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
-        temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
-        emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
-        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        scale: With a measured medium: length of the scene's unit. (number in mm; positive; default none)
+        anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
+        emission: Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
+        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
+        density_depth: With a density: the depth inside the field at which it reaches 1. (number in m; positive; default none)
+        density_grid: Instead of a density: a voxel grid by which absorption, scattering and emission are multiplied. (voxels; default none)
+        temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which only the brightness is used then. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
+        emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
+        film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         """
     @staticmethod
     def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-        r"""Paper, plaster, clay: reflects alike in all directions.
+        r"""Paper, plaster, clay: reflects equally in all directions.
 
         color: Reflectance. (colour or texture)
-        roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-        r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
+        r"""Metal: a measured one, one with a given complex index η + ik, or one with a given reflectance, which may be a texture.
 
         metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
         eta: η for red, green and blue, instead of a measured metal. ([r, g, b]; positive; default none)
-        k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
-        reflectance: Instead of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-        grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
-        grain_around: Instead of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
-        grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
-        grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
-        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        k: k for red, green and blue; required with η. ([r, g, b]; zero or more; default none)
+        reflectance: Instead of both: reflectance at normal incidence; it increases towards grazing angles. Such a metal cannot have a film. (colour or texture; default none)
+        roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        grain_along: Brushed metal: direction of the grain, in the space of the object, or of the scene for a mesh; transforms within a tree do not rotate it. It is projected onto the surface; where the surface is perpendicular to it, the grain is arbitrary. The roughness applies across the grain and must not be 0. ([x, y, z], not all zero; default none)
+        grain_around: Instead of a direction, for metal turned on a lathe: direction of the axis around which the grain runs. ([x, y, z], not all zero; default none)
+        grain_through: With an axis: a point on it, in the space of the object, or of the scene for a mesh; by default the origin. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
+        film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2584,89 +2584,89 @@ class materials:
 
         color: Reflectance of the base. (colour or texture)
         ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
-        roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-        film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+        roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+        film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-        bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-        normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
     def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
-        r"""Embers, lava, a filament, a screen: shines alike in all directions.
+        r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
-        light: Colour of its light; white without it. (colour or texture; default none)
-        radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
-        color: Reflectance; black without it. (colour or texture; default none)
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+        light: Colour of the emitted light; default white. (colour or texture; default none)
+        radiance: Radiance of the surface where the colour is 1; n² times that inside a material of index n. (number; more than 0 and at most 1e12; default 1)
+        color: Reflectance; default black. (colour or texture; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
         """
     @staticmethod
     def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
-        r"""One of two materials at each place: iron and rust, paint and the metal under it. Neither is clear or glowing.
+        r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing.
 
-        first: The one where the amount is 0. (opaque material)
-        second: The one where the amount is 1. (opaque material)
-        amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
+        first: Material where the amount is 0. (opaque material)
+        second: Material where the amount is 1. (opaque material)
+        amount: Fraction of the second material; between 0 and 1 the two are blended. (number or field; at least 0 and at most 1; default 0.5)
         """
 
 def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
-    r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, and may be absorbed and scattered there.
+    r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
         exp(−(a + s) d)
 
-    ior: Refractive index against vacuum; needed unless a glass is named. (number; at least 0.1 and at most 10; default none)
-    glass: Instead of the index: a measured substance whose index changes with the wavelength, so that white light is split into its colours. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
-    abbe_number: Abbe's number of a glass of one's own, which splits white light the more the smaller it is: crown glass has 60, flint glass 30. Without it the index is that of all colours. (number; at least 10 and at most 1000; default none)
-    absorption: Absorption of red, green and blue, a; nothing is absorbed without it. ([r, g, b] in 1/m; zero or more; default none)
-    absorption_spectrum: Instead of the absorption: wavelengths and the absorption at each. Without "spectral" red, green and blue are absorbed so that a layer looks the same that lets a third of white light through, or more. (list of [nm, number] in nm, 1/m; zero or more; default none)
-    color: Instead of the absorption: what is left of white light after a distance. (colour; more than 0 and at most 1; default none)
-    color_distance: The distance after which the colour is left. (number in m; positive; default 1)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-    scattering: Scattering of red, green and blue, s; nothing is scattered without it. ([r, g, b] in 1/m; zero or more; default none)
-    albedo: Instead of absorption and scattering: the part of the light that is scattered where it meets the medium, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
-    mean_free_path: With the albedo: how far light goes on average, 1/(a + s). ([r, g, b] in m; positive; default none)
+    ior: Refractive index relative to vacuum; required unless a glass is named. (number; at least 0.1 and at most 10; default none)
+    glass: Instead of the index: a measured substance whose index depends on the wavelength, which causes dispersion. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
+    abbe_number: Abbe number; the smaller, the stronger the dispersion: crown glass has 60, flint glass 30. Without it, the index is the same for all colours. (number; at least 10 and at most 1000; default none)
+    absorption: Absorption coefficients a of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
+    absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Without "spectral", this is converted to red, green and blue such that a layer that transmits a third of white light or more looks the same. (list of [nm, number] in nm, 1/m; zero or more; default none)
+    color: Instead of the absorption: the colour of white light after a distance. (colour; more than 0 and at most 1; default none)
+    color_distance: The distance after which white light has this colour. (number in m; positive; default 1)
+    roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    scattering: Scattering coefficients s of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
+    albedo: Instead of absorption and scattering: the single-scattering albedo, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
+    mean_free_path: With the albedo: the mean free path, 1/(a + s). ([r, g, b] in m; positive; default none)
     medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
-    scale: With a measured medium: how long the scene's unit of length is. (number in mm; positive; default none)
-    anisotropy: The mean cosine g of Henyey and Greenstein's phase function: positive goes on forwards. Measured media scatter as much more as makes their reduced scattering, (1 − g) s, what was measured. 0 without it. (number; at least -0.99 and at most 0.99; default none)
-    emission: Radiance that the medium itself adds along a ray. It needs absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
-    emission_spectrum: How the emission is spread over the wavelengths, as "spectrum" of lights. Of the emission only the brightness counts then. (list of [nm, number], or {"blackbody": kelvin}; default none)
-    density: A field that tells where the medium is: the density is 0 at its surface and outside, and rises evenly to 1 inside. Absorption, scattering and emission are multiplied by it. (field; default none)
-    density_depth: With a density: how deep inside of the field it becomes 1. (number in m; positive; default none)
-    density_grid: Instead of a density: numbers at voxels, by which absorption, scattering and emission are multiplied. (voxels; default none)
-    temperature_grid: Temperatures at voxels, by which the medium shines as what is hot does, in proportion to its density. It needs an emission, of which only the brightness counts then, and a density. The grid's "factor" makes kelvin of its numbers. (voxels in K; default none)
-    emission_temperature: With a grid of temperatures: the one at which the medium emits the emission. What is hotter emits more. (number in K; at least 500 and at most 100000; default 2000)
-    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    scale: With a measured medium: length of the scene's unit. (number in mm; positive; default none)
+    anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
+    emission: Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
+    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
+    density_depth: With a density: the depth inside the field at which it reaches 1. (number in m; positive; default none)
+    density_grid: Instead of a density: a voxel grid by which absorption, scattering and emission are multiplied. (voxels; default none)
+    temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which only the brightness is used then. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
+    emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
+    film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     """
 
 def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-    r"""Paper, plaster, clay: reflects alike in all directions.
+    r"""Paper, plaster, clay: reflects equally in all directions.
 
     color: Reflectance. (colour or texture)
-    roughness: How rough it is: 0 is Lambert's law, 1 clay or the moon, whose rim is as bright as its middle. (number or field; at least 0 and at most 1; default 0)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold", "iron", "nickel", "silver", "titanium", "tungsten", "aluminum"] | None = ..., eta: Sequence[float] | np.ndarray | None = ..., k: Sequence[float] | np.ndarray | None = ..., reflectance: Sequence[float] | str | Texture | None = ..., roughness: float | Number | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-    r"""Metal: one of the measured ones, with a complex index η + ik of one's own, or of a reflectance, which may be a texture.
+    r"""Metal: a measured one, one with a given complex index η + ik, or one with a given reflectance, which may be a texture.
 
     metal: A measured metal. (`"aluminium"`, `"brass"`, `"chromium"`, `"copper"`, `"gold"`, `"iron"`, `"nickel"`, `"silver"`, `"titanium"`, `"tungsten"`, `"aluminum"`; default none)
     eta: η for red, green and blue, instead of a measured metal. ([r, g, b]; positive; default none)
-    k: k for red, green and blue; needed with η. ([r, g, b]; zero or more; default none)
-    reflectance: Instead of both: the colour of light that falls on it at a right angle and is reflected; more is at others. Such a metal has no film. (colour or texture; default none)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-    grain_along: Brushed metal: the direction of its strokes, in the object's own space, or the scene's, of a mesh; moves within a tree do not turn it. It is projected onto the surface; where the surface is perpendicular to it strokes run any way. The roughness, which must not be 0, is that across them. ([x, y, z], not all zero; default none)
-    grain_around: Instead of it, of metal that was turned on a lathe: the direction of the axis around which the strokes run. ([x, y, z], not all zero; default none)
-    grain_through: With an axis: a point of it, in the object's own space, or the scene's, if it is a mesh; the origin without it. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
-    grain_aspect: With a grain: the roughness along the strokes over that across; 0.2 without. (number; at least 0.1 and at most 1; default none)
-    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    k: k for red, green and blue; required with η. ([r, g, b]; zero or more; default none)
+    reflectance: Instead of both: reflectance at normal incidence; it increases towards grazing angles. Such a metal cannot have a film. (colour or texture; default none)
+    roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    grain_along: Brushed metal: direction of the grain, in the space of the object, or of the scene for a mesh; transforms within a tree do not rotate it. It is projected onto the surface; where the surface is perpendicular to it, the grain is arbitrary. The roughness applies across the grain and must not be 0. ([x, y, z], not all zero; default none)
+    grain_around: Instead of a direction, for metal turned on a lathe: direction of the axis around which the grain runs. ([x, y, z], not all zero; default none)
+    grain_through: With an axis: a point on it, in the space of the object, or of the scene for a mesh; by default the origin. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
+    film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2674,209 +2674,209 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
 
     color: Reflectance of the base. (colour or texture)
     ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.5)
-    roughness: α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
-    film_thickness: Thickness of a film on the surface, which shows colours as soap and oil do; there is none without it. Where two clear materials have one, the thicker counts. (number or field in nm; at least 0 and at most 5000; default none)
+    roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
+    film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: A texture whose bright places look as if they stood out of the surface: it turns the surface's normals and moves nothing. A step in it is a slope of 45° to 55°. (colour or texture; default none)
-    bump_height: With a bump: how much higher white is than black; lower, if it is negative. (number in m; at least -1e15 and at most 1e15; default none)
-    normal_map: Instead of a bump: an image of normals, on a mesh that has texture coordinates. (normal map; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
 def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
-    r"""Embers, lava, a filament, a screen: shines alike in all directions.
+    r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
-    light: Colour of its light; white without it. (colour or texture; default none)
-    radiance: Radiance of its surface where the colour of its light is 1; n² times that against a material of index n. (number; more than 0 and at most 1e12; default 1)
-    color: Reflectance; black without it. (colour or texture; default none)
-    spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
-    group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
+    light: Colour of the emitted light; default white. (colour or texture; default none)
+    radiance: Radiance of the surface where the colour is 1; n² times that inside a material of index n. (number; more than 0 and at most 1e12; default 1)
+    color: Reflectance; default black. (colour or texture; default none)
+    spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
     """
 
 def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
-    r"""One of two materials at each place: iron and rust, paint and the metal under it. Neither is clear or glowing.
+    r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing.
 
-    first: The one where the amount is 0. (opaque material)
-    second: The one where the amount is 1. (opaque material)
-    amount: How much of the second; between 0 and 1 both are there, as finely mixed as can be. (number or field; at least 0 and at most 1; default 0.5)
+    first: Material where the amount is 0. (opaque material)
+    second: Material where the amount is 1. (opaque material)
+    amount: Fraction of the second material; between 0 and 1 the two are blended. (number or field; at least 0 and at most 1; default 0.5)
     """
 
 class textures:
     @staticmethod
     def wood(light: Sequence[float] | str | None = ..., dark: Sequence[float] | str | None = ..., ring_spacing: float | None = ..., axis: Sequence[float] | np.ndarray | None = ..., pith: Sequence[float] | np.ndarray | None = ..., seed: int | None = ...) -> Texture:
-        r"""Wood, as a solid: annual rings around an axis, with fibres and pores along it.
+        r"""Solid wood: annual rings around an axis, with fibres and pores along it.
 
         light: Colour of the early wood. (colour; at least 0 and at most 1; default [0.42, 0.24, 0.115])
         dark: Colour of the late wood. (colour; at least 0 and at most 1; default [0.15, 0.068, 0.03])
         ring_spacing: Mean width of a ring. (number in m; positive; default 0.1)
         axis: Direction of the trunk, of any length. ([x, y, z], not all zero; default [0, 0, 1])
-        pith: A point on the middle line of the trunk. ([x, y, z] in m; default [0, 0, 0])
-        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        pith: A point on the axis of the trunk. ([x, y, z] in m; default [0, 0, 0])
+        seed: Seed of the pattern. (whole number; zero or more; default 0)
         """
     @staticmethod
     def speckle(color: Sequence[float] | str | None = ..., other: Sequence[float] | str | None = ..., grain: float | None = ..., contrast: float | None = ..., seed: int | None = ...) -> Texture:
-        r"""Grains, as of sand: each has a colour and a brightness of its own.
+        r"""Grains, as of sand, each with its own colour and brightness.
 
         color: One colour of the grains. (colour; at least 0 and at most 1; default [0.58, 0.42, 0.24])
-        other: The other colour; a grain is a mixture of both. (colour; at least 0 and at most 1; default [0.7, 0.57, 0.39])
-        grain: Mean distance of the grains. (number in m; positive; default 0.01)
-        contrast: From grains that are all alike, 0, to very different ones, 1. (number; at least 0 and at most 1; default 0.5)
-        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        other: The other colour; each grain is a mixture of both. (colour; at least 0 and at most 1; default [0.7, 0.57, 0.39])
+        grain: Mean distance between grains. (number in m; positive; default 0.01)
+        contrast: Variation of the grains, from none at 0 to strong at 1. (number; at least 0 and at most 1; default 0.5)
+        seed: Seed of the pattern. (whole number; zero or more; default 0)
         """
     @staticmethod
     def marble(color: Sequence[float] | str | None = ..., vein: Sequence[float] | str | None = ..., scale: float | None = ..., seed: int | None = ...) -> Texture:
-        r"""A ground colour that is crossed by veins.
+        r"""A ground colour crossed by veins.
 
         color: Colour of the ground. (colour; at least 0 and at most 1; default [0.82, 0.8, 0.77])
         vein: Colour of the veins. (colour; at least 0 and at most 1; default [0.2, 0.21, 0.24])
         scale: Mean distance of the veins. (number in m; positive; default 1)
-        seed: Another whole number gives another piece. (whole number; zero or more; default 0)
+        seed: Seed of the pattern. (whole number; zero or more; default 0)
         """
     @staticmethod
     def checker(even: Sequence[float] | str | None = ..., odd: Sequence[float] | str | None = ..., size: float | None = ..., origin: Sequence[float] | np.ndarray | None = ...) -> Texture:
-        r"""Two colours in alternate cubes, which are squares on any plane along two axes.
+        r"""Cubes of two alternating colours, which appear as squares on planes along the axes.
 
         even: Colour of the even cubes. (colour; at least 0 and at most 1; default [0.8, 0.8, 0.8])
         odd: Colour of the odd cubes. (colour; at least 0 and at most 1; default [0.2, 0.2, 0.2])
         size: Length of the edge of a cube. (number in m; positive; default 1)
-        origin: A corner of an even cube. A plane should pass between corners. ([x, y, z] in m; default [0, 0, 0])
+        origin: A corner of an even cube. Axis-aligned surfaces should not pass through corners. ([x, y, z] in m; default [0, 0, 0])
         """
     @staticmethod
     def field(of: Field | Expression, ramp: Sequence[Sequence[float | str | Sequence[float] | Texture]]) -> Texture:
-        r"""A colour or texture for each value of a field, such as the distance to other phases: sand that is dark where it is wet.
+        r"""A colour or texture that depends on a field, such as the distance to other phases: sand that is dark where it is wet.
 
         of: The field, or the name of a shape. (field)
-        ramp: Values of the field and the colour or texture at each, between which they are mixed. (list of [number, colour or texture] in m; at least 0 and at most 1)
+        ramp: Values of the field and the colour or texture at each, with interpolation in between. (list of [number, colour or texture] in m; at least 0 and at most 1)
         """
     @staticmethod
     def image(file: str | PathLike[str], size: float | None = ..., origin: Sequence[float] | np.ndarray | None = ..., blend: float | None = ...) -> Texture:
-        r"""An image on all sides, projected along the axes and repeated without end.
+        r"""An image on all sides (triplanar mapping), projected along the axes and repeated endlessly.
 
-        file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
-        size: Width of the image; its height is as its pixels are. (number in m; positive; default 1)
-        origin: Where its lower left corner is. ([x, y, z] in m; default [0, 0, 0])
-        blend: How widely the three projections are mixed where the surface slants: not at 0, everywhere at 1. (number; at least 0 and at most 1; default 0.3)
+        file: Image file in any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
+        size: Width of the image; the height follows from its proportions. (number in m; positive; default 1)
+        origin: Position of the lower left corner. ([x, y, z] in m; default [0, 0, 0])
+        blend: How widely the three projections are blended on slanted surfaces: not at all at 0, everywhere at 1. (number; at least 0 and at most 1; default 0.3)
         """
     @staticmethod
     def mesh_image(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ...) -> Texture:
-        r"""An image on a mesh by the texture coordinates that its file has.
+        r"""An image on a mesh, by the texture coordinates in the mesh file.
 
-        file: An image of any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
-        repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
+        file: Image file in any format that OpenImageIO reads, at most 4096 × 4096 pixels. (name of a file)
+        repeat: Number of repetitions of the image, horizontally and vertically. ([x, y]; default [1, 1])
         """
     @staticmethod
     def vertex_color() -> Texture:
-        r"""The colours that a mesh's file gives to its vertices, as scans have them.
+        r"""The vertex colours in the mesh file, as scans have them.
 
 
         """
     @staticmethod
     def measured(reflectance: Sequence[Sequence[float]] | np.ndarray) -> Texture:
-        r"""A colour by its spectrum, as it was measured.
+        r"""A colour given by a measured reflectance spectrum.
 
-        reflectance: Wavelengths and the share of light that is reflected at each. (list of [nm, number] in nm; at least 0 and at most 1)
+        reflectance: Wavelengths and the reflectance at each. (list of [nm, number] in nm; at least 0 and at most 1)
         """
     @staticmethod
     def per_copy(ramp: Sequence[Sequence[float | str | Sequence[float] | Texture]], seed: int | None = ...) -> Texture:
-        r"""A colour or texture for each copy that "instances" place: leaves, pebbles and sweets are not all alike.
+        r"""A random colour or texture for each copy made by "instances", so that leaves or pebbles differ.
 
-        ramp: Numbers from 0 to 1, and the colour or texture of a copy that has that random number; between them they are mixed. (list of [number, colour or texture]; at least 0 and at most 1)
-        seed: Another seed gives each copy another value; parameters with the same seed vary together. (whole number; zero or more; default 0)
+        ramp: Random numbers from 0 to 1 and the colour or texture of a copy with that number, with interpolation in between. (list of [number, colour or texture]; at least 0 and at most 1)
+        seed: Seed of the random numbers; parameters with the same seed vary together. (whole number; zero or more; default 0)
         """
 
 class numbers:
     @staticmethod
     def field(of: Field | Expression, ramp: Sequence[Sequence[float]] | np.ndarray) -> Number:
-        r"""A number for each value of a field, such as the distance to other phases.
+        r"""A number that depends on a field, such as the distance to other phases.
 
         of: The field, or the name of a shape. (field)
-        ramp: Values of the field and the number at each, between which it is interpolated. (list of [number, number] in m)
+        ramp: Values of the field and the number at each, with interpolation in between. (list of [number, number] in m)
         """
     @staticmethod
     def mesh_image(file: str | PathLike[str], channel: Literal["red", "green", "blue", "alpha"] | None = ..., repeat: Sequence[float] | np.ndarray | None = ..., range: Sequence[float] | np.ndarray | None = ...) -> Number:
-        r"""A number for each place of an image on a mesh, by the texture coordinates that its file has.
+        r"""A number from an image on a mesh, by the texture coordinates in the mesh file.
 
-        file: An image, of which one channel counts, as the file stores it: integers are not taken to be encoded as colours are. (name of a file)
-        channel: Which one; grey images have one in all three. (`"red"`, `"green"`, `"blue"`, `"alpha"`; default "red")
-        repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
-        range: The numbers where the image is black and where it is white. ([x, y]; default [0, 1])
+        file: Image, of which one channel is used as stored: integers are not decoded from sRGB. (name of a file)
+        channel: Channel to use; in grey images all three are the same. (`"red"`, `"green"`, `"blue"`, `"alpha"`; default "red")
+        repeat: Number of repetitions of the image, horizontally and vertically. ([x, y]; default [1, 1])
+        range: Numbers for black and white. ([x, y]; default [0, 1])
         """
     @staticmethod
     def per_copy(ramp: Sequence[Sequence[float]] | np.ndarray, seed: int | None = ...) -> Number:
-        r"""A number for each copy that "instances" place.
+        r"""A random number for each copy made by "instances".
 
-        ramp: Numbers from 0 to 1, and the value of a copy that has that random number; between them it is interpolated. (list of [number, number])
-        seed: Another seed gives each copy another value; parameters with the same seed vary together. (whole number; zero or more; default 0)
+        ramp: Random numbers from 0 to 1 and the value of a copy with that number, with interpolation in between. (list of [number, number])
+        seed: Seed of the random numbers; parameters with the same seed vary together. (whole number; zero or more; default 0)
         """
 
 def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray | None = ..., strength: float | None = ..., green_down: bool | None = ...) -> NormalMap:
-    r"""An image of normals on a mesh, by the texture coordinates that its file has: red is to the right of the image, green up, and blue out of the surface.
+    r"""A normal map on a mesh, by the texture coordinates in the mesh file: red points to the right of the image, green up, and blue out of the surface.
 
-    file: An image of at most 4096 × 4096 pixels, whose numbers count as the file stores them: 0 stands for −1, and 1 (255 of 255) for 1. (name of a file)
-    repeat: How often the image stands side by side, and one above the other. ([x, y]; default [1, 1])
-    strength: A factor of red and green: 0 is smooth, and 2 twice as steep. (number; at least 0 and at most 100; default 1)
-    green_down: Whether green is down in the image, as DirectX has it, and not up as in OpenGL. (true or false; default false)
+    file: Image of at most 4096 × 4096 pixels. Its numbers are used as stored: 0 stands for −1, and 1 (255 of 255) for 1. (name of a file)
+    repeat: Number of repetitions of the image, horizontally and vertically. ([x, y]; default [1, 1])
+    strength: Factor applied to red and green: 0 is smooth, and 2 twice as steep. (number; at least 0 and at most 100; default 1)
+    green_down: Whether green points down in the image, as in DirectX, and not up, as in OpenGL. (true or false; default false)
     """
 
 def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
-    r"""Numbers at voxels, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Between the voxels' centres they are interpolated, and negative ones count as 0. Outside of the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then turned, then moved.
+    r"""A voxel grid, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Values are interpolated between the voxels' centres; negative ones count as 0. Outside the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then rotated, then translated.
 
-    file: An OpenVDB file (.vdb) with a grid of floats or doubles, whose background is 0; or grey images, one for each layer from the lowest z to the highest: a name in which # stands for a digit of their numbers, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y, and its left column the least x; the stack is centred on the origin. (name of a file)
-    grid: Which of an OpenVDB file's grids; needed if it has several of numbers. If several have the same name, its index follows: "density[0]", "density[1]". (text; default "")
-    spacing: From voxel to voxel along x, y and z. Images need it, and OpenVDB has its own. ([x, y, z] in m; positive; default none)
-    factor: What the numbers are multiplied by. (number; zero or more; default 1)
-    scale: What its size is multiplied by. (number; positive; default 1)
-    rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-    translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-    y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
+    file: An OpenVDB file (.vdb) with a grid of floats or doubles whose background is 0. Or grey images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y and the left column the least x; the stack is centred on the origin. (name of a file)
+    grid: Name of the grid in an OpenVDB file; required if there are several of numbers. If several have the same name, append the index: "density[0]", "density[1]". (text; default "")
+    spacing: Distance between voxels along x, y and z. Required for images; OpenVDB files have their own. ([x, y, z] in m; positive; default none)
+    factor: Factor applied to the numbers. (number; zero or more; default 1)
+    scale: Scale factor. (number; positive; default 1)
+    rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
+    translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
+    y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
     """
 
 class lights:
     @staticmethod
     def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""The same radiance from everywhere.
+        r"""The same radiance from every direction.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
-        intensity: A factor of the radiance. (number; zero or more; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        intensity: Factor applied to the radiance. (number; zero or more; default 1)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""Three colours that run smoothly into each other with the height.
+        r"""A smooth gradient of three colours by elevation.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
 
         zenith: Radiance from straight above. (colour; zero or more)
         horizon: Radiance from the horizon. (colour; zero or more)
         ground: Radiance from straight below. (colour; zero or more)
-        intensity: A factor of the three radiances. (number; zero or more; default 1)
+        intensity: Factor applied to all three radiances. (number; zero or more; default 1)
         softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""An environment from a lat-long image, which is twice as wide as high.
+        r"""An environment map in latitude-longitude format, twice as wide as high.
 
-        file: An image that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
-        rotation: Angle by which it is turned, clockwise as seen from above. (number in degrees; default 0)
-        intensity: A factor of the image. (number; zero or more; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        file: Image file that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
+        rotation: Rotation about the z axis, clockwise as seen from above. (number in degrees; default 0)
+        intensity: Factor applied to the image. (number; zero or more; default 1)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A clear sky, its sun, and the ground below, by a model of the atmosphere. White level ground has the luminance 1 under a sun 45° high at turbidity 3.
+        r"""A clear sky with its sun and the ground below, from a model of the atmosphere. White level ground has luminance 1 with the sun 45° high and turbidity 3.
 
-        sun_elevation: Height of the sun above the horizon; down to −8 there is twilight. (number in degrees; at least -90 and at most 90; default 45)
+        sun_elevation: Elevation of the sun above the horizon; there is twilight down to −8. (number in degrees; at least -90 and at most 90; default 45)
         sun_azimuth: Direction of the sun, clockwise from +y. (number in degrees; at least -1000000 and at most 1000000; default 0)
         sun_diameter: Angular diameter of the sun. (number in degrees; more than 0 and at most 90; default 0.53)
         turbidity: Haze: 2 is very clear, 3 clear, 6 hazy. (number; at least 1 and at most 10; default 3)
         ground: Reflectance of the ground, which is diffuse. (colour; at least 0 and at most 1; default [0.3, 0.3, 0.3])
-        intensity: A factor of all of it. (number; at least 0 and at most 1e30; default 1)
-        sun: Whether the sun itself shines, too. (true or false; default true)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        intensity: Factor applied to sky, sun and ground. (number; at least 0 and at most 1e30; default 1)
+        sun: Whether to include the sun itself. (true or false; default true)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
@@ -2885,274 +2885,274 @@ class lights:
             L = E/(π sin²(δ/2))
 
         direction: Direction towards the sun, of any length. ([x, y, z], not all zero)
-        irradiance: What a surface receives that faces the sun, E. (colour; zero or more; default [1, 1, 1])
-        diameter: Angular diameter, δ. A larger sun makes softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        irradiance: Irradiance E of a surface that faces the sun. (colour; zero or more; default [1, 1, 1])
+        diameter: Angular diameter δ. A larger sun casts softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A rectangle that shines to one side and is not there from behind.
+        r"""A rectangle that emits on one side and is invisible from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        target: A point that it shines towards. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        width: Length of its horizontal edge; along x if it faces up or down. (number in m; more than 0 and at most 1e15)
-        height: Length of its other edge. (number in m; more than 0 and at most 1e15)
-        radiance: Radiance of its side that shines. (colour; zero or more; default [1, 1, 1])
-        intensity: A factor of the radiance. (number; zero or more; default 1)
-        visible_to_camera: Whether the camera sees it by itself. (true or false; default true)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        target: Point that the light faces. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        width: Length of the horizontal edge; along x if the light faces up or down. (number in m; more than 0 and at most 1e15)
+        height: Length of the other edge. (number in m; more than 0 and at most 1e15)
+        radiance: Radiance of the emitting side. (colour; zero or more; default [1, 1, 1])
+        intensity: Factor applied to the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A ball that shines.
+        r"""A sphere that emits light.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        radius: Radius of a ball. (number in m; more than 0 and at most 1e15)
+        radius: Radius of a sphere. (number in m; more than 0 and at most 1e15)
         radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
-        intensity: A factor of the radiance. (number; zero or more; default 1)
-        visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        intensity: Factor applied to the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""Many equal balls that shine. Each is a sphere light.
+        r"""Many equal sphere lights.
 
         centres: Their centres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
-        radius: Radius of a ball. (number in m; more than 0 and at most 1e15)
+        radius: Radius of a sphere. (number in m; more than 0 and at most 1e15)
         radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
-        intensity: A factor of the radiance. (number; zero or more; default 1)
-        visible_to_camera: Whether the camera sees the light by itself. (true or false; default true)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        intensity: Factor applied to the radiance. (number; zero or more; default 1)
+        visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A point that shines alike in all directions. It is never seen itself, and through glass or water its light is found by photons alone: without "caustics" it stays dark behind them. A small sphere has neither fault.
+        r"""A point that emits equally in all directions. It is never visible, and its light passes through glass or water only with "caustics", which use photons; without them, objects behind stay dark. A small sphere light has neither limitation.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
-        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at distance d receives the irradiance intensity/d². (number; zero or more; default 1)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A point that shines into a cone with a smooth edge. It is a point light else.
+        r"""A point light that emits only within a cone with a smooth edge.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        target: A point in the middle of its cone. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        cone: Angle across the whole cone, beyond which it is dark. (number in degrees; more than 0 and at most 360; default 60)
-        edge: Angle within the cone's edge over which it grows dark; of a narrow cone, at most half of it counts. (number in degrees; at least 0 and at most 180; default 5)
-        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
-        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at the distance d gets the irradiance intensity/d². (number; zero or more; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: Point on the axis of the cone. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        cone: Full angle of the cone, outside which it is dark. (number in degrees; more than 0 and at most 360; default 60)
+        edge: Width of the soft edge inside the cone; at most half of the cone's angle is used. (number in degrees; at least 0 and at most 180; default 5)
+        color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at distance d receives the irradiance intensity/d². (number; zero or more; default 1)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
-        r"""A point that shines as a photometric file of the IES tells it (LM-63, type C). It is a point light else.
+        r"""A point light with the angular distribution of an IES photometric file (LM-63, type C).
 
-        file: The file, of at most 1 MiB. (name of a file)
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        target: A point towards which goes what the file has as straight down. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        turn: Angle by which it is turned about that direction, anticlockwise as seen from behind it. At 0 the file's plane of 0° of a light that shines down is towards +x. (number in degrees; default 0)
-        color: A factor of the intensity of each colour. (colour; zero or more; default [1, 1, 1])
-        intensity: Radiant intensity where the file has the most candelas; see the point light. (number; zero or more; default 1)
-        group: The group of lights that it is of: letters, digits, - and _. What the lights of a group bring is a plane of the picture. (text; default "default")
-        spectrum: How its light is spread over the wavelengths, relative power at points or the temperature of what is hot. Of the light's own colour only the brightness counts then. Without "spectral" it is the colour of that spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        file: Photometric file of at most 1 MiB. (name of a file)
+        position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        target: Point towards which the file's downward direction points. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        turn: Rotation about that direction, anticlockwise as seen from behind the light. At 0, the 0° plane of a light that points down faces +x. (number in degrees; default 0)
+        color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
+        intensity: Radiant intensity in the direction where the file has the most candelas; see the point light. (number; zero or more; default 1)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def portal(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float) -> Light:
-        r"""An opening through which the lights at infinity are looked for, such as a window of a room: it makes less noise, and no light.
+        r"""An opening, such as a window of a room, through which lights at infinity are sampled. It reduces noise and emits no light.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        target: A point inside, straight away from it. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        width: Length of its horizontal edge; along x if it faces up or down. (number in m; more than 0 and at most 1e15)
-        height: Length of its other edge. (number in m; more than 0 and at most 1e15)
+        target: A point inside the room, straight in front of the portal. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        width: Length of the horizontal edge; along x if the portal faces up or down. (number in m; more than 0 and at most 1e15)
+        height: Length of the other edge. (number in m; more than 0 and at most 1e15)
         """
 
 class meshes:
     @staticmethod
     def obj(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
-        r"""The faces of a Wavefront OBJ file, of at most 1 GiB, with its normals, texture coordinates and colours of vertices; its materials are not read. Faces are made larger or smaller first, then turned, then moved.
+        r"""The faces of a Wavefront OBJ file of at most 1 GiB, with normals, texture coordinates and vertex colours; its materials are ignored. The mesh is scaled first, then rotated, then translated.
 
-        material: What it is made of. (opaque material)
+        material: Material of the mesh. (opaque material)
         file: The file. (name of a file)
-        scale: What its size is multiplied by. (number; positive; default 1)
-        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
-        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
-        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        scale: Scale factor. (number; positive; default 1)
+        rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
+        translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
+        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
+        y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
+        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
-        r"""The faces of a PLY file, such as a scan, of at most 1 GiB, with its normals, texture coordinates and colours of vertices. It is placed as obj is.
+        r"""The faces of a PLY file of at most 1 GiB, such as a scan, with normals, texture coordinates and vertex colours. Placed as for obj.
 
-        material: What it is made of. (opaque material)
+        material: Material of the mesh. (opaque material)
         file: The file. (name of a file)
-        scale: What its size is multiplied by. (number; positive; default 1)
-        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
-        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
-        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        scale: Scale factor. (number; positive; default 1)
+        rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
+        translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
+        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
+        y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
+        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
-        r"""The triangles of an STL file of at most 1 GiB. It is placed as obj is.
+        r"""The triangles of an STL file of at most 1 GiB. Placed as for obj.
 
-        material: What it is made of. (opaque material)
+        material: Material of the mesh. (opaque material)
         file: The file. (name of a file)
-        scale: What its size is multiplied by. (number; positive; default 1)
-        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
-        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
-        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
-        y_up: Whether y is up in the file, and not z. It is turned so first. (true or false; default false)
-        smooth: Whether it is shaded as if it were smooth: by the normals that its file has, or else by the mean of those of the faces around each vertex. (true or false; default true)
+        scale: Scale factor. (number; positive; default 1)
+        rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
+        translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
+        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
+        y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
+        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def gltf(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ...) -> Mesh:
-        r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and in folders within it), with its materials, images, maps of normals, opacity and colours of vertices: a room that was made elsewhere. glTF has y up, which becomes z. Skins are bent by their joints, and morph targets are applied with the weights of their node or mesh; animations are ignored. The alpha of images and vertices counts in the modes MASK and BLEND. Images may use two sets of texture coordinates per material, and any transforms of these. Clear materials are left out, because meshes are opaque. These extensions are read: KHR_texture_transform, KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior, KHR_materials_emissive_strength, KHR_materials_transmission (to find clear materials), and, if the build has their libraries, KHR_draco_mesh_compression and EXT_meshopt_compression. A file that requires another one is rejected if the picture would suffer; otherwise a warning lists what is missing. Limits: 20 million triangles, counted once per instance, 2,000 materials, images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 million in all, and 1 GiB per file.
+        r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and its subfolders), with materials, images, normal maps, opacity and vertex colours. The y axis of glTF becomes z. Skins are deformed by their joints, and morph targets are applied with the weights of their node or mesh; animations are ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of texture coordinates per material, with any transforms. Clear materials are ignored, because meshes are opaque; KHR_materials_transmission identifies them. Other supported extensions: KHR_texture_transform, KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if phasetree was built with their libraries. A file that requires another extension is rejected if the picture would be affected; otherwise a warning lists what is missing. Limits: 20 million triangles, counted once per instance; 2,000 materials; images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 million in total; 1 GiB per file.
 
         file: The file. (name of a file)
-        material: What all of it is made of, clear parts and holes too, instead of the file's materials. (opaque material; default none)
-        scale: What its size is multiplied by. (number; positive; default 1)
-        rotate_z: Angle by which it is turned about the z axis, anticlockwise from above. (number in degrees; default 0)
-        translate: Where its origin goes. ([x, y, z] in m; default [0, 0, 0])
+        material: Material for the whole mesh, including clear parts and holes, instead of the materials in the file. (opaque material; default none)
+        scale: Scale factor. (number; positive; default 1)
+        rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
+        translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
         """
     @staticmethod
     def floor(material: Material, height: float | None = ..., size: float | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ...) -> Mesh:
         r"""A horizontal square about the z axis.
 
-        material: What it is made of. (opaque material)
+        material: Material of the mesh. (opaque material)
         height: Its z. (number in m; at least -1e15 and at most 1e15; default 0)
-        size: Length of its edges. (number in m; more than 0 and at most 1e15; default 1000)
-        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
-        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
+        size: Length of the edges. (number in m; more than 0 and at most 1e15; default 1000)
+        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         """
     @staticmethod
     def backdrop(material: Material, height: float | None = ..., distance: float | None = ..., radius: float | None = ..., width: float | None = ..., front: float | None = ..., wall: float | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ...) -> Mesh:
-        r"""A photographer's sweep: a floor that curves up into a wall behind, without an edge.
+        r"""A photographer's sweep: a floor that curves smoothly up into a back wall.
 
-        material: What it is made of. (opaque material)
+        material: Material of the mesh. (opaque material)
         height: z of the floor. (number in m; at least -1e15 and at most 1e15; default 0)
         distance: y of the wall. (number in m; more than 0 and at most 1e15; default 5)
         radius: Radius of the curve between floor and wall. (number in m; more than 0 and at most 1e15; default 2)
         width: Length along x. (number in m; more than 0 and at most 1e15; default 100)
         front: The floor begins at y = −front. (number in m; more than 0 and at most 1e15; default 50)
         wall: Height of the wall above the curve. (number in m; more than 0 and at most 1e15; default 50)
-        opacity: How opaque it is: 0 is a hole. In between, light goes through by the rest, as through a fine net. (number or field; at least 0 and at most 1; default none)
-        opacity_cutoff: With an opacity: below this it is a hole, and else opaque, so that edges are sharp. (number; at least 0 and at most 1; default none)
+        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         """
 
 class cameras:
     @staticmethod
     def thin_lens(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
-        r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
+        r"""A thin lens with a plane of focus, or a pinhole if its radius is 0. This is the default kind, whose name may be omitted.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
-        fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
-        lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
-        blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
-        focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-        focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
+        lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
+        blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
+        focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
+        focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
     def orthographic(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, height: float, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
-        r"""All rays are parallel, so that lengths across them are the same at any distance.
+        r"""An orthographic camera: all rays are parallel, so objects have the same size at any distance.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        height: What the height of the whole image shows. (number in m; more than 0 and at most 1e10)
-        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        height: Height of the visible area. (number in m; more than 0 and at most 1e10)
+        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
     def tilt_shift(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ..., shift: Sequence[float] | np.ndarray | None = ..., tilt: Sequence[float] | np.ndarray | None = ...) -> Camera:
-        r"""A lens that shifts, so that verticals stay parallel, and whose plane of focus tilts.
+        r"""A lens that can be shifted, so that verticals stay parallel, and whose plane of focus can be tilted.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
-        fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
-        lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
-        blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
-        focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-        focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
-        shift: By which what is shown lies farther to the right and farther up, in heights of the image: with [0, 0.5] its lower edge is where its middle was. ([x, y]; at least -100 and at most 100; default [0, 0])
-        tilt: By which the plane of focus leans away at its top, and turns away at its right. ([x, y] in degrees; more than -90 and less than 90; default [0, 0])
+        position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
+        lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
+        blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
+        focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
+        focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        shift: Shift of the view to the right and up, in heights of the image: with [0, 0.5] the lower edge is where the centre was. ([x, y]; at least -100 and at most 100; default [0, 0])
+        tilt: Tilt of the plane of focus: the angles by which its top and its right side turn away from the camera. ([x, y] in degrees; more than -90 and less than 90; default [0, 0])
         """
     @staticmethod
     def panorama(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ...) -> Camera:
-        r"""All directions, on an image that should be twice as wide as high (equirectangular, lat-long).
+        r"""A panorama of all directions in latitude-longitude format. The image should be twice as wide as high.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
     def dome(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ...) -> Camera:
-        r"""A fisheye for domes: the angle from the middle grows evenly outwards, and the widest circle of the image has the field of view.
+        r"""An equidistant fisheye for domes: the angle from the centre is proportional to the radius, and the largest circle in the image has the field of view.
 
-        position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-        filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
-        fov: Angle across the circle. (number in degrees; more than 0 and at most 360; default 180)
+        position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+        fov: Angle across the whole circle. (number in degrees; more than 0 and at most 360; default 180)
         """
 
 def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np.ndarray, up: Sequence[float] | np.ndarray | None = ..., turn: float | None = ..., filter: Literal["blackman_harris", "box"] | None = ..., fov: float | None = ..., lens_radius: float | None = ..., blades: int | None = ..., blade_rotation: float | None = ..., focus_distance: float | None = ..., focus_at: Sequence[float] | np.ndarray | None = ...) -> Camera:
-    r"""A lens with a plane of focus; a pinhole, if its radius is 0. The kind need not be named.
+    r"""A thin lens with a plane of focus, or a pinhole if its radius is 0. This is the default kind, whose name may be omitted.
 
-    position: Where it is. ([x, y, z] in m; at least -1e15 and at most 1e15)
-    look_at: A point in the middle of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-    up: A direction that is up in the image; +y, or +x, if it looks along that. ([x, y, z]; default [0, 0, 1])
-    turn: Angle by which the camera goes around the axis up through look_at, to its own right at first. With keys that is a turntable. (number in degrees; default 0)
-    filter: How samples are spread about the middle of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
-    fov: Angle between the upper and the lower edge of the image. (number in degrees; more than 0 and less than 180; default 40)
-    lens_radius: Radius of the lens; what is out of focus blurs by it. (number in m; at least 0 and at most 1e15; default 0)
-    blades: Corners of the lens's opening, 3 or more, as an iris of this many blades makes them; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
-    blade_rotation: Angle by which the opening is turned; at 0 a corner is at the right. (number in degrees; default 0)
-    focus_distance: Distance of the plane of focus; without it, the plane is at look_at. (number in m; positive; default none)
-    focus_at: Instead of the distance: a point of the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
+    look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
+    up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
+    turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+    filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
+    fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
+    lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
+    blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+    blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
+    focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
+    focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
 def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., spectral: bool | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
-    r"""How large the image is, and how it is made.
+    r"""Size of the image and settings of the renderer.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
     height: Height of the image. (whole number in pixels; at least 1 and at most 32768; default 768)
-    frames_per_second: Of a film: frame n, from 0, shows the scene as it is n over this after its beginning. (number in 1/s; at least 0.001 and at most 100000; default 24)
-    shutter: When the shutter opens and closes, from the time of the picture. What moves meanwhile is blurred: transforms of objects and instances, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
-    samples: Paths of each pixel. (whole number; at least 1 and at most 16777216; default 64)
-    noise: Pixels stop before that where their relative error is estimated to be at most this, after 32 samples at the earliest; 0 if none is to stop. (number; at least 0 and at most 1; default 0)
-    seed: Another whole number gives other noise. (whole number; zero or more; default 0)
-    max_depth: The most surfaces that a path meets. One between equal indices counts, too. (whole number; at least 1 and at most 1048576; default 65536)
-    spectral: Whether light has wavelengths instead of red, green and blue, three on each path. Metals, films on smooth surfaces, absorption and light then are what they are at each wavelength; colours are spectra that look like them. (true or false; default false)
-    guiding: Whether paths learn where light comes from before the first sample, so that half of them go there from diffuse surfaces. It pays where most light has been scattered several times, as in a room that is lit through a door from the next one. (true or false; default false)
-    caustics: Whether photons look for the light that lamps, surfaces that glow, the sun and the bright parts of environment images throw through clear surfaces, curved or rough, and by metal onto other surfaces and into media that scatter. They blur it by a pixel or two, less with more samples. (true or false; default false)
-    photons: For caustics: photons for each pixel and sample. (number; at least 0 and at most 64; default 1)
-    photon_radius: For caustics: how far around a point photons count as light on it, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
-    exposure: Brightness of pictures; one more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
-    view: View of the display transform; the default one without it. (text; default none)
+    frames_per_second: Frame rate of an animation: frame n, counted from 0, shows the time n / frames_per_second. (number in 1/s; at least 0.001 and at most 100000; default 24)
+    shutter: Times at which the shutter opens and closes, relative to the time of the picture. Motion in between is blurred: transforms of objects and instances, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
+    samples: Samples per pixel. (whole number; at least 1 and at most 16777216; default 64)
+    noise: Noise limit: a pixel stops early, after at least 32 samples, once its estimated relative error is at most this; 0 turns this off. (number; at least 0 and at most 1; default 0)
+    seed: Seed of the random numbers; another seed gives other noise. (whole number; zero or more; default 0)
+    max_depth: Maximum number of surfaces per path, including those between equal indices. (whole number; at least 1 and at most 1048576; default 65536)
+    spectral: Whether to render with wavelengths, three per path, instead of red, green and blue. Metals, films on smooth surfaces, absorption and light then have their values at each wavelength; colours are replaced by spectra that look the same. (true or false; default false)
+    guiding: Path guiding: whether to learn, before the first sample, where light comes from, and to send half of the paths from diffuse surfaces there. It pays off where most light is indirect, as in a room lit through the door of the next one. (true or false; default false)
+    caustics: Whether to use photons for caustics: light from lamps, glowing surfaces, the sun and bright parts of environment maps that reaches surfaces and scattering media through clear materials or by metal. Photons blur caustics by a pixel or two, less with more samples. (true or false; default false)
+    photons: For caustics: photons per pixel and sample. (number; at least 0 and at most 64; default 1)
+    photon_radius: For caustics: radius within which photons count for a point, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
+    exposure: Exposure of display images; one stop more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
+    view: OpenColorIO view of display images; by default that of the configuration. (text; default none)
     """
 
