@@ -8,6 +8,7 @@
 #include "command/farm_scripts.hpp"
 #include "command/load.hpp"
 #include "command/option_error.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
 
@@ -76,7 +77,8 @@ int write_farm(const FarmOptions& options) {
             "--max-running is for slurm; whatever runs a list decides how many of its commands run at a time");
     if (options.scene->is_standard_input()) throw OptionError("the scene of a farm must be a file that all can read");
     const RenderOptions render = render_options(options);
-    Scene scene = load_scene(read_document(*options.scene));
+    const Document document = read_document(*options.scene);
+    Scene scene = load_scene(document);
     apply(render, scene);
     (void)pixels_of(render, scene);
     if (scene.settings.noise > 0)
@@ -102,6 +104,9 @@ int write_farm(const FarmOptions& options) {
     if (farm.outputs.empty()) farm.outputs = {stem.string() + ".exr", stem.string() + ".png"};
     for (std::string& output : farm.outputs) output = as_file(output);
     check_outputs(farm.outputs);
+    std::vector<NamedFile> written = named_files_of("--output", farm.outputs);
+    if (render.cells) written.push_back({"--cells", *render.cells});
+    check_overwrites(*options.scene, document, written);
     farm.sbatch_options = options.sbatch;
     farm.samples = scene.settings.samples;
     farm.shares = options.shares;

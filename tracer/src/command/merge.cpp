@@ -7,6 +7,7 @@
 #include "command/denoising.hpp"
 #include "command/load.hpp"
 #include "command/option_error.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -102,6 +103,7 @@ int merge_parts(const MergeOptions& options) {
     std::vector<std::string> images, film_files;
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
+    check_overwrites(named_files_of("the part", options.parts), named_files_of("--output", options.outputs));
     const Parts parts = opened(options);
     if (!options.quiet && parts.header().build() != build_id())
         say("phasetree: the parts were rendered by phasetree {}, and are joined by {}\n", parts.header().build(),
