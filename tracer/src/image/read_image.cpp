@@ -76,15 +76,15 @@ class FileInMemory {
 // bytes in 2 bits, so the uncompressed data are at most 1032 times the size of the file. They consist of rows of packed
 // samples, each preceded by one byte; interlaced images have more.
 std::uintmax_t least_bytes_of_png(std::string_view first) {
-    constexpr std::size_t width_at = 16, height_at = 20, bits_at = 24, kind_at = 25;
-    if (first.size() <= kind_at || first.substr(12, 4) != "IHDR") throw std::runtime_error(too_short);
+    constexpr std::size_t width_at = 16, height_at = 20;
+    if (first.size() <= png::kind_at || first.substr(12, 4) != "IHDR") throw std::runtime_error(too_short);
     const auto byte = [&](std::size_t at) { return std::uintmax_t{static_cast<unsigned char>(first[at])}; };
     const auto number = [&](std::size_t at) {
         return byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
     };
     constexpr std::array<std::uintmax_t, 7> samples{1, 1, 3, 1, 2, 1, 4};  // samples per pixel, by colour type
-    const std::uintmax_t kind = std::min<std::uintmax_t>(byte(kind_at), samples.size() - 1);
-    const std::uintmax_t row = (number(width_at) * byte(bits_at) * samples[kind] + 7) / 8 + 1;
+    const std::uintmax_t kind = std::min<std::uintmax_t>(byte(png::kind_at), samples.size() - 1);
+    const std::uintmax_t row = (number(width_at) * byte(png::bits_at) * samples[kind] + 7) / 8 + 1;
     constexpr std::uintmax_t most = 1032;
     return row / most * number(height_at) + row % most * number(height_at) / most;
 }
@@ -240,7 +240,17 @@ void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
                         held.width(), held.height(), shown.width(), shown.height()));
 }
 
-ImageHeader header_of(const OIIO::ImageInput& input) {
+// The number of bits per value, before values of fewer than 8 bits are scaled to a full byte. `first` is the beginning
+// of the file.
+int bits_of(const OIIO::ImageInput& input, std::string_view first) {
+    // OpenImageIO does not report the bits of a PNG file, which its first chunk holds. Those of a palette are of its
+    // indices; its colours have 8.
+    if (std::string_view(input.format_name()) == "png" && first.size() > png::kind_at && first[png::kind_at] != 3)
+        return static_cast<unsigned char>(first[png::bits_at]);
+    return input.spec().get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * input.spec().format.size()));
+}
+
+ImageHeader header_of(const OIIO::ImageInput& input, std::string_view first) {
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
@@ -251,13 +261,11 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
             spec.width, spec.height, spec.full_width, spec.full_height));
     const Window shown = display_window(input);
     check_windows(spec, shown);
-    // Values of fewer than 8 bits are scaled to a full byte.
-    const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
     return {.width = static_cast<int>(shown.width()),
             .height = static_cast<int>(shown.height()),
             .channels = spec.nchannels,
             .is_floating_point = spec.format.is_floating_point(),
-            .bits = bits,
+            .bits = bits_of(input, first),
             .is_signed = spec.format.is_signed()};
 }
 
@@ -286,7 +294,7 @@ void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add
     const ChannelRange channels = begin(header);
     if (source.bytes < jpeg.least_bytes) throw std::runtime_error(too_short);
     const auto input = source.open();
-    const ImageHeader decoded = header_of(*input);
+    const ImageHeader decoded = header_of(*input, source.first);
     if (decoded.width != header.width || decoded.height != header.height || decoded.channels != header.channels)
         throw std::runtime_error("it decodes to another size than its header says");
     read_values(*input, channels, source.bytes, add);
@@ -295,7 +303,7 @@ void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add
 void read(const Source& source, const BeginImage& begin, const AddRows& add) {
     if (is_jpeg(source.first)) return read_jpeg(source, begin, add);
     const auto input = source.open();
-    const ChannelRange channels = begin(header_of(*input));
+    const ChannelRange channels = begin(header_of(*input, source.first));
     if (std::string_view(input->format_name()) == "png" && source.bytes < least_bytes_of_png(source.first))
         throw std::runtime_error(too_short);
     read_values(*input, channels, source.bytes, add);
