@@ -384,6 +384,13 @@ TEST_CASE("small files with huge windows are rejected by the limits of their use
     set_window("dataWindow", (1 << 20) - 1, 31);
     CHECK(said([&] { return load_texture_image(path); }) ==
           "its data window of 1048576 × 32 pixels is much larger than its display window of 4 × 32; crop it");
+    // A single row that is as large as the display window is not too large in all, but for memory.
+    write_exr(path, {0, 0, 4, 1}, {0, 0, 4, 1}, 0, "RGB");
+    set_window("displayWindow", 16383, 8191);
+    set_window("dataWindow", (1 << 28) - 1, 0);
+    CHECK(said([&] { return load_environment_image(path); }) ==
+          "its data window of 268435456 × 1 pixels with 3 channels takes 3072 MB for a row, and at most 512 MB can be; "
+          "crop it");
     // OpenEXR itself rejects tiled files that are too short for their tables of tiles.
     write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2}, 16);
     set_window("dataWindow", (1 << 23) - 1, 3);

@@ -194,6 +194,11 @@ class ShownRows {
     std::vector<float> values_;
 };
 
+// The number of rows that are decoded at a time: whole blocks or tiles, as the format stores them.
+std::int64_t rows_at_a_time(const OIIO::ImageSpec& spec) {
+    return spec.tile_width != 0 ? spec.tile_height : 64;
+}
+
 void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uintmax_t file_bytes, const AddRows& add) {
     const OIIO::ImageSpec& spec = input.spec();
     const Window held = data_window(spec), shown = display_window(input);
@@ -206,8 +211,7 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     ShownRows rows(held, shown, channels.count, checked);
     const std::int64_t top = std::clamp(held.y0, shown.y0, shown.y1), bottom = std::clamp(held.y1, top, shown.y1);
     rows.add_empty(top - shown.y0);
-    // Read whole blocks or tiles, as the format stores them.
-    const std::int64_t step = spec.tile_width != 0 ? spec.tile_height : 64;
+    const std::int64_t step = rows_at_a_time(spec);
     std::vector<float> values;
     const std::size_t in_row = static_cast<std::size_t>(held.width()) * static_cast<std::size_t>(channels.count);
     const std::int64_t start = top < bottom ? top - (top - held.y0) % step : bottom;
@@ -226,6 +230,19 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     non_finite.check();
 }
 
+// Throws if rows of the data window take too much memory, even before any of them is decoded.
+void check_memory(const OIIO::ImageSpec& spec, const Window& held) {
+    constexpr double most_megabytes = 512, megabyte = 1 << 20;
+    const auto rows = static_cast<double>(std::min(rows_at_a_time(spec), held.height()));
+    const double megabytes = rows * static_cast<double>(held.width()) * spec.nchannels * sizeof(float) / megabyte;
+    if (megabytes > most_megabytes)
+        throw std::runtime_error(
+            fmt::format("its data window of {} × {} pixels with {} channels takes {:.0f} MB for {}, and at most {:.0f} "
+                        "MB can be; crop it{}",
+                        held.width(), held.height(), spec.nchannels, megabytes, rows > 1 ? "a block of rows" : "a row",
+                        most_megabytes, spec.tile_width != 0 ? " or use smaller tiles" : ""));
+}
+
 // Throws for windows that cannot be read. The caller checks the size of the display window. Rows of the
 // data window are limited here, because a block of them is also kept in memory.
 void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
@@ -238,6 +255,7 @@ void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
         throw std::runtime_error(
             fmt::format("its data window of {} × {} pixels is much larger than its display window of {} × {}; crop it",
                         held.width(), held.height(), shown.width(), shown.height()));
+    check_memory(spec, held);
 }
 
 // The number of bits per value, before values of fewer than 8 bits are scaled to a full byte. `first` is the beginning
