@@ -11,6 +11,7 @@
 #include "command/denoising.hpp"
 #include "command/duration.hpp"
 #include "command/max_memory.hpp"
+#include "command/number_in.hpp"
 #include "command/option_error.hpp"
 #include "film/chosen_planes.hpp"
 
@@ -58,8 +59,6 @@ void apply(const RenderOptions& options, Scene& scene) {
     // A time limit without a number of samples means as many samples as fit.
     if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
-    // CLI11's range check accepts NaN.
-    if (options.noise && !(*options.noise >= 0)) throw OptionError("--noise must be a number from 0 to 1");
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
@@ -117,7 +116,7 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
                          std::optional<std::string>& view) {
     command.add_option("--exposure", exposure, "Stops by which display images are brighter; EXR stays as it is")
-        ->check(CLI::Range(-50.0, 50.0));
+        ->check(number_in(-50, 50));
     command.add_option("--display", display, "OpenColorIO display");
     command.add_option("--view", view, "OpenColorIO view");
 }
@@ -135,7 +134,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
             "Blocks of 8x8 pixels stop before they have all samples where their estimated relative error is "
             "at most this, 0.02 for example; adds the planes noise and samples. 0: none stops. Where bright paths are "
             "rare and were missed a block stops too soon, so the picture gets a little darker")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(number_in(0, 1))
         ->option_text("ERROR");
     command
         .add_option("--samples", o.share,
@@ -178,7 +177,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--detail", o.detail,
                     "Lets coarser levels of detail stand where their errors look no larger than this many pixels; "
                     "without it the finest stand everywhere")
-        ->check(CLI::Range(1e-3, 1e3))
+        ->check(number_in(1e-3, 1e3))
         ->option_text("PIXELS");
     add_display_options(command, o.exposure, o.display, o.view);
     command.add_option("--planes", o.planes,
