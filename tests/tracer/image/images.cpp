@@ -431,6 +431,20 @@ TEST_CASE("numbers that are not finite are rejected: how many pixels have them, 
           "1 pixel is infinite or not a number, at column 0, row 0 " + repair);
 }
 
+TEST_CASE("an environment whose sum overflows is rejected, with its brightest pixel") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    std::vector<float> values(8 * 4 * 3, 1.0f);
+    values[3 * (8 * 2 + 5) + 1] = 3e38f;
+    write_floats(path, 8, 4, 3, values);
+    CHECK_THROWS_WITH(
+        (void)load_environment_image(path),
+        ("cannot use the environment image \"" + path +
+         "\": its radiance adds up to more than a float can hold; its largest value is 3e+38, at column 5, "
+         "row 2 (counted from 0 at the top left); repair this pixel, or scale the image")
+            .c_str());
+}
+
 TEST_CASE("a TIFF file that is a part of a larger picture is rejected") {
     const phasetree::support::TemporaryDirectory folder;
     const std::string path = folder / "a.tif";
