@@ -90,6 +90,20 @@ const std::vector<std::pair<const char*, Form>> forms{
     {"with blanks", [](const User& u) { return table(u, "  "); }},
     {"with comments and empty lines",
      [](const User& u) { return "# made by hand\n\n" + table(u, ",", "", "\n \t\n# more\n") + "\n\n\r\n"; }},
+    {"with rows of separators",
+     [](const User& u) {
+         return table(u, ",", "", "\n,,,,,\n") + " ; ;\n" + std::string(u.columns.size(), ';') + "\n";
+     }},
+    {"with blanks inside quotes",
+     [](const User& u) {
+         return "\" " + joined(u.columns, " \",\"\t") + "\"\n\"" + joined(u.rows[0], "\",\" ") + " \"\n" +
+                joined(u.rows[1], ",");
+     }},
+    {"with semicolons, and commas in another name",
+     [](const User& u) {
+         return "rgb (r,g,b);" + joined(u.columns, ";") + "\n;" + joined(u.rows[0], ";") + "\n1,2,3;" +
+                joined(u.rows[1], ";");
+     }},
     {"without a last line feed", [](const User& u) { return table(u, ",").substr(0, table(u, ",").size() - 1); }},
     {"with signs",
      [](const User& u) {

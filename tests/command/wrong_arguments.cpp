@@ -98,6 +98,30 @@ TEST_CASE("wrong arguments: one error, exit code 2, or 1 if output cannot be wri
     CHECK(shell.directory.size() == 1);
 }
 
+TEST_CASE("numbers that are not finite are refused by every option") {
+    const Shell shell;
+    write_text(shell.directory / "scene.json", SceneText().text());
+    REQUIRE(shell.run({"render", "scene.json", "--quiet", "-o", "a.part"}).code == 0);
+    const auto refused = [&](const std::vector<std::string>& words, const std::vector<std::string>& options) {
+        for (const std::string& option : options)
+            for (const char* const number : {"nan", "-nan", "inf", "-inf", "1e999"}) {
+                std::vector<std::string> all = words;
+                all.push_back(option + "=" + number);
+                CAPTURE(all);
+                const Outcome o = shell.run(all);
+                CAPTURE(o.err);
+                CHECK(o.code == 2);
+                CHECK(o.err.find(option) != std::string::npos);
+                CHECK(shell.directory.size() == 2);
+            }
+    };
+    refused({"render", "scene.json", "--quiet", "-o", "b.exr"},
+            {"--exposure", "--noise", "--detail", "--time", "--checkpoint-interval", "--max-memory", "--at", "--spp",
+             "--threads", "--seed"});
+    refused({"merge", "a.part", "-o", "b.exr"}, {"--exposure"});
+    refused({"export", "scene.json", "-o", "b.stl"}, {"--spacing", "--scale", "--max-memory", "--at"});
+}
+
 TEST_CASE("$OCIO that leads nowhere is an error") {
     Shell shell;
     shell.environment = {{"OCIO", "/nowhere/config.ocio"}};

@@ -45,6 +45,19 @@ TEST_CASE("balls are read from CSV, with columns in any order and others among t
     for (const std::string end : {"\n", "\r", "\r\n"})
         CHECK(files.said("wrong.csv", "x,y,z" + end + end + "1,2,a" + end) ==
               "wrong.csv:3:5: z must be a finite number, but is \"a\"");
+    // A name may contain another separator, or look like one of the columns.
+    for (const std::string name : {"colour (r,g,b)", "x, y"})
+        for (const std::string separator : {";", "\t"}) {
+            std::string text;
+            for (const char* const cell : {"x", "y", "z", "radius", "phase", name.c_str(), "\n1", "2", "3", "0.25", "0",
+                                           "red,\n-4", "0.5", "0", "1", "3", ""})
+                text += cell + separator;
+            check_two(files.read("named.csv", text));
+        }
+    // Spreadsheets write empty rows, and some programs pad what they quote.
+    check_two(files.read("rows.csv", ",,,,\nx,y,z,radius,phase\n,,,,\n1,2,3,0.25,0\n , ,,,\n-4,0.5,0,1,3\n,,,,\n;;\n"));
+    check_two(files.read("quotes.csv",
+                         "\" x\",\"y \",z,\" radius \",phase\n\" 1 \",\"2\t\",\" 3\",0.25,\"0 \"\n-4,0.5,0,1,3\n"));
     const BallList bare = files.read("bare.csv", "x,y,z\n1,2,3\n");
     CHECK(bare.centres.size() == 1);
     CHECK(bare.radii.empty());
@@ -86,6 +99,8 @@ TEST_CASE("files that hold no balls are rejected, with the place or the row") {
     CHECK(said_of_csv("x,y,z\n1,2,3\n1,2\n") == "3:4: the row has no z");
     CHECK(said_of_csv("x,y,z\n1,2,three\n") == "2:5: z must be a finite number, but is \"three\"");
     CHECK(said_of_csv("x,y,z,radius\n1,2,3,-1\n") == "2:7: a radius is not positive");
+    CHECK(said_of_csv("x,y,z,radius\n1,2,3,1e39\n") == "2:7: a radius is too large");
+    CHECK(said_of_csv("x,y,z\n1,2,\" \"\n") == "2:5: the row has no z");
     CHECK(said_of_csv("x,y,z,radius\n1,2,3,nan\n") == "2:7: radius must be a finite number, but is \"nan\"");
     CHECK(said_of_csv("phase,x,y,z\n1.5,2,3,1\n") == "2:1: a phase is not a whole number from 0 to 255");
     CHECK(said_of_csv("x,y,z\n0,1e300,0\n") == "2:3: a coordinate is not a number, or too large");

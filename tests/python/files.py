@@ -34,6 +34,31 @@ def shown(material, **parts):
     return pt.Scene(ball, pt.camera((0, -5, 0), (0, 0, 0)), image=pt.image(16, 16, samples=2), **parts)
 
 
+class WrongPathsAndTimes(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_null_characters_in_paths_are_refused(self):
+        scene = shown(pt.diffuse((0.5, 0.5, 0.5)))
+        image = pt.Image(np.zeros((2, 2, 3)))
+        for path in (f"{self.folder}/a\0b.exr", self.folder / "a\0b.json", os.fsencode(self.folder) + b"/a\0b.exr"):
+            with self.subTest(path):
+                for call in (image.save, scene.save, pt.load):
+                    with self.assertRaisesRegex(pt.Error, "a path must not contain null characters, but is"):
+                        call(path)
+        with self.assertRaisesRegex(pt.Error, "null characters"):
+            pt.textures.image(pathlib.Path("a\0b.png"))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_the_time_of_a_picture_must_be_finite(self):
+        scene = shown(pt.diffuse((0.5, 0.5, 0.5)))
+        for at in (float("nan"), float("inf"), -float("inf"), "x", "1", None, [0], 10**400):
+            with self.subTest(at), self.assertRaisesRegex(pt.Error, "^at must be a finite number of seconds, but is "):
+                scene.render(at=at)
+        self.assertEqual(scene.render(at=np.float32(0)), scene.render(at=0))
+
+
 class FilesOfScenes(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())

@@ -294,18 +294,27 @@ std::string palette(int colours) {
     return s;
 }
 
-std::string png_of(int width, int height, int bits, bool is_interlaced, const std::string& data) {
+// What the samples of a PNG file are, by its number for that.
+enum class Samples : char { grey = 0, indices = 3 };
+
+std::string png_of(int width, int height, int bits, bool is_interlaced, const std::string& data,
+                   Samples samples = Samples::indices) {
     const int colours = 1 << bits;
+    std::string colour_chunks;
+    if (samples == Samples::indices)
+        colour_chunks =
+            chunk("PLTE", palette(colours)) + chunk("tRNS", std::string(static_cast<std::size_t>(colours), '\xff'));
     return "\x89PNG\r\n\x1a\n" +
            chunk("IHDR", big_endian(static_cast<std::uint32_t>(width)) +
                              big_endian(static_cast<std::uint32_t>(height)) +
-                             std::string{static_cast<char>(bits), 3, 0, 0, is_interlaced ? '\1' : '\0'}) +
-           chunk("tEXt", std::string("Title\0labels", 12)) + chunk("PLTE", palette(colours)) +
-           chunk("tRNS", std::string(static_cast<std::size_t>(colours), '\xff')) + data + chunk("IEND", "");
+                             std::string{static_cast<char>(bits), static_cast<char>(samples), 0, 0,
+                                         is_interlaced ? '\1' : '\0'}) +
+           chunk("tEXt", std::string("Title\0labels", 12)) + colour_chunks + data + chunk("IEND", "");
 }
 
-// A PNG file with a palette, not compressed, in as many parts as there are rows in it.
-std::string palette_png(int width, int height, int bits, bool is_interlaced, const Bytes& indices) {
+// A PNG file of these samples, not compressed, in several chunks.
+std::string stored_png(int width, int height, int bits, bool is_interlaced, const Bytes& indices,
+                       Samples samples = Samples::indices) {
     std::string rows;
     if (is_interlaced) {
         constexpr int passes[7][4]{{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
@@ -322,7 +331,7 @@ std::string palette_png(int width, int height, int bits, bool is_interlaced, con
     data += rows + big_endian(high << 16 | low);
     std::string chunks;
     for (std::size_t at = 0; at < data.size(); at += 100) chunks += chunk("IDAT", data.substr(at, 100));
-    return png_of(width, height, bits, is_interlaced, chunks);
+    return png_of(width, height, bits, is_interlaced, chunks, samples);
 }
 
 }  // namespace
@@ -337,7 +346,7 @@ TEST_CASE("the labels of a PNG file with a palette are its indices") {
             Bytes indices;
             for (int i = 0; i < width * height; ++i) indices.push_back(static_cast<unsigned char>(i * 7 % (1 << bits)));
             indices[5] = static_cast<unsigned char>((1 << bits) - 1);
-            support::write_text(stack.path("a.png"), palette_png(width, height, bits, is_interlaced, indices));
+            support::write_text(stack.path("a.png"), stored_png(width, height, bits, is_interlaced, indices));
             const LabelGrid grid = tracer::read_label_grid(stack.path("a.png"), "");
             REQUIRE(grid.lattice.size == std::array{width, height, 1});
             for (int y = 0; y < height; ++y)
@@ -350,6 +359,26 @@ TEST_CASE("the labels of a PNG file with a palette are its indices") {
             Bytes colours(static_cast<std::size_t>(width * height * shown->spec().nchannels));
             REQUIRE(shown->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, colours.data()));
             CHECK(colours[static_cast<std::size_t>(5 * shown->spec().nchannels) + 1] == 255 - indices[5]);
+        }
+}
+
+TEST_CASE("the labels of a grey PNG file are its numbers, of any bits") {
+    Stack stack;
+    constexpr int width = 21, height = 13;
+    for (const int bits : {1, 2, 4, 8})
+        for (const bool is_interlaced : {false, true}) {
+            CAPTURE(bits);
+            CAPTURE(is_interlaced);
+            Bytes numbers;
+            for (int i = 0; i < width * height; ++i) numbers.push_back(static_cast<unsigned char>(i * 7 % (1 << bits)));
+            support::write_text(stack.path("a.png"),
+                                stored_png(width, height, bits, is_interlaced, numbers, Samples::grey));
+            const LabelGrid grid = tracer::read_label_grid(stack.path("a.png"), "");
+            REQUIRE(grid.lattice.size == std::array{width, height, 1});
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    CHECK(grid.numbers[grid.voxels[static_cast<std::size_t>(x + width * (height - 1 - y))]] ==
+                          numbers[static_cast<std::size_t>(x + width * y)]);
         }
 }
 
@@ -371,7 +400,7 @@ TEST_CASE("labels with and without a palette stand in one stack, filtered and co
 
 TEST_CASE("files with a palette that are damaged, or claim too much, are rejected") {
     Stack stack;
-    const std::string whole = palette_png(9, 9, 4, false, Bytes(81, 3));
+    const std::string whole = stored_png(9, 9, 4, false, Bytes(81, 3));
     for (std::size_t n = 26; n < whole.size(); ++n) {
         CAPTURE(n);
         support::write_text(stack.path("a.png"), whole.substr(0, n));

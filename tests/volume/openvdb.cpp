@@ -127,6 +127,49 @@ TEST_CASE("numbers have the values that OpenVDB's own sampler has, of clouds tha
     }
 }
 
+TEST_CASE("voxels far apart, and tiles of 128³ voxels, are read where they are") {
+    const VdbFolder folder;
+    for (const int sign : {1, -1}) {
+        auto sparse = openvdb::FloatGrid::create(0);
+        // Negative steps mirror the grid.
+        sparse->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
+        sparse->transform().preScale(openvdb::Vec3d(sign, 1, 1));
+        sparse->setGridClass(openvdb::GRID_FOG_VOLUME);
+        sparse->tree().setValueOn({0, 0, 0}, 2);
+        sparse->tree().setValueOn({500, 300, 400}, 3);
+        sparse->tree().addTile(2, {128, 128, 128}, 1.5f, true);
+        sparse->tree().addTile(1, {256, 136, 128}, 0.5f, true);  // 8³ voxels next to the large tile
+        const VoxelGrid read = tracer::read_number_grid(folder.write("sparse.vdb", {sparse}), "").grid;
+        const auto at = sparse->getConstAccessor();
+        int wrong = 0, dense = 0;
+        const auto compare = [&](int x, int y, int z) {
+            const Vec3<float> p{static_cast<float>(sign * x), static_cast<float>(y), static_cast<float>(z)};
+            const float expected = at.getValue({x, y, z});
+            dense += expected > 0;
+            wrong += voxels::linear_at(read.table.data(), p) != expected;
+        };
+        for (int z = 0; z <= 400; z += 5)
+            for (int y = 0; y <= 300; y += 5)
+                for (int x = 0; x <= 500; x += 5) compare(x, y, z);
+        for (const int edge : {127, 128, 255, 256, 263, 264})
+            for (int a = 120; a <= 270; ++a)
+                for (int b = 120; b <= 270; b += 7) {
+                    compare(edge, a, b);
+                    compare(a, edge, b);
+                    compare(b, a, edge);
+                }
+        compare(500, 300, 400);
+        CHECK(dense > 10'000);
+        CHECK(wrong == 0);
+    }
+    auto apart = openvdb::FloatGrid::create(0);
+    apart->setGridClass(openvdb::GRID_FOG_VOLUME);
+    for (const int at : {0, 2000}) apart->tree().setValueOn(openvdb::Coord(at), 1);
+    CHECK_THROWS_WITH(tracer::read_number_grid(folder.write("apart.vdb", {apart}), ""),
+                      doctest::Contains("the grid spans 2024 × 2024 × 2024 voxels, or 16194277 blocks of 8 × 8 × 8, "
+                                        "and at most 15000000 can be"));
+}
+
 TEST_CASE("which grids of numbers are taken, and what the others are rejected for") {
     const VdbFolder folder;
     const auto named = [](const char* name, float background = 0) {

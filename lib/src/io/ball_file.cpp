@@ -43,8 +43,8 @@ std::optional<BallBuilder::Mistake> BallBuilder::add(const std::array<double, ba
     constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < required; ++i)
         if (!(std::abs(columns[i]) <= most)) return Mistake{i, "a coordinate is not a number, or too large"};
-    if (has_radius_ && !(columns[radius] > 0 && columns[radius] <= most))
-        return Mistake{radius, "a radius is not positive"};
+    if (has_radius_ && !(columns[radius] > 0)) return Mistake{radius, "a radius is not positive"};
+    if (has_radius_ && columns[radius] > most) return Mistake{radius, "a radius is too large"};
     if (has_phase_ && !(columns[phase] >= 0 && columns[phase] < 256 && columns[phase] == std::floor(columns[phase])))
         return Mistake{phase, "a phase is not a whole number from 0 to 255"};
     if (balls_.centres.size() == BallList::most_balls) return Mistake{0, too_many};

@@ -28,16 +28,48 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-// The separator of a header's names: the first of these that occurs outside quotes.
-char separator_of(std::string_view header) {
-    for (const char separator : {',', ';', '\t'}) {
-        bool is_quoted = false;
-        for (const char c : header) {
-            if (c == '"') is_quoted = !is_quoted;
-            if (c == separator && !is_quoted) return separator;
-        }
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+// Whether a line has no cells, or only empty ones, as spreadsheets write empty rows.
+bool is_empty(std::string_view line) {
+    return line.find_first_not_of(" \t,;") == std::string_view::npos;
+}
+
+// Calls f with each cell of a header that may have any separator, so quotes need not be right.
+template <class F>
+void each_name(std::string_view header, char separator, const F& f) {
+    bool is_quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= header.size(); ++i) {
+        if (i < header.size() && header[i] == '"') is_quoted = !is_quoted;
+        if (i < header.size() && (header[i] != separator || is_quoted)) continue;
+        std::string_view name = without_blanks(header.substr(begin, i - begin));
+        if (name.size() > 1 && name.starts_with('"') && name.ends_with('"')) name = name.substr(1, name.size() - 2);
+        f(without_blanks(name));
+        begin = i + 1;
     }
-    return ' ';
+}
+
+// The separator of a header's names: the one that separates most of the columns. Among equals, the first of comma,
+// semicolon and tab that occurs outside quotes, or else a blank.
+char separator_of(std::string_view header, std::span<const NumberTable::Column> columns) {
+    char best = ' ';
+    std::ptrdiff_t most = -1;
+    for (const char separator : {',', ';', '\t', ' '}) {
+        std::ptrdiff_t known = 0, cells = 0;
+        each_name(header, separator, [&](std::string_view name) {
+            known += std::ranges::count(columns, lower_case(name), &NumberTable::Column::name);
+            ++cells;
+        });
+        if ((cells == 1 && separator != ' ') || known <= most) continue;
+        best = separator;
+        most = known;
+    }
+    return best;
 }
 
 // Whether the first cell of a line looks like a name rather than a number.
@@ -53,8 +85,7 @@ bool looks_like_name(std::string_view text) {
 bool NumberTable::is_row(std::string_view line) {
     if (++line_number_ == 1 && line.starts_with(io::byte_order_mark)) line.remove_prefix(io::byte_order_mark.size());
     line_ = line;
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string_view::npos || line[first] == '#') return false;
+    if (is_empty(line) || without_blanks(line).starts_with('#')) return false;
     if (!std::exchange(has_begun_, true) && is_header(line)) {
         read_header();
         return false;
@@ -70,7 +101,7 @@ bool NumberTable::is_row(std::string_view line) {
 bool NumberTable::is_header(std::string_view line) {
     if (header_ == Header::required) return true;
     // Lines of numbers have no quotes, so splitting them here cannot fail.
-    split(separator_of(line));
+    split(separator_of(line, columns_));
     const auto is_column = [&](const Cell& cell) {
         return std::ranges::find(columns_, lower_case(cell.text), &Column::name) != columns_.end();
     };
@@ -79,7 +110,7 @@ bool NumberTable::is_header(std::string_view line) {
 }
 
 void NumberTable::read_header() {
-    separator_ = separator_of(line_);
+    separator_ = separator_of(line_, columns_);
     split(separator_);
     cells_in_header_ = cells_.size();
     places_.assign(columns_.size(), missing);
@@ -110,7 +141,7 @@ NumberTable::Cell NumberTable::quoted_cell(std::size_t& at, char separator) cons
         at += line_[at] == '"' ? 2 : 1;
     if (at >= line_.size())
         throw error_at(begin, "a quoted cell must end on its line, but this one has no closing quote");
-    const Cell cell{begin, line_.substr(begin + 1, at - begin - 1)};
+    const Cell cell{begin, without_blanks(line_.substr(begin + 1, at - begin - 1))};
     for (++at; at < line_.size() && is_padding(line_[at], separator); ++at) {
     }
     if (at < line_.size() && line_[at] != separator)
@@ -129,11 +160,10 @@ void NumberTable::split(char separator) {
             cells_.push_back(quoted_cell(at, separator));
         } else {
             const std::string_view rest = line_.substr(at);
-            std::string_view text = rest.substr(0, is_of_blanks ? rest.find_first_of(" \t") : rest.find(separator));
-            const std::size_t begin = at;
+            const std::string_view text =
+                rest.substr(0, is_of_blanks ? rest.find_first_of(" \t") : rest.find(separator));
+            cells_.push_back({at, without_blanks(text)});
             at += text.size();
-            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-            cells_.push_back({begin, text});
         }
         if (at == line_.size()) break;
         ++at;

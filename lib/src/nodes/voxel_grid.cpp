@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "phasetree/model/handle.hpp"
 
@@ -71,12 +72,24 @@ ModelError too_many_values(std::string_view who) {
                                   VoxelGrid::most_values));
 }
 
+ModelError too_many_blocks(std::string_view who, const std::array<int, 3>& size, std::size_t count, std::size_t most) {
+    return ModelError(
+        fmt::format("{}: the grid spans {} × {} × {} voxels, or {} blocks of 8 × 8 × 8, and at most {} can be, empty "
+                    "ones included; crop it, split it, or resample it to larger voxels",
+                    who, size[0], size[1], size[2], count, most));
+}
+
 // The range of a block's values for the directory, and whether a value is invalid.
 struct BlockRange {
     float low = 0, high = 0;
     bool has_bad_value = false;  // too large, or not a number
 
     explicit BlockRange(std::span<const float, VoxelGrid::kept_values> values) : low(values[0]), high(values[0]) {
+        // Most blocks of a sparse grid are constant, and comparing their bytes is faster than comparing numbers.
+        if (std::memcmp(values.data(), values.data() + 1, values.size_bytes() - sizeof(float)) == 0) {
+            has_bad_value = !(std::abs(values[0]) <= 1e9f);
+            return;
+        }
         for (const float v : values) {
             has_bad_value = has_bad_value || !(std::abs(v) <= 1e9f);
             low = std::min(low, v);
@@ -107,7 +120,7 @@ VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     // A directory takes at most 180 MB.
     constexpr std::size_t most_blocks = VoxelGrid::most_values / 8;
     const std::size_t count = Blocks(lattice.size).count();
-    if (count > most_blocks) throw too_many_values(who);
+    if (count > most_blocks) throw too_many_blocks(who, lattice.size, count, most_blocks);
     grid.table.resize(voxels::head + voxels::entry * count);
     return grid;
 }

@@ -12,6 +12,7 @@ import os
 
 from phasetree import _phasetree
 from phasetree._errors import Error
+from phasetree._paths import path_text
 
 _HANDLES = ("field", "object", "list of fields", "list of objects")
 
@@ -166,7 +167,7 @@ def written(value, what):
     if isinstance(value, dict):
         return {key: written(v, what) for key, v in value.items()}
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return path_text(value)
     try:
         items = list(value)
     except TypeError:
@@ -192,7 +193,7 @@ def check_still(value, what):
 
 def file_name(value):
     """A file as it is found from any folder."""
-    name = os.path.abspath(os.fsdecode(value))
+    name = os.path.abspath(path_text(value))
     try:
         name.encode()
     except UnicodeEncodeError:

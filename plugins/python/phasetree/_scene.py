@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 import warnings
@@ -12,6 +13,7 @@ import numpy as np
 from phasetree import _parts, _phasetree, _placed, _reference
 from phasetree._errors import Error
 from phasetree._parts import Part
+from phasetree._paths import path_text
 from phasetree._phases import Phase, vacuum
 from phasetree._trees import Object, _material, node_of
 from phasetree._values import Value
@@ -58,7 +60,7 @@ class Image:
         """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
-            os.fspath(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
+            path_text(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
             view or self.view, self.scene, self.samples, self.seed,
         )  # fmt: skip
 
@@ -188,7 +190,7 @@ class Scene(Value):
 
     def save(self, path):
         """Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
-        path = os.fspath(path)
+        path = path_text(path)
         folder = os.path.dirname(os.path.abspath(path))
 
         def named(file):
@@ -228,7 +230,7 @@ class Scene(Value):
         request = _render_request(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
         request.crop, request.threads, request.most_bytes = crop, threads, most_bytes
         request.samples = None if image.get("samples") is None else int(image["samples"])
-        request.seconds_at = at
+        request.seconds_at = _moment(at)
         tell = _line if progress is True else progress or None
         try:
             made = _phasetree.render(self.to_json(**image), self.name, request, tell)
@@ -276,6 +278,17 @@ def _render_request(quality, denoise, time_limit, planes):
     request.time_seconds = time_limit or 0
     request.planes = list(planes or ())
     return request
+
+
+def _moment(at):
+    """The time in seconds at which a scene is read. Raises Error unless it is a finite number."""
+    try:
+        seconds = math.nan if isinstance(at, str) else float(at)
+    except (OverflowError, TypeError, ValueError):
+        seconds = math.nan
+    if not math.isfinite(seconds):
+        raise Error(f"at must be a finite number of seconds, but is {at!r}")
+    return seconds
 
 
 def _line(stage, share):
@@ -358,7 +371,7 @@ def load(path):
     What an object takes from another scene file is read from there, and is the scene's own from then on. Trees, and
     where objects stand, are as at the time 0, with a warning if they move; all else keeps its keys.
     """
-    path = os.fspath(path)
+    path = path_text(path)
     text = _phasetree.text_of_file(path)
     raw = _phasetree.value_of(text)
     if "objects" in raw:

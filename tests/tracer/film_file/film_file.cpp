@@ -119,17 +119,17 @@ TEST_CASE("what differs is named") {
     CHECK(difference(wanted, found) ==
           "it was rendered by phasetree 1.2.3+bb (commit 34cd with changes), not by phasetree 1.2.3+aa (commit 12ab); "
           "render all samples of a picture with the same build");
-    found.settings[0].second = "1.2.2\n";
+    found.settings[0].second = "1.2.2\n\xe9";
     found.settings.erase(found.settings.begin() + 1);  // as older versions wrote it
     CHECK(difference(wanted, found) ==
-          "it was rendered by phasetree 1.2.2?, not by phasetree 1.2.3+aa (commit 12ab); render all samples of a "
-          "picture with the same build");
+          "it was rendered by phasetree 1.2.2\\x0a\\xe9, not by phasetree 1.2.3+aa (commit 12ab); render all samples "
+          "of a picture with the same build");
     found = wanted;
     found.settings[1].second = "";  // an archive of the same sources
     CHECK(difference(wanted, found) == "");
     found = wanted;
     found.settings[3].second = "5\n\x1b[2J";
-    CHECK(difference(wanted, found) == "it has seed 5??[2J, not 4");
+    CHECK(difference(wanted, found) == "it has seed 5\\x0a\\x1b[2J, not 4");
     found = wanted;
     found.settings.pop_back();
     CHECK(difference(wanted, found) == "it was written by another version of phasetree");

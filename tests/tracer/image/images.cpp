@@ -386,6 +386,13 @@ TEST_CASE("small files with huge windows are rejected by the limits of their use
     set_window("dataWindow", (1 << 20) - 1, 31);
     CHECK(said([&] { return load_texture_image(path); }) ==
           "its data window of 1048576 × 32 pixels is much larger than its display window of 4 × 32; crop it");
+    // A single row that is as large as the display window is not too large in all, but for memory.
+    write_exr(path, {0, 0, 4, 1}, {0, 0, 4, 1}, 0, "RGB");
+    set_window("displayWindow", 16383, 8191);
+    set_window("dataWindow", (1 << 28) - 1, 0);
+    CHECK(said([&] { return load_environment_image(path); }) ==
+          "its data window of 268435456 × 1 pixels with 3 channels takes 3072 MB for a row, and at most 512 MB can be; "
+          "crop it");
     // OpenEXR itself rejects tiled files that are too short for their tables of tiles.
     write_exr(path, {0, 0, 4, 2}, {0, 0, 4, 2}, 16);
     set_window("dataWindow", (1 << 23) - 1, 3);
@@ -424,6 +431,20 @@ TEST_CASE("numbers that are not finite are rejected: how many pixels have them, 
     CHECK(said([&] { return load_texture_image(path); }) == "nothing");
     CHECK(said([&] { return load_texture_image(path, ImageMeaning::alpha); }) ==
           "1 pixel is infinite or not a number, at column 0, row 0 " + repair);
+}
+
+TEST_CASE("an environment whose sum overflows is rejected, with its brightest pixel") {
+    const phasetree::support::TemporaryDirectory folder;
+    const std::string path = folder / "a.exr";
+    std::vector<float> values(8 * 4 * 3, 1.0f);
+    values[3 * (8 * 2 + 5) + 1] = 3e38f;
+    write_floats(path, 8, 4, 3, values);
+    CHECK_THROWS_WITH(
+        (void)load_environment_image(path),
+        ("cannot use the environment image \"" + path +
+         "\": its radiance adds up to more than a float can hold; its largest value is 3e+38, at column 5, "
+         "row 2 (counted from 0 at the top left); repair this pixel, or scale the image")
+            .c_str());
 }
 
 TEST_CASE("a TIFF file that is a part of a larger picture is rejected") {

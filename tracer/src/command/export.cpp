@@ -11,6 +11,7 @@
 #include "command/looks.hpp"
 #include "command/max_memory.hpp"
 #include "command/numbers.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/streams.hpp"
 #include "mesh_file/bytes_as_text.hpp"
 #include "output/error.hpp"
@@ -69,6 +70,7 @@ int export_page(const SceneFile& file, const ExportOptions& chosen) {
     const std::filesystem::path path = chosen.output;
     check_file_writable(path);
     const Document document = read_document(file);
+    check_overwrites(file, document, named_files_of("--output", std::span(&chosen.output, 1)));
     const SceneTree tree = read_model(document, chosen.object);
     const std::vector<std::optional<Material>> materials = read_materials(document);
     const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
@@ -117,6 +119,7 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
     numbers_path.replace_extension(".f32");
     check_file_writable(path);
     const Document document = read_document(file);
+    check_overwrites(file, document, named_files_of("--output", std::vector{chosen.output, numbers_path.string()}));
     const SceneTree tree = read_model(document, chosen.object);
     const TraceableObject traceable = made_of_tree(document, [&] { return prepare_to_trace(tree.object); });
     print_warning(file.shown(), traceable.warning);

@@ -10,6 +10,7 @@
 #include "command/load.hpp"
 #include "command/looks.hpp"
 #include "command/numbers.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/streams.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
@@ -104,6 +105,18 @@ std::vector<std::pair<Phase, path>> stl_files(const MeshExport& wanted, PhaseSet
     return files;
 }
 
+// All files to write.
+std::vector<NamedFile> outputs_of(const MeshExport& wanted, PhaseSet chosen, const PhaseNames& names) {
+    if (!is_file_for_each_phase(wanted)) {
+        std::vector<NamedFile> files{{"--output", wanted.output}};
+        if (path(wanted.output).extension() == ".obj") files.push_back({"--output", materials_of(wanted.output)});
+        return files;
+    }
+    std::vector<NamedFile> files;
+    for (const auto& [phase, file] : stl_files(wanted, chosen, names)) files.push_back({"--output", file});
+    return files;
+}
+
 void write_mesh(const MeshedObject& object, const MeshExport& wanted, const PhaseNames& names) {
     const path output = wanted.output;
     const std::string extension = output.extension().string();
@@ -148,11 +161,8 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     // Reads only what a mesh needs: the scene may lack a camera and lights.
     std::vector<std::optional<Material>> materials;
     if (has_colors(wanted)) materials = read_materials(document);
-    if (is_file_for_each_phase(wanted))
-        for (const auto& [phase, name] : stl_files(wanted, object.chosen, tree.phases)) check_file_writable(name);
-    else
-        check_file_writable(wanted.output);
-    if (path(wanted.output).extension() == ".obj") check_file_writable(materials_of(wanted.output));
+    for (const NamedFile& output : outputs_of(wanted, object.chosen, tree.phases)) check_file_writable(output.path);
+    check_overwrites(file, document, outputs_of(wanted, object.chosen, tree.phases));
     CellOptions cells;
     cells.quality = BuildQuality::low;
     cells.most_bytes = wanted.most_bytes;

@@ -8,6 +8,7 @@
 #include "command/errors.hpp"
 #include "command/farm_scripts.hpp"
 #include "command/load.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/pictures.hpp"
 #include "command/render_options.hpp"
 
@@ -78,7 +79,8 @@ int write_farm(const FarmOptions& options) {
     if (options.scene->is_standard_input())
         throw UsageError("the scene must be a file that all machines can read, not standard input");
     const RenderOptions render = render_options(options);
-    Scene scene = load_scene(read_document(*options.scene));
+    const Document document = read_document(*options.scene);
+    Scene scene = load_scene(document);
     apply(render, scene);
     (void)pixels_of(render, scene);
     if (scene.settings.noise > 0)
@@ -105,6 +107,9 @@ int write_farm(const FarmOptions& options) {
     for (std::string& output : farm.outputs) output = as_file(output);
     check_outputs(farm.outputs,
                   layers_of_picture(film_settings(scene), subjects_of(scene), render.denoise.has_value()));
+    std::vector<NamedFile> written = named_files_of("--output", farm.outputs);
+    if (render.cells) written.push_back({"--cells", *render.cells});
+    check_overwrites(*options.scene, document, written);
     farm.sbatch_options = options.sbatch;
     farm.samples = scene.settings.samples;
     farm.shares = options.shares;

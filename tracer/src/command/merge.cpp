@@ -8,6 +8,7 @@
 #include "command/errors.hpp"
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -103,6 +104,7 @@ int merge_parts(const MergeOptions& options) {
     std::vector<std::string> images, film_files;
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
+    check_overwrites(named_files_of("the part", options.parts), named_files_of("--output", options.outputs));
     const Parts parts = opened(options);
     check_outputs(images, layers_of_picture(parts.header().film, parts.header().subjects, options.denoise.has_value()));
     if (!options.quiet && parts.header().build() != build_id())

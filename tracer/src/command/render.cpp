@@ -19,6 +19,7 @@
 #include "command/load.hpp"
 #include "command/not_shown_report.hpp"
 #include "command/overlap_report.hpp"
+#include "command/overwritten_files.hpp"
 #include "command/pictures.hpp"
 #include "command/reading.hpp"
 #include "command/render_options.hpp"
@@ -63,9 +64,31 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
     write_file(json.dump(2) + "\n", path);
 }
 
+// Checks that no output overwrites another file. A film file may be the checkpoint, an output and the file to resume at
+// once.
+void check_overwrites(const RenderOptions& options, const Document& document, const std::vector<std::string>& outputs) {
+    std::vector<NamedFile> written;  // except for film files
+    for (const std::string& output : outputs)
+        if (!is_film_file(output)) written.push_back({"--output", output});
+    if (options.stats) written.push_back({"--stats", *options.stats});
+    if (options.cells) written.push_back({"--cells", *options.cells});
+    if (options.resume) {
+        const NamedFile resumed{"--resume", *options.resume};
+        check_overwrites(std::span(&resumed, 1), written);
+    }
+    for (const std::string& output : outputs)
+        if (is_film_file(output)) written.push_back({"--output", output});
+    const auto is_checkpoint = [&](const std::string& output) {
+        return is_film_file(output) && is_same_file(output, *options.checkpoint);
+    };
+    if (options.checkpoint && std::ranges::none_of(outputs, is_checkpoint))
+        written.push_back({"--checkpoint", *options.checkpoint});
+    check_overwrites(*options.scene, document, written);
+}
+
 // Returns the names of the outputs. First checks, before rendering starts, that all files can be written.
-std::vector<std::string> checked_outputs(const RenderOptions& options, const SampleRange& samples,
-                                         const std::vector<std::string>& layers) {
+std::vector<std::string> checked_outputs(const RenderOptions& options, const Document& document,
+                                         const SampleRange& samples, const std::vector<std::string>& layers) {
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) {
         const std::string stem =
@@ -87,6 +110,7 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Sam
             "file");
     if (options.stats) check_file_writable(*options.stats);
     if (options.checkpoint) check_file_writable(*options.checkpoint);
+    check_overwrites(options, document, outputs);
     return outputs;
 }
 
@@ -312,8 +336,9 @@ int render_scene(const RenderOptions& options) {
                                    std::chrono::duration<double>(options.time_seconds));
     job.threads = threads.count();
     job.cancelled = [] { return interrupted(); };
-    const std::vector<std::string> outputs = checked_outputs(
-        options, *job.samples, layers_of_picture(wanted_film, subjects_of(scene), options.denoise.has_value()));
+    const std::vector<std::string> outputs =
+        checked_outputs(options, document, *job.samples,
+                        layers_of_picture(wanted_film, subjects_of(scene), options.denoise.has_value()));
     warn_of_alpha(scene, document.name(), outputs);
     std::optional<DisplayTransform> display;
     if (need_display(outputs) || options.display || options.view)

@@ -12,6 +12,7 @@
 #include "command/duration.hpp"
 #include "command/errors.hpp"
 #include "command/max_memory.hpp"
+#include "command/number_in.hpp"
 #include "command/streams.hpp"
 #include "film/chosen_planes.hpp"
 
@@ -59,8 +60,6 @@ void apply(const RenderOptions& options, Scene& scene) {
     // A time limit without a number of samples means as many samples as fit.
     if (options.time_seconds > 0) scene.settings.samples = most_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
-    // CLI11's range check accepts NaN.
-    if (options.noise && !(*options.noise >= 0)) throw UsageError("--noise must be a number from 0 to 1");
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
     if (options.size) {
@@ -120,7 +119,7 @@ void add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std
 void add_display_options(CLI::App& command, std::optional<float>& exposure, std::optional<std::string>& display,
                          std::optional<std::string>& view) {
     command.add_option("--exposure", exposure, "Brighten display images by this many stops; .exr files do not change")
-        ->check(CLI::Range(-50.0, 50.0));
+        ->check(number_in(-50, 50));
     command.add_option("--display", display, "OpenColorIO display (default: that of the configuration)");
     command.add_option("--view", view, "OpenColorIO view (default: that of the scene or the configuration)");
 }
@@ -139,7 +138,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
             "Stop sampling each block of 8x8 pixels once its estimated relative error is at most this, such as 0.02; 0 "
             "turns this off. Adds the planes noise and samples. A block that missed rare bright paths stops too early, "
             "so the picture gets slightly darker")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(number_in(0, 1))
         ->option_text("ERROR");
     CLI::Option* const range = command.add_option(
         "--sample-range", o.share,
@@ -190,7 +189,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--detail", o.detail,
                     "Use coarser levels of detail where their error is at most this many pixels (default: the finest "
                     "level everywhere)")
-        ->check(CLI::Range(1e-3, 1e3))
+        ->check(number_in(1e-3, 1e3))
         ->option_text("PIXELS");
     add_display_options(command, o.exposure, o.display, o.view);
     command.add_option("--planes", o.planes,

@@ -65,11 +65,13 @@ Planes::Choice read_planes(ByteReader& in) {
     return planes;
 }
 
-// Makes text from an untrusted file safe to print.
+// Makes text from an untrusted file safe to print: bytes other than printable ASCII become "\x1b" and the like.
 std::string printable(const std::string& text) {
-    std::string safe = text.substr(0, 60);
-    for (char& c : safe)
-        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    std::string safe;
+    for (const char c : text.substr(0, 60)) {
+        const auto byte = static_cast<unsigned char>(c);
+        safe += byte >= 0x20 && byte < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+    }
     return safe;
 }
 

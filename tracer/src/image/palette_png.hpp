@@ -40,7 +40,8 @@ inline std::string bytes_of(std::uint32_t n) {
     return {static_cast<char>(n >> 24), static_cast<char>(n >> 16), static_cast<char>(n >> 8), static_cast<char>(n)};
 }
 
-constexpr std::size_t kind_at = 25, header_end = 33;  // offsets in a file; the header ends with its checksum
+constexpr std::size_t bits_at = 24, kind_at = 25,
+                      header_end = 33;  // offsets in a file; the header ends with its checksum
 
 }  // namespace png
 
@@ -49,7 +50,7 @@ inline std::optional<PaletteHeader> palette_header(std::string_view first) {
     if (first.size() <= png::kind_at || !is_png(first) || first.substr(12, 4) != "IHDR" || first[png::kind_at] != 3)
         return std::nullopt;
     const std::uint32_t width = png::number(first.substr(16)), height = png::number(first.substr(20));
-    const int bits = static_cast<unsigned char>(first[24]);
+    const int bits = static_cast<unsigned char>(first[png::bits_at]);
     constexpr auto most = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
     if (width < 1 || height < 1 || width > most || height > most) throw std::runtime_error("its size is invalid");
     if (bits != 1 && bits != 2 && bits != 4 && bits != 8)

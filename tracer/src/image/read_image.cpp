@@ -76,15 +76,15 @@ class FileInMemory {
 // bytes in 2 bits, so the uncompressed data are at most 1032 times the size of the file. They consist of rows of packed
 // samples, each preceded by one byte; interlaced images have more.
 std::uintmax_t least_bytes_of_png(std::string_view first) {
-    constexpr std::size_t width_at = 16, height_at = 20, bits_at = 24, kind_at = 25;
-    if (first.size() <= kind_at || first.substr(12, 4) != "IHDR") throw std::runtime_error(too_short);
+    constexpr std::size_t width_at = 16, height_at = 20;
+    if (first.size() <= png::kind_at || first.substr(12, 4) != "IHDR") throw std::runtime_error(too_short);
     const auto byte = [&](std::size_t at) { return std::uintmax_t{static_cast<unsigned char>(first[at])}; };
     const auto number = [&](std::size_t at) {
         return byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
     };
     constexpr std::array<std::uintmax_t, 7> samples{1, 1, 3, 1, 2, 1, 4};  // samples per pixel, by colour type
-    const std::uintmax_t kind = std::min<std::uintmax_t>(byte(kind_at), samples.size() - 1);
-    const std::uintmax_t row = (number(width_at) * byte(bits_at) * samples[kind] + 7) / 8 + 1;
+    const std::uintmax_t kind = std::min<std::uintmax_t>(byte(png::kind_at), samples.size() - 1);
+    const std::uintmax_t row = (number(width_at) * byte(png::bits_at) * samples[kind] + 7) / 8 + 1;
     constexpr std::uintmax_t most = 1032;
     return row / most * number(height_at) + row % most * number(height_at) / most;
 }
@@ -194,6 +194,11 @@ class ShownRows {
     std::vector<float> values_;
 };
 
+// The number of rows that are decoded at a time: whole blocks or tiles, as the format stores them.
+std::int64_t rows_at_a_time(const OIIO::ImageSpec& spec) {
+    return spec.tile_width != 0 ? spec.tile_height : 64;
+}
+
 void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uintmax_t file_bytes, const AddRows& add) {
     const OIIO::ImageSpec& spec = input.spec();
     const Window held = data_window(spec), shown = display_window(input);
@@ -206,8 +211,7 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     ShownRows rows(held, shown, channels.count, checked);
     const std::int64_t top = std::clamp(held.y0, shown.y0, shown.y1), bottom = std::clamp(held.y1, top, shown.y1);
     rows.add_empty(top - shown.y0);
-    // Read whole blocks or tiles, as the format stores them.
-    const std::int64_t step = spec.tile_width != 0 ? spec.tile_height : 64;
+    const std::int64_t step = rows_at_a_time(spec);
     std::vector<float> values;
     const std::size_t in_row = static_cast<std::size_t>(held.width()) * static_cast<std::size_t>(channels.count);
     const std::int64_t start = top < bottom ? top - (top - held.y0) % step : bottom;
@@ -226,6 +230,19 @@ void read_values(OIIO::ImageInput& input, const ChannelRange& channels, std::uin
     non_finite.check();
 }
 
+// Throws if rows of the data window take too much memory, even before any of them is decoded.
+void check_memory(const OIIO::ImageSpec& spec, const Window& held) {
+    constexpr double most_megabytes = 512, megabyte = 1 << 20;
+    const auto rows = static_cast<double>(std::min(rows_at_a_time(spec), held.height()));
+    const double megabytes = rows * static_cast<double>(held.width()) * spec.nchannels * sizeof(float) / megabyte;
+    if (megabytes > most_megabytes)
+        throw std::runtime_error(
+            fmt::format("its data window of {} × {} pixels with {} channels takes {:.0f} MB for {}, and at most {:.0f} "
+                        "MB can be; crop it{}",
+                        held.width(), held.height(), spec.nchannels, megabytes, rows > 1 ? "a block of rows" : "a row",
+                        most_megabytes, spec.tile_width != 0 ? " or use smaller tiles" : ""));
+}
+
 // Throws for windows that cannot be read. The caller checks the size of the display window. Rows of the
 // data window are limited here, because a block of them is also kept in memory.
 void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
@@ -238,9 +255,20 @@ void check_windows(const OIIO::ImageSpec& spec, const Window& shown) {
         throw std::runtime_error(
             fmt::format("its data window of {} × {} pixels is much larger than its display window of {} × {}; crop it",
                         held.width(), held.height(), shown.width(), shown.height()));
+    check_memory(spec, held);
 }
 
-ImageHeader header_of(const OIIO::ImageInput& input) {
+// The number of bits per value, before values of fewer than 8 bits are scaled to a full byte. `first` is the beginning
+// of the file.
+int bits_of(const OIIO::ImageInput& input, std::string_view first) {
+    // OpenImageIO does not report the bits of a PNG file, which its first chunk holds. Those of a palette are of its
+    // indices; its colours have 8.
+    if (std::string_view(input.format_name()) == "png" && first.size() > png::kind_at && first[png::kind_at] != 3)
+        return static_cast<unsigned char>(first[png::bits_at]);
+    return input.spec().get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * input.spec().format.size()));
+}
+
+ImageHeader header_of(const OIIO::ImageInput& input, std::string_view first) {
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it is empty");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
@@ -251,13 +279,11 @@ ImageHeader header_of(const OIIO::ImageInput& input) {
             spec.width, spec.height, spec.full_width, spec.full_height));
     const Window shown = display_window(input);
     check_windows(spec, shown);
-    // Values of fewer than 8 bits are scaled to a full byte.
-    const int bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
     return {.width = static_cast<int>(shown.width()),
             .height = static_cast<int>(shown.height()),
             .channels = spec.nchannels,
             .is_floating_point = spec.format.is_floating_point(),
-            .bits = bits,
+            .bits = bits_of(input, first),
             .is_signed = spec.format.is_signed()};
 }
 
@@ -286,7 +312,7 @@ void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add
     const ChannelRange channels = begin(header);
     if (source.bytes < jpeg.least_bytes) throw std::runtime_error(too_short);
     const auto input = source.open();
-    const ImageHeader decoded = header_of(*input);
+    const ImageHeader decoded = header_of(*input, source.first);
     if (decoded.width != header.width || decoded.height != header.height || decoded.channels != header.channels)
         throw std::runtime_error("the decoded image has a different size than its header declares");
     read_values(*input, channels, source.bytes, add);
@@ -295,7 +321,7 @@ void read_jpeg(const Source& source, const BeginImage& begin, const AddRows& add
 void read(const Source& source, const BeginImage& begin, const AddRows& add) {
     if (is_jpeg(source.first)) return read_jpeg(source, begin, add);
     const auto input = source.open();
-    const ChannelRange channels = begin(header_of(*input));
+    const ChannelRange channels = begin(header_of(*input, source.first));
     if (std::string_view(input->format_name()) == "png" && source.bytes < least_bytes_of_png(source.first))
         throw std::runtime_error(too_short);
     read_values(*input, channels, source.bytes, add);

@@ -61,23 +61,40 @@ class Numbers {
         for (int i = 0; i < count; ++i) values.push_back(next(what));
         return values;
     }
+    // Throws if a number follows. Other text at the end is ignored.
+    void finish(std::string_view last) {
+        skip_blanks();
+        double surplus = 0.0;
+        if (std::from_chars(text_.data(), text_.data() + text_.size(), surplus).ec == std::errc::invalid_argument)
+            return;
+        throw error(fmt::format("a number follows {}, so there are more numbers than the file says", last));
+    }
     std::runtime_error error(const std::string& message) const {
-        return std::runtime_error(fmt::format("line {}: {}", line_, message));
+        // Decimal commas make two numbers of one, and mistakes are noticed only further on.
+        const bool may_have_decimal_commas = has_blanks_ && has_commas_alone_;
+        return std::runtime_error(
+            fmt::format("line {}: {}{}", line_, message,
+                        may_have_decimal_commas ? "; a comma separates numbers, so write decimal points" : ""));
     }
 
   private:
     static bool is_blank(char c) { return is_blank_in_line(c) || c == '\r' || c == '\n' || c == ','; }
 
     void skip_blanks() {
+        const std::string_view before = text_;
         while (!text_.empty() && is_blank(text_.front())) {
             const bool ends_line = text_.front() == '\n' || (text_.front() == '\r' && !text_.starts_with("\r\n"));
             line_ += ends_line ? 1 : 0;
             text_.remove_prefix(1);
         }
+        const std::string_view separator = before.substr(0, before.size() - text_.size());
+        has_commas_alone_ = has_commas_alone_ || separator == ",";
+        has_blanks_ = has_blanks_ || (!separator.empty() && std::ranges::all_of(separator, is_blank_in_line));
     }
 
     std::string_view text_;
     int line_;
+    bool has_blanks_ = false, has_commas_alone_ = false;  // among the separators so far
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -172,9 +189,15 @@ IesProfile::IesProfile(std::string_view text) {
     if (!(scale > 0.0)) throw numbers.error("the candela multiplier and the ballast factor must be positive");
     candelas_ = numbers.list("the candelas", verticals * horizontals);
     for (double& candelas : candelas_) {
+        if (!(candelas >= 0.0)) throw numbers.error("candelas must not be negative");
         candelas *= scale;
-        if (!(candelas >= 0.0) || !std::isfinite(candelas)) throw numbers.error("candelas must not be negative");
+        if (!std::isfinite(candelas))
+            throw numbers.error(
+                fmt::format("the candelas times {}, the product of their multiplier and the factor of "
+                            "the ballast, are too large",
+                            scale));
     }
+    numbers.finish("the last of the candelas");
     greatest_ = *std::ranges::max_element(candelas_);
     if (!(greatest_ > 0.0)) throw numbers.error("all candelas are 0");
 }

@@ -1,5 +1,8 @@
 #include "lights/load_environment.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -25,6 +28,10 @@ void check(const ImageHeader& header) {
         throw std::runtime_error("it is larger than 16384 × 8192");
 }
 
+float largest_of(const glm::vec3& pixel) {
+    return std::max({pixel.x, pixel.y, pixel.z});
+}
+
 }  // namespace
 
 std::shared_ptr<const EnvironmentImage> load_environment_image(const std::string& path) {
@@ -45,7 +52,18 @@ std::shared_ptr<const EnvironmentImage> load_environment_image(const std::string
             for (std::size_t i = 0; i < values.size(); i += 3)
                 pixels.emplace_back(linear(values[i]), linear(values[i + 1]), linear(values[i + 2]));
     });
-    return std::make_shared<const EnvironmentImage>(header.width, header.height, std::move(pixels));
+    const auto brightest = std::ranges::max_element(pixels, {}, largest_of);
+    const float largest = largest_of(*brightest);
+    const auto index = brightest - pixels.begin();
+    try {
+        return std::make_shared<const EnvironmentImage>(header.width, header.height, std::move(pixels));
+    } catch (const std::invalid_argument&) {
+        throw std::runtime_error(fmt::format(
+            "cannot use the environment image \"{}\": its radiance adds up to more than a float can hold; its largest "
+            "value is {:.3g}, at column {}, row {} (counted from 0 at the top left); repair this pixel, or scale the "
+            "image",
+            path, largest, index % header.width, index / header.width));
+    }
 }
 
 }  // namespace phasetree::tracer

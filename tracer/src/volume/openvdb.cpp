@@ -111,6 +111,27 @@ CoordBBox active_leaves(const GridBase& grid, int around) {
     return box;
 }
 
+// Whether the blocks from that of voxel `low` to that of voxel `high`, at most 16 voxels apart along each axis, lie in
+// constant tiles of 128³ voxels or more that have this value. A grid whose voxels are far apart consists mostly of
+// them.
+template <class Accessor, class Value>
+bool are_in_tiles_of(float wanted, const Accessor& at, const openvdb::Coord& low, const openvdb::Coord& high,
+                     const Value& value) {
+    constexpr int depth_of_tiles = 1;
+    for (int corner = 0; corner < 8; ++corner) {
+        openvdb::Coord there = low;
+        bool is_repeated = false;  // in the same tile as another corner
+        for (int i = 0; i < 3; ++i) {
+            if (!(corner >> i & 1)) continue;
+            there[i] = high[i];
+            is_repeated = is_repeated || low[i] >> 7 == high[i] >> 7;
+        }
+        if (is_repeated) continue;
+        if (at.getValueDepth(there) > depth_of_tiles || value(at.getValue(there)) != wanted) return false;
+    }
+    return true;
+}
+
 // The values of voxels in the order of a lattice whose blocks coincide with leaves, like those of active_leaves().
 template <class Grid, class Value>
 VoxelGrid voxels_of(const Grid& grid, const OrderedLattice& voxels, const char* who, const Value& value) {
@@ -120,8 +141,9 @@ VoxelGrid voxels_of(const Grid& grid, const OrderedLattice& voxels, const char* 
             return voxels.order(before[0] + x, before[1] + y, before[2] + z);
         };
         const float first = value(at.getValue(voxel(1, 1, 1)));
+        const bool is_in_tiles = are_in_tiles_of(first, at, voxel(-7, -7, -7), voxel(9, 9, 9), value);
         bool is_flat = true;
-        for (int i = 0; i < 27 && is_flat; ++i) {
+        for (int i = 0; i < 27 && is_flat && !is_in_tiles; ++i) {
             const openvdb::Coord there = voxel(1 + 8 * (i % 3 - 1), 1 + 8 * (i / 3 % 3 - 1), 1 + 8 * (i / 9 - 1));
             is_flat = !at.probeConstLeaf(there) && value(at.getValue(there)) == first;
         }

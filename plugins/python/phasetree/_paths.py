@@ -1,0 +1,13 @@
+"""Paths of files, as the extension module takes them."""
+
+import os
+
+from phasetree._errors import Error
+
+
+def path_text(path):
+    """A path as text. Raises Error for a null character, at which the C++ library and the system would end the name."""
+    text = os.fsdecode(path)
+    if "\0" in text:
+        raise Error(f"a path must not contain null characters, but is {text!r}")
+    return text
