@@ -177,7 +177,7 @@ void Encloser::keep_specialisations(std::span<Specialisation> found) {
 // instructions are wider.
 Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
     Enclosure e = last_[o.value];
-    for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
+    for (Interval& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
     e.tighten(half_);
     return e;
 }
@@ -193,12 +193,12 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     // The margin covers the rounding error of a value evaluated for a ray and that of the value at the centre.
     const double margin = 2 * static_cast<double>(context_.value_error);
     const std::span<float> low = scratch_.allocate<float>(size), high = scratch_.allocate<float>(size);
-    const auto set = [&](std::size_t i, const Range& v) {
+    const auto set = [&](std::size_t i, const Interval& v) {
         low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
         high[i] = static_cast<float>(std::min(v.high + margin, 1e30));
     };
     for (std::uint32_t i = 0; i < size; ++i) {
-        const Range& v = last_[i].value;
+        const Interval& v = last_[i].value;
         if (!(v.low <= v.high)) return std::nullopt;  // The value is NaN somewhere.
         set(i, v);
     }

@@ -9,7 +9,7 @@
 
 namespace phasetree::bounding {
 
-using enclosure::Range;
+using enclosure::Interval;
 using kernel::Curvature, kernel::LinearBound;
 using program::ProgramOutput;
 using rewriting::RequiredOfLocal, rewriting::Specialisation;

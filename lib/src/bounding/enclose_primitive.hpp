@@ -14,7 +14,7 @@
 
 namespace phasetree::bounding {
 
-using enclosure::enclose, enclosure::Range, enclosure::Region, enclosure::within;
+using enclosure::enclose, enclosure::Interval, enclosure::Region, enclosure::within;
 using rewriting::Arena, rewriting::Specialisation;
 
 /// The specialisation of a local primitive in the box in which it is enclosed.
@@ -77,7 +77,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
     if constexpr (std::is_same_v<P, Mesh>) pieces = specialisation.found.data.data();
     if (pieces)
         if (const auto known = mesh_in_box(pieces, at)) return enclose(*known, at).tightened(half);
-    Range values = Range::all();
+    Interval values = Interval::all();
     if constexpr (std::is_same_v<P, Volume::Samples> || std::is_same_v<P, Labels::Depth>) {
         const VoxelsInBox known = voxels_in_box(constants, at, std::is_same_v<P, Labels::Depth>);
         if (known.field) return enclose(*known.field, at).tightened(half);
@@ -87,7 +87,7 @@ Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& 
         return within(
             std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
     });
-    return Enclosure(value, values, slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
+    return Enclosure(value, values, slope, enclosure::detail::no_gradient, Interval::all()).tightened(half);
 }
 
 /// The enclosure of any other primitive, from its equation.

@@ -20,8 +20,8 @@ Curvature Encloser::curvature() const {
     // component, and `of_first` that of the first component. Each is the largest of the bounds, and at least 0.
     double by_others[] = {0, 0}, by_own[] = {0, 0}, of_first = 0;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const Range& c = last_[outputs[i].value].curvature;
-        const Range curvature = outputs[i].negate ? -c : c;
+        const Interval& c = last_[outputs[i].value].curvature;
+        const Interval curvature = outputs[i].negate ? -c : c;
         if (i == 0) of_first = std::max(of_first, curvature.high);
         if (i > 0) by_others[0] = std::max(by_others[0], curvature.high);
         by_others[1] = std::max(by_others[1], curvature.high);

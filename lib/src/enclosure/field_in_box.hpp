@@ -3,20 +3,20 @@
 #include <array>
 #include <cmath>
 
+#include "enclosure/interval.hpp"
 #include "enclosure/length.hpp"
 #include "enclosure/number.hpp"
-#include "enclosure/range.hpp"
 #include "phasetree/math/point_range.hpp"
 
 namespace phasetree::enclosure {
 
 /// Proven bounds of a field in a box, up to the rounding errors of doubles.
 struct FieldInBox {
-    double value = 0;                  ///< at the box's centre
-    std::array<double, 3> gradient{};  ///< at the box's centre
-    std::array<Range, 3> gradients{};  ///< anywhere in the box
-    Range curvature{};                 ///< d²f/dt² along straight lines of unit speed
-    Range values = Range::all();       ///< what is known of the value, apart from what follows from the gradients
+    double value = 0;                     ///< at the box's centre
+    std::array<double, 3> gradient{};     ///< at the box's centre
+    std::array<Interval, 3> gradients{};  ///< anywhere in the box
+    Interval curvature{};                 ///< d²f/dt² along straight lines of unit speed
+    Interval values = Interval::all();    ///< what is known of the value, apart from what follows from the gradients
 };
 
 /// The region that contains the point at which a field is evaluated, if its coordinates are given as enclosures.

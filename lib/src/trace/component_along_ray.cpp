@@ -9,7 +9,7 @@
 namespace phasetree::trace {
 
 using bounding::enclose_long_primitive, bounding::enclose_primitive;
-using enclosure::Enclosure, enclosure::Range;
+using enclosure::Enclosure, enclosure::Interval;
 using evaluation::interpret, evaluation::RoutineSteps;
 using kernel::RayCrossing, kernel::Routine, kernel::Step, kernel::Visit;
 using program::fold_map;
@@ -30,7 +30,7 @@ class StepsUpToJump {
         if (s.op == static_cast<std::uint32_t>(fold_map)) {
             const auto fold = program::read<FoldMap>(steps_.constants(i));
             for (int axis = 0; axis < 3; ++axis) {
-                const Range& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
+                const Interval& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
                 const auto cell = [&](double at) {
                     return std::floor(
                         (at - static_cast<double>(fold.centre[axis])) * static_cast<double>(fold.inverse[axis]) + 0.5);
@@ -84,13 +84,13 @@ ComponentAlongRay::ComponentAlongRay(const Visit& visit, const RayCrossing& c)
 }
 
 double ComponentAlongRay::upper_bound(float t_low, float t_high, double precision) {
-    if (!output_) return Range::most;
+    if (!output_) return Interval::most;
     const double middle = 0.5 * (double{t_low} + double{t_high}), half = 0.5 * (double{t_high} - double{t_low});
     for (int i = 0; i < 3; ++i) {
         const auto along = static_cast<double>(direction_[i]);
         const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);
         registers_[static_cast<std::size_t>(i)] =
-            Enclosure(centre, {centre - half_width, centre + half_width}, {Range{along, along}}, {along}, {});
+            Enclosure(centre, {centre - half_width, centre + half_width}, {Interval{along, along}}, {along}, {});
     }
     // The first axis of the enclosures' box represents t; the others are unused.
     const Enclosure::Vector extent{half, 0, 0};
@@ -111,9 +111,9 @@ double ComponentAlongRay::upper_bound(float t_low, float t_high, double precisio
             result.tighten(extent);
         },
         [&](Enclosure& e) { e.tighten(extent); });
-    const Range& value = registers_[output_->slot].value;
+    const Interval& value = registers_[output_->slot].value;
     const double most = output_->sign < 0 ? -value.low : value.high;
-    return steps.has_jumped() || std::isnan(most) ? Range::most : most;
+    return steps.has_jumped() || std::isnan(most) ? Interval::most : most;
 }
 
 }  // namespace phasetree::trace
