@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "evaluation/target.hpp"
-#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
 
 namespace phasetree::bounding {
 
@@ -137,3 +137,15 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
 }
 
 }  // namespace phasetree::bounding
+
+namespace phasetree {
+
+std::optional<enclosure::Enclosure> Siren::Network::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                             const std::array<double, 3>&) {
+    const enclosure::Region at(q);
+    // The second number of the data is half the side of the cube. Points beyond the cube are projected onto it.
+    if (!(at.farthest() < static_cast<double>(data[1]))) return std::nullopt;
+    return enclose(bounding::network_in_box(data, at.centre, at.half_extents), at);
+}
+
+}  // namespace phasetree

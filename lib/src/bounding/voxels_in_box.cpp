@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "math/dual.hpp"
-#include "phasetree/nodes/fields/voxel_grid.hpp"
+#include "phasetree/nodes/fields/volume.hpp"
+#include "phasetree/nodes/phased/labels.hpp"
 
 namespace phasetree::bounding {
 
@@ -181,3 +182,30 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
 }
 
 }  // namespace phasetree::bounding
+
+namespace phasetree {
+
+namespace {
+
+enclosure::Enclosure enclosed_by_voxels(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                        const std::array<double, 3>& half, bool is_spline) {
+    const enclosure::Region at(q);
+    const bounding::VoxelsInBox known = bounding::voxels_in_box(data, at, is_spline);
+    if (known.field) return enclose(*known.field, at).tightened(half);
+    const Vec3<float> centre = at.point();
+    const float value = is_spline ? voxels::spline_at(data, centre) : voxels::linear_at(data, centre);
+    return enclose_lipschitz(static_cast<double>(value), known.values, q, half);
+}
+
+}  // namespace
+
+std::optional<enclosure::Enclosure> Volume::Samples::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                              const std::array<double, 3>& half) {
+    return enclosed_by_voxels(data, q, half, false);
+}
+std::optional<enclosure::Enclosure> Labels::Depth::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                            const std::array<double, 3>& half) {
+    return enclosed_by_voxels(data, q, half, true);
+}
+
+}  // namespace phasetree

@@ -61,4 +61,15 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     return e;
 }
 
+/// The enclosure of f(q), where f is 1-Lipschitz in its own space: from its value at the centre of q's region, and from
+/// its known range there. `half` contains the half extents of the box in which q varies.
+inline Enclosure enclose_lipschitz(double value, const Interval& values, const Vec3<Enclosure>& q,
+                                   const Enclosure::Vector& half) {
+    const auto slope = detail::each_axis([&](std::size_t i) {
+        return within(
+            std::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
+    });
+    return Enclosure(value, values, slope, detail::no_gradient, Interval::all()).tightened(half);
+}
+
 }  // namespace phasetree::enclosure

@@ -114,4 +114,8 @@ BallList read_balls(const std::filesystem::path& path) {
     throw SceneError(path.string(), "has no balls: its name must end with .ply or .csv");
 }
 
+BallList FileFormat<BallList>::read(const std::filesystem::path& path) {
+    return read_balls(path);
+}
+
 }  // namespace phasetree
