@@ -20,7 +20,7 @@ using namespace phasetree;
 using namespace phasetree::tests;
 
 using bounding::AffinePoint, bounding::enclose_convex;
-using enclosure::Enclosure, enclosure::least_difference, enclosure::Range;
+using enclosure::Enclosure, enclosure::least_difference, enclosure::Interval;
 
 namespace {
 
@@ -82,7 +82,7 @@ void look(const Primitive& n, Random& rng, int boxes, CellBuffer& found, Enclose
             const auto v = static_cast<double>(g.value());
             ++found.points;
             found.outside += !(v >= e.value.low - value_error && v <= e.value.high + value_error);
-            Range change{0, 0};
+            Interval change{0, 0};
             const glm::vec3 gradient = g.gradient();
             const std::array<float, 3> slope{gradient.x, gradient.y, gradient.z};
             for (std::size_t i = 0; i < 3; ++i) {
@@ -400,7 +400,8 @@ TEST_CASE("an enclosure of a tree holds its values and how they bend") {
 
 TEST_CASE("choices and operators of enclosures hold both branches") {
     const auto number = [](double low, double high, double slope_low, double slope_high) {
-        return Enclosure(0.5 * (low + high), {low, high}, {Range{slope_low, slope_high}, Range{}, Range{}}, {}, {});
+        return Enclosure(0.5 * (low + high), {low, high}, {Interval{slope_low, slope_high}, Interval{}, Interval{}}, {},
+                         {});
     };
     const Enclosure a = number(-1, 2, -1, 1), b = number(0, 1, 0, 0.5), far = number(5, 6, 1, 1);
     const Enclosure least = min(a, b), most = max(a, b);
@@ -416,7 +417,7 @@ TEST_CASE("choices and operators of enclosures hold both branches") {
     CHECK(abs(a).value.high == 2);
     CHECK((a * a).value.low == 0);  // a square, not a product
     CHECK((a * b).value.low == -1);
-    CHECK((b / a).value.low == -Range::most);  // by a number that may be zero
+    CHECK((b / a).value.low == -Interval::most);  // by a number that may be zero
     CHECK(sqrt(b).gradient[0].high > 1e99);
     CHECK(floor(a).value.low == -1);
     CHECK(floor(a).value.high == 2);
@@ -429,7 +430,7 @@ TEST_CASE("a difference is at least what is said of it, and just that where it b
         double c, k;
         std::array<double, 3> g;
         Enclosure enclosed(const Enclosure::Vector& half) const {
-            std::array<Range, 3> slopes;
+            std::array<Interval, 3> slopes;
             double reach = 0;
             for (std::size_t i = 0; i < 3; ++i) {
                 slopes[i] = {g[i] - std::abs(k) * half[i], g[i] + std::abs(k) * half[i]};
@@ -459,7 +460,7 @@ TEST_CASE("a difference is at least what is said of it, and just that where it b
             ++exact;
         }
         // By the gradients' ranges alone, where it may bend down endlessly or the centre is on a seam.
-        (n % 2 == 0 ? of_a : of_b).set_curvature(Range::all());
+        (n % 2 == 0 ? of_a : of_b).set_curvature(Interval::all());
         const double by_gradient = least_difference(of_a, of_b, half);
         CHECK(by_gradient <= least + 1e-12);
         CHECK(by_gradient > least - 100);

@@ -18,7 +18,7 @@ namespace test_field_in_box {
 using namespace phasetree;
 using namespace phasetree::tests;
 
-using enclosure::enclose, enclosure::Enclosure, enclosure::FieldInBox, enclosure::hull, enclosure::Range,
+using enclosure::enclose, enclosure::Enclosure, enclosure::FieldInBox, enclosure::hull, enclosure::Interval,
     enclosure::Region;
 
 namespace {
@@ -119,7 +119,7 @@ TEST_CASE("a field that is known where its point may be is enclosed, however the
         const Enclosure e = enclose(field.known(where), where).tightened({half.x, half.y, half.z});
         const auto at = [&](const glm::dvec3& p) { return field.at(map.at(p)); };
         const glm::dvec3 slope(e.centre_gradient[0], e.centre_gradient[1], e.centre_gradient[2]);
-        double highest = -Range::most, lowest = Range::most;
+        double highest = -Interval::most, lowest = Interval::most;
         for (int k = 0; k < 16; ++k) {
             const glm::dvec3 p = within_box(rng, centre, half);
             const double v = at(p);
@@ -130,7 +130,7 @@ TEST_CASE("a field that is known where its point may be is enclosed, however the
                 glm::dvec3 d(0);
                 d[i] = step;
                 const double s = (at(p + d) - at(p - d)) / (2 * step);
-                const Range& g = e.gradient[static_cast<std::size_t>(i)];
+                const Interval& g = e.gradient[static_cast<std::size_t>(i)];
                 steep += s < g.low - 1e-5 || s > g.high + 1e-5;
             }
             const glm::dvec3 d = p - centre;
@@ -171,7 +171,7 @@ void look_at_noise(const F& noise, const glm::dvec3& centre, const glm::dvec3& h
         const glm::vec3 q(d);
         return noise(Vec3<Dual>{Dual(q.x, 1, 0, 0), Dual(q.y, 0, 1, 0), Dual(q.z, 0, 0, 1)});
     };
-    std::array<Range, 3> met;
+    std::array<Interval, 3> met;
     double most_bent = 0;
     for (int k = 0; k < 16; ++k) {
         const glm::dvec3 a = within_box(rng, centre, half), b = within_box(rng, centre, half);
@@ -181,11 +181,11 @@ void look_at_noise(const F& noise, const glm::dvec3& centre, const glm::dvec3& h
         seen.outside += v < e.value.low - 2e-6 || v > e.value.high + 2e-6;
         const glm::vec3 g = there.gradient();
         for (int i = 0; i < 3; ++i) {
-            const Range& known = e.gradient[static_cast<std::size_t>(i)];
+            const Interval& known = e.gradient[static_cast<std::size_t>(i)];
             const auto s = static_cast<double>(g[i]);
             seen.steep += s < known.low - 2e-5 || s > known.high + 2e-5;
-            Range& m = met[static_cast<std::size_t>(i)];
-            m = k == 0 ? Range{s, s} : hull(m, {s, s});
+            Interval& m = met[static_cast<std::size_t>(i)];
+            m = k == 0 ? Interval{s, s} : hull(m, {s, s});
         }
         // How fast the slope along a chord changes along it.
         const double length = glm::length(b - a);

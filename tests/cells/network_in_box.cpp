@@ -19,7 +19,7 @@ using namespace phasetree;
 using namespace phasetree::tests;
 
 using bounding::network_in_box;
-using enclosure::FieldInBox, enclosure::Range;
+using enclosure::FieldInBox, enclosure::Interval;
 
 namespace {
 
@@ -65,7 +65,7 @@ OnLine along(const SirenNetwork& network, const glm::dvec3& p, const glm::dvec3&
 
 /// The range of the second derivative along lines of all directions: the eigenvalues of the matrix that follows from
 /// its values along six.
-Range bends(const SirenNetwork& network, const glm::dvec3& p) {
+Interval bends(const SirenNetwork& network, const glm::dvec3& p) {
     const auto on = [&](const glm::dvec3& d) { return along(network, p, d).bend; };
     glm::dmat3 h(0);
     for (int i = 0; i < 3; ++i) h[i][i] = on(glm::dvec3(i == 0, i == 1, i == 2));
@@ -82,7 +82,7 @@ Range bends(const SirenNetwork& network, const glm::dvec3& p) {
         for (int i = 0; i < 100; ++i) d = glm::normalize(m * d);
         return on(d);
     };
-    return shift > 0 ? Range{farthest(h - glm::dmat3(shift)), farthest(h + glm::dmat3(shift))} : Range{};
+    return shift > 0 ? Interval{farthest(h - glm::dmat3(shift)), farthest(h + glm::dmat3(shift))} : Interval{};
 }
 
 struct CellBuffer {
@@ -106,7 +106,7 @@ CellBuffer look(double larger, double& slack) {
             REQUIRE(std::abs(f.value - middle.value) < 1e-12 * (1 + std::abs(f.value)));
             double most = 0;
             for (std::size_t i = 0; i < 3; ++i) most += f.gradients[i].magnitude() * half[static_cast<int>(i)] * larger;
-            double highest = -Range::most, lowest = Range::most;
+            double highest = -Interval::most, lowest = Interval::most;
             for (int point = 0; point < 24; ++point) {
                 // Half of the coordinates are those of corners, where the field departs most from the centre's.
                 const auto one = [&] { return rng.chance(0.5) ? (rng.chance(0.5) ? 1 : -1) : rng.uniform(-1, 1); };
@@ -118,7 +118,7 @@ CellBuffer look(double larger, double& slack) {
                     glm::dvec3 d(0);
                     d[axis] = 1;
                     const double slope = along(network, p, d).slope;
-                    const Range& range = f.gradients[static_cast<std::size_t>(axis)];
+                    const Interval& range = f.gradients[static_cast<std::size_t>(axis)];
                     found.steep += slope < range.low - rounding || slope > range.high + rounding;
                     if (point == 0) {
                         const double at_centre = along(network, centre, d).slope;
@@ -126,7 +126,7 @@ CellBuffer look(double larger, double& slack) {
                         REQUIRE(std::abs(error) < 1e-10 * (1 + std::abs(at_centre)));
                     }
                 }
-                const Range bend = bends(network, p);
+                const Interval bend = bends(network, p);
                 found.bent += bend.low < f.curvature.low - rounding || bend.high > f.curvature.high + rounding;
                 highest = std::max(highest, bend.high);
                 lowest = std::min(lowest, bend.low);
@@ -165,7 +165,7 @@ TEST_CASE("of chains of neurons every term of the fourth derivative's bound is n
     // alike in all directions: then less bending is outside of the range, too.
     Random rng(216);
     std::size_t points = 0, bent = 0, steep = 0;
-    double least = Range::most;
+    double least = Interval::most;
     for (int n = 0; n < (long_tests() ? 1000000 : 40000); ++n) {
         const float w = rng.uniform(0.5f, 4), b = rng.uniform(-4, 4), a = std::exp2(rng.uniform(-4, 3)),
                     c = rng.uniform(-4, 4);

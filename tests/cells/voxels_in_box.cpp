@@ -62,7 +62,7 @@ void look(const VoxelGrid& grid, bool is_spline, Random& rng, Found& found) {
     if (!known.field) return;
     ++found.known;
     const auto& field = *known.field;
-    const bool has_curvature = field.curvature.high < enclosure::Range::most;
+    const bool has_curvature = field.curvature.high < enclosure::Interval::most;
     found.curved += has_curvature;
     for (int k = 0; k < 20; ++k) {
         const glm::dvec3 a = place(1), b = place(1);

@@ -44,7 +44,7 @@ std::vector<Rounded> rounded_distances(const Program& program, const glm::vec3& 
     for (int i = 0; i < 3; ++i) registers[static_cast<std::size_t>(i)] = Rounded(p[i]);
     evaluation::interpret(
         evaluation::RoutineSteps(assembly.routine(program.constants.data())), registers.data(),
-        []<class P>(const float* floats, const Vec3<Rounded>& q, Rounded& to) {
+        []<class P>(std::size_t, const float* floats, const Vec3<Rounded>& q, Rounded& to) {
             to = program::distance_of<P>(floats, q);
         },
         [](const Rounded&) {});

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "phasetree/io/tree.hpp"
+#include "phasetree/nodes/fields/height_grid.hpp"
 #include "source_directory.hpp"
-#include "support/random_voxels.hpp"
+#include "support/example_readers.hpp"
 
 namespace phasetree::tests {
 
@@ -39,18 +40,8 @@ inline Phased read_example(const std::filesystem::path& example) {
     const std::string mark = "@TREE@";
     std::string scene = content(folder / "studio.json");
     scene.replace(scene.find(mark), mark.size(), content(example));
-    // This library reads neither images nor OpenVDB files.
-    const FileReaders readers{[](const std::filesystem::path&) { return hills(); },
-                              [](const std::filesystem::path&, const std::string&) {
-                                  Random rng(1);
-                                  return random_level_set(rng);
-                              },
-                              [](const std::filesystem::path&, const std::string&) {
-                                  Random rng(2);
-                                  LabelGrid grid = random_labels(rng, 3);
-                                  grid.has_spacing = false;  // as images have none
-                                  return grid;
-                              }};
+    const auto read_hills = [](const std::filesystem::path&, const std::string&) { return hills(); };
+    const FileReaders readers = example_readers().add<HeightGrid>({.read = read_hills});
     return read_tree(Document::from_text(scene, (folder / "studio.json").string()), readers).object;
 }
 

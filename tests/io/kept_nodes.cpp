@@ -41,13 +41,14 @@ class Place {
     SceneTree read(const std::string& text) {
         kept_->start();
         FileReaders readers;
-        readers.height_grid = [this](const fs::path& path) {
+        const auto read_digit = [this](const fs::path& path, const std::string&) {
             ++times_read;
             char content = '0';
             std::ifstream(path) >> content;
             const float height = static_cast<float>(content - '0') / 10;
             return HeightGrid{2, 2, {height, height, height, height}};
         };
+        readers.add<HeightGrid>({.read = read_digit});
         const Document document = Document::from_text(text, (folder_.path() / "scene.json").string());
         SceneTree tree = read_tree(document.with_kept_nodes(kept_), readers);
         kept_->finish();

@@ -1,7 +1,6 @@
 // Every node has a picture in the reference, of an example that uses it. Both are made as scenes/nodes/render.sh says.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "phasetree/io/tree.hpp"
 #include "source_directory.hpp"
+#include "support/example_readers.hpp"
 #include "tree/node.hpp"
 
 namespace test_pictures {
@@ -36,27 +36,12 @@ Phased read_example(const std::filesystem::path& example) {
     const std::string mark = "@TREE@";
     std::string scene = content(folder() / "studio.json");
     scene.replace(scene.find(mark), mark.size(), content(example));
-    const FileReaders readers{[](const std::filesystem::path& image) {
-                                  if (!std::filesystem::exists(image)) throw std::runtime_error("no such file");
-                                  return HeightGrid{2, 2, {0.f, 0.2f, 0.4f, 1.f}};  // this library knows no images
-                              },
-                              [](const std::filesystem::path& volume, const std::string&) {
-                                  if (!std::filesystem::exists(volume)) throw std::runtime_error("no such file");
-                                  return VoxelGrid::of_voxels("volume", {{1, 1, 1}, glm::dvec3(0), glm::dvec3(1)},
-                                                              [](int, int, int) { return -1; });
-                              },
-                              [](const std::filesystem::path&, const std::string&) {
-                                  LabelGrid grid;
-                                  grid.lattice.size = {1, 1, 1};
-                                  grid.numbers = {1};
-                                  grid.voxels = {0};
-                                  return grid;
-                              },
-                              nullptr,
-                              [](const std::filesystem::path& font, const std::string&) {
-                                  if (!std::filesystem::exists(font)) throw std::runtime_error("no such file");
-                                  return TextOutlines{{{1, 1, {{0, 0, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}}}};
-                              }};
+    // A name with # stands for several images.
+    const auto check = [](const std::filesystem::path& file) {
+        if (file.string().find('#') == std::string::npos && !std::filesystem::exists(file))
+            throw std::runtime_error("there is no such file");
+    };
+    const FileReaders readers = tests::example_readers(check);
     return read_tree(Document::from_text(scene, (folder() / "studio.json").string()), readers).object;
 }
 
@@ -96,12 +81,22 @@ void check_example(const std::string& chapter, std::string_view node, std::set<s
     files.insert({stem + ".json", stem + ".jpg"});
 }
 
+/// Whether an example of the chapter names a file, with its number or with # instead of digits.
+bool is_named_by_example(const std::string& chapter, std::string file) {
+    std::string examples;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / chapter))
+        if (entry.path().extension() == ".json") examples += content(entry.path());
+    const auto is_named = [&] { return examples.find('"' + file + '"') != std::string::npos; };
+    if (is_named()) return true;
+    for (char& c : file)
+        if (c >= '0' && c <= '9') c = '#';
+    return is_named();
+}
+
 }  // namespace
 
 TEST_CASE("every node has a picture, of an example that uses it, and no picture is left of a node that went") {
-    std::set<std::string> files{"fields/height_map.png", "fields/mesh.obj", "fields/volume.vdb",
-                                "objects/particles.csv"};
-    for (int layer = 0; layer < 16; ++layer) files.insert(fmt::format("objects/labels_{:02}.png", layer));
+    std::set<std::string> files;
     for_each_type(PlainFields(), [&]<class N>() { check_example("fields", N::info.name, files); });
     for_each_type(Objects(), [&]<class N>() { check_example("objects", N::info.name, files); });
     for_each_type(detail::Map<WarpedPhased, Warps>::type(),
@@ -110,7 +105,7 @@ TEST_CASE("every node has a picture, of an example that uses it, and no picture 
         for (const auto& entry : std::filesystem::directory_iterator(folder() / chapter)) {
             const std::string name = chapter + ("/" + entry.path().filename().string());
             CAPTURE(name);
-            CHECK(files.contains(name));
+            CHECK((files.contains(name) || is_named_by_example(chapter, name)));
         }
 }
 

@@ -2,7 +2,6 @@
 
 /// How the value of a node's parameter is drawn.
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -13,42 +12,21 @@
 
 #include "phasetree/model/from_file.hpp"
 #include "phasetree/model/parameter.hpp"
-#include "phasetree/nodes/fields/ball_list.hpp"
-#include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/intersection.hpp"
-#include "phasetree/nodes/fields/siren_network.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/phased/intersect_shape.hpp"
 #include "support/random_mesh.hpp"
-#include "support/random_text.hpp"
+#include "support/random_number.hpp"
 #include "support/random_tree.hpp"
-#include "support/random_voxels.hpp"
+#include "support/set_algebra/all.hpp"
 
-namespace phasetree::tests::detail {
+namespace phasetree::tests {
 
-inline float allowed(float v, const Limits& l, Random& rng) {
-    if (l.contains(v)) return v;
-    const float low = std::max(l.low, -1.f), high = std::min(l.high, 1.f);
-    return rng.uniform(low + 0.01f * (high - low), high - 0.01f * (high - low));
+inline TriangleMesh random_content(Random& rng, std::type_identity<TriangleMesh>) {
+    return random_mesh(rng, rng.below(2), 0.3f);
 }
 
-/// A number that suits its unit and limits; mostly small sizes, a few large ones.
-inline float random_number(Random& rng, const Parameter& p) {
-    const bool negative = p.limits.contains(-0.01f), round = rng.chance(0.3);
-    const auto rounded = [&](float v, float unit) { return round ? std::round(v / unit) * unit : v; };
-    if (p.unit == "degrees") return allowed(rounded(rng.uniform(-180, 180), 45), p.limits, rng);
-    if (p.unit == "degrees/m") return allowed(rounded(rng.uniform(-150, 150), 45), p.limits, rng);
-    // Counts; and waves long enough that an object has not thousands of them.
-    if (p.unit.empty() && p.limits.low > 2) return std::floor(rng.uniform(p.limits.low, p.limits.low + 6));
-    if (p.name == "period" || p.name == "scale") return rounded(rng.uniform(0.4f, 1.5f), 0.25f);
-    if (p.unit == "m" && !negative) {
-        const float u = rng.uniform(0, 1);
-        return allowed(rounded(0.04f + 1.2f * u * u, 0.25f), p.limits, rng);
-    }
-    if (p.unit == "m") return allowed(rounded(rng.uniform(-0.6f, 0.6f), 0.25f), p.limits, rng);
-    if (negative) return allowed(rounded(rng.uniform(-1, 1), 1), p.limits, rng);
-    return allowed(rounded(rng.uniform(0.4f, 2.2f), 0.5f), p.limits, rng);
-}
+namespace detail {
 
 inline Field bounded(Random& rng, Field f) {
     if (bounds(f).finite()) return f;
@@ -81,6 +59,12 @@ inline std::string random_formula(Random& rng) {
     return text;
 }
 
+/// A file's content, by the oracle of the node that reads it (set_algebra/all.hpp).
+template <class Content>
+FromFile<Content> with_random_content(Random& rng, const FromFile<Content>&) {
+    return {.content = std::make_shared<const Content>(random_content(rng, std::type_identity<Content>{}))};
+}
+
 /// A value of a parameter; what is random of a child is bounded if the node needs that.
 template <class Value>
 void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_bounded) {
@@ -109,38 +93,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
         value = PhaseSet{(rng.bits() & ((1u << (random_phases + 1)) - 1)) & ~std::uint64_t{rng.chance(0.8)}};
     } else if constexpr (std::is_same_v<Value, Field> || std::is_same_v<Value, Phased>) {
         draw(value);
-    } else if constexpr (std::is_same_v<Value, FromFile<SirenNetwork>>) {
-        SirenNetwork network;
-        network.radius = rng.uniform(0.5f, 1.2f);
-        for (const auto& [inputs, outputs] : {std::pair(3, 7), std::pair(7, 5), std::pair(5, 1)}) {
-            SirenNetwork::Layer layer{inputs, outputs, {}, {}};
-            for (int i = 0; i < inputs * outputs; ++i) layer.weights.push_back(rng.uniform(-0.9f, 0.9f));
-            for (int o = 0; o < outputs; ++o) layer.bias.push_back(rng.uniform(-0.9f, 0.5f));
-            network.layers.push_back(std::move(layer));
-        }
-        value.content = std::make_shared<const SirenNetwork>(std::move(network));
-    } else if constexpr (std::is_same_v<Value, FromFile<TriangleMesh>>) {
-        value = held(random_mesh(rng, rng.below(2), 0.3f));
-    } else if constexpr (std::is_same_v<Value, FromFile<BallList>>) {
-        BallList list;
-        const bool has_radii = rng.chance(0.7), has_phases = rng.chance(0.7);
-        for (int left = 1 + rng.below(rng.chance(0.3) ? 60 : 6); left > 0; --left) {
-            list.centres.emplace_back(random_number(rng, {"", "m", ""}), random_number(rng, {"", "m", ""}),
-                                      random_number(rng, {"", "m", ""}));
-            if (has_radii) list.radii.push_back(rng.chance(0.3) ? 0.25f : rng.uniform(0.05f, 0.4f));
-            if (has_phases) list.phases.push_back(static_cast<std::uint8_t>(rng.below(2)));
-        }
-        value.content = std::make_shared<const BallList>(std::move(list));
-    } else if constexpr (std::is_same_v<Value, FromFile<TextOutlines>>) {
-        value = held_content(random_text(rng));
-    } else if constexpr (std::is_same_v<Value, FromFile<VoxelGrid>>) {
-        value = held_content(random_level_set(rng));
-    } else if constexpr (std::is_same_v<Value, FromFile<LabelGrid>>) {
-        value = held_content(random_labels(rng, 2 + rng.below(3)));
-    } else if constexpr (std::is_same_v<Value, FromFile<HeightGrid>>) {
-        HeightGrid grid{2 + rng.below(4), 2 + rng.below(4), {}};
-        for (int i = 0; i < grid.width * grid.height; ++i) grid.values.push_back(rng.uniform(0, 1));
-        value.content = std::make_shared<const HeightGrid>(std::move(grid));
+    } else if constexpr (requires { value.content; }) {
+        value = with_random_content(rng, value);
     } else if constexpr (std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<Phase>>) {
         // A node's lists belong together, one as long as the other, or one shorter, or one for all: it refuses the
         // rest.
@@ -170,4 +124,6 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
     }
 }
 
-}  // namespace phasetree::tests::detail
+}  // namespace detail
+
+}  // namespace phasetree::tests

@@ -1,20 +1,6 @@
 #include "support/set_algebra.hpp"
 
-#include "support/set_algebra/balls.hpp"
-#include "support/set_algebra/blobs.hpp"
-#include "support/set_algebra/components.hpp"
-#include "support/set_algebra/copies.hpp"
-#include "support/set_algebra/field_operators.hpp"
-#include "support/set_algebra/formulas.hpp"
-#include "support/set_algebra/meshes.hpp"
-#include "support/set_algebra/outlines.hpp"
-#include "support/set_algebra/patterns.hpp"
-#include "support/set_algebra/primitives.hpp"
-#include "support/set_algebra/proxies.hpp"
-#include "support/set_algebra/regions.hpp"
-#include "support/set_algebra/textures.hpp"
-#include "support/set_algebra/volumes.hpp"
-#include "support/set_algebra/warps.hpp"
+#include "support/set_algebra/all.hpp"
 
 namespace phasetree::tests {
 

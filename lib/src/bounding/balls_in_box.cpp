@@ -2,7 +2,7 @@
 
 #include "bounding/convex_in_box.hpp"
 #include "bounding/nearly_linear.hpp"
-#include "phasetree/nodes/fields/ball_tree.hpp"
+#include "phasetree/nodes/fields/balls.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
 
 namespace phasetree::bounding {
@@ -38,3 +38,12 @@ std::optional<Enclosure> balls_in_box(const float* list, const Vec3<Enclosure>& 
 }
 
 }  // namespace phasetree::bounding
+
+namespace phasetree {
+
+std::optional<enclosure::Enclosure> Balls::Specialised::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                                 const std::array<double, 3>& half) {
+    return bounding::balls_in_box(data, q, half);
+}
+
+}  // namespace phasetree

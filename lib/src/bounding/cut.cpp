@@ -42,7 +42,7 @@ class Cutter {
     // cut to where v ≤ τ (below) or v ≥ τ (above) can hold; `at` means that it has not been cut.
     LaneBox box_around(const LevelSet& set, const LaneBox& box, Side already_cut = Side::at) {
         const auto [v, side, tau] = set;
-        const Range& range = enclosed_[v].value;
+        const Interval& range = enclosed_[v].value;
         const bool is_above = static_cast<float>(range.low) > tau + margin_;
         const bool is_below = static_cast<float>(range.high) < tau - margin_;
         if (box.empty() || (is_above && side != Side::above) || (is_below && side != Side::below)) return {};

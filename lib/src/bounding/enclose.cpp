@@ -1,4 +1,3 @@
-// Computes the enclosures of a program's values. interface_bounds.cpp derives bounds of the interfaces from them.
 #include "bounding/enclose.hpp"
 
 #include <cmath>
@@ -12,9 +11,9 @@
 
 namespace phasetree::bounding {
 
-using evaluation::interpret, evaluation::PointInRegisters;
+using evaluation::interpret, evaluation::PointInRegisters, evaluation::StepAction;
 using kernel::Step;
-using program::gives_point, program::is_fold, program::traits;
+using program::gives_point, program::is_fold;
 using rewriting::assign_slots, rewriting::has_local_primitive;
 
 namespace {
@@ -27,7 +26,7 @@ struct UnknownSteps {
     std::span<const std::uint32_t> slot;
 
     std::size_t size() const { return code.size(); }
-    bool is_left_out(std::size_t i) const { return i == 0 || previous[i] != 0; }
+    StepAction action(std::size_t i) const { return i == 0 || previous[i] != 0 ? StepAction::skip : StepAction::run; }
     Step step(std::size_t i) const {
         const Instruction& in = code[i];
         return {static_cast<std::uint32_t>(in.op), slot[i], slot[in.a], slot[in.b]};
@@ -109,7 +108,7 @@ void Encloser::enclose_values(const WorkingProgram& program) {
                         registers.data() + slot[i]);
     const std::span<Specialisation> found = previous_specialisations(program, previous);
     registers_ = registers.data();
-    last_ = {program, box_, &context_, registers_, slot};
+    last_ = {program, box_, &context_, registers_, slot, half_};
     enclose_instructions(program, previous, found);
     keep_specialisations(found);
 }
@@ -125,13 +124,9 @@ void Encloser::enclose_instructions(const WorkingProgram& program, std::span<con
         const std::optional<AffinePoint> affine = AffinePoint::of(q, half_);
         return affine && enclose_convex(solid, *affine, result);
     };
-    // The instruction of the local primitive that was enclosed last. interpret() does not report the index of an
-    // instruction, but it visits the instructions that are not skipped in order. So the current one is the next local
-    // primitive that is not known from the previous program.
-    std::size_t local = 0;
     interpret(
         steps, registers_,
-        [&]<class P, class Point>(const float* c, const Point& q, Enclosure& result) {
+        [&]<class P, class Point>([[maybe_unused]] std::size_t i, const float* c, const Point& q, Enclosure& result) {
             if constexpr (RoundedPrimitive<P>) {
                 if (!enclose_rounded(program::read<P>(c), q, result)) {
                     result = enclose_primitive<P>(c, q);
@@ -140,14 +135,12 @@ void Encloser::enclose_instructions(const WorkingProgram& program, std::span<con
             } else if constexpr (LongPrimitive<P>) {
                 SpecialisationInBox specialisation{{}, scratch_};
                 if constexpr (AnyLocalPrimitive<P>) {
-                    do ++local;
-                    while (previous[local] != 0 || !traits(program.code[local].op).is_local);
                     const auto source = static_cast<std::uint32_t>(c - context_.constants.data());
                     specialisation.around = data_around(source);
                     specialisation.farthest = farthest_required(source);
                 }
                 result = enclose_long_primitive<P>(c, q, half_, specialisation);
-                if constexpr (AnyLocalPrimitive<P>) found[local] = specialisation.found;
+                if constexpr (AnyLocalPrimitive<P>) found[i] = specialisation.found;
             } else {
                 result = enclose_primitive<P>(c, q);
                 tighten_by_linear_bound(result, half_);
@@ -172,16 +165,6 @@ void Encloser::keep_specialisations(std::span<Specialisation> found) {
     specialisations_ = found.first(count);
 }
 
-// The enclosure of an output's value, without the output's sign. Components are 1-Lipschitz, even in pruned programs
-// (for the proof, see pruning/prune.hpp). So their gradients are within ±1 even where the enclosures of the
-// instructions are wider.
-Enclosure Encloser::enclosure_of_output(const ProgramOutput& o) const {
-    Enclosure e = last_[o.value];
-    for (Range& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
-    e.tighten(half_);
-    return e;
-}
-
 std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program) {
     const std::size_t size = program.code.size();
     // A fold of space may jump, in which case it has no gradient.
@@ -193,17 +176,17 @@ std::optional<ValueRanges> Encloser::value_ranges(const WorkingProgram& program)
     // The margin covers the rounding error of a value evaluated for a ray and that of the value at the centre.
     const double margin = 2 * static_cast<double>(context_.value_error);
     const std::span<float> low = scratch_.allocate<float>(size), high = scratch_.allocate<float>(size);
-    const auto set = [&](std::size_t i, const Range& v) {
+    const auto set = [&](std::size_t i, const Interval& v) {
         low[i] = static_cast<float>(std::max(v.low - margin, -1e30));
         high[i] = static_cast<float>(std::min(v.high + margin, 1e30));
     };
     for (std::uint32_t i = 0; i < size; ++i) {
-        const Range& v = last_[i].value;
+        const Interval& v = last_[i].value;
         if (!(v.low <= v.high)) return std::nullopt;  // The value is NaN somewhere.
         set(i, v);
     }
-    for (const ProgramOutput& o : program.outputs) set(o.value, enclosure_of_output(o).value);
-    return ValueRanges{low, high, program.lipschitz, last_, half_, margin};
+    for (const ProgramOutput& o : program.outputs) set(o.value, last_.of_output(o).value);
+    return ValueRanges{low, high, program.lipschitz, last_, margin};
 }
 
 }  // namespace phasetree::bounding

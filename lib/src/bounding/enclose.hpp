@@ -2,29 +2,16 @@
 
 #include <array>
 
-#include "bounding/sign_certificate.hpp"
 #include "bounding/value_ranges.hpp"
-#include "kernel/linear_bound.hpp"
 #include "rewriting/specialise.hpp"
 
 namespace phasetree::bounding {
 
-using enclosure::Range;
-using kernel::Curvature, kernel::LinearBound;
+using enclosure::Interval;
 using program::ProgramOutput;
 using rewriting::RequiredOfLocal, rewriting::Specialisation;
 
 struct AffinePoint;
-struct NearlyLinear;
-
-/// What is known about the interfaces in a box, apart from the ranges of values.
-struct InterfaceBounds {
-    LinearBound bound;
-    Curvature curvature;
-    Bounds box;                                    ///< encloses the interfaces; empty if no ray can meet one
-    std::span<const CertificateStep> certificate;  ///< for rays in phases in which the curvature is unbounded
-    std::span<const Specialisation> specialisations;
-};
 
 /// Programs with more instructions are not enclosed, because that would take longer than it saves. Programs with local
 /// primitives, for which it saves more, are enclosed up to four times this length.
@@ -44,8 +31,10 @@ class Encloser {
     /// The ranges of a program's values. Returns nullopt if the program is too long or folds
     /// space.
     std::optional<ValueRanges> value_ranges(const WorkingProgram&);
-    /// The bounds of the interfaces of the program last passed to value_ranges().
-    InterfaceBounds interface_bounds() const;
+    /// The program last passed to value_ranges(), for interface_bounds(), and the specialisations of its local
+    /// primitives.
+    const EnclosedProgram& enclosed() const { return last_; }
+    std::span<const Specialisation> specialisations() const { return specialisations_; }
 
   private:
     void enclose_values(const WorkingProgram&);
@@ -57,11 +46,6 @@ class Encloser {
     void keep_specialisations(std::span<Specialisation> found);
     std::span<const float> data_around(std::uint32_t source) const;
     double farthest_required(std::uint32_t source) const;
-    Enclosure enclosure_of_output(const ProgramOutput&) const;
-    Curvature curvature() const;
-    LinearBound linear_bound(const NearlyLinear&, const Enclosure& f) const;
-    Bounds box_around_interface(const NearlyLinear&, const LinearBound&) const;
-    bool is_clear(const ProgramOutput& o) const { return !context_.opaque.contains(o.phase); }
 
     const ProgramContext& context_;
     Bounds box_;

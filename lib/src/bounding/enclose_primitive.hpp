@@ -2,19 +2,15 @@
 
 #include <limits>
 
-#include "bounding/balls_in_box.hpp"
 #include "bounding/convex_in_box.hpp"
-#include "bounding/mesh_in_box.hpp"
-#include "bounding/network_in_box.hpp"
-#include "bounding/voxels_in_box.hpp"
 #include "enclosure/enclosure.hpp"
+#include "enclosure/field_in_box.hpp"
 #include "evaluation/interpret.hpp"
-#include "phasetree/math/portable.hpp"
 #include "rewriting/specialise.hpp"
 
 namespace phasetree::bounding {
 
-using enclosure::enclose, enclosure::Range, enclosure::Region, enclosure::within;
+using enclosure::enclose_lipschitz, enclosure::Interval, enclosure::Region;
 using rewriting::Arena, rewriting::Specialisation;
 
 /// The specialisation of a local primitive in the box in which it is enclosed.
@@ -44,50 +40,30 @@ float value_by_specialisation(const float* constants, const Region& at, Speciali
     return P::Specialised::distance(found.data.data(), at.point());
 }
 
-/// The enclosure of a long primitive:
-///  - Noise has its own enclosure. So has a network inside its cube; beyond the cube, points are projected onto it
-///    (Siren::Network).
-///  - The few mesh pieces in a small box bound the gradient, and so do a few voxels. More voxels only bound the range
-///    of values.
-///  - A few balls are enclosed one by one.
-///  - For all others (images, Voronoi cells), and for the above elsewhere, only the value at the centre is used,
-///    together with the Lipschitz bound of 1 in their own space.
+/// The enclosure of a long primitive, as it states itself (phasetree/model/enclosing.hpp). A local primitive is
+/// enclosed as its specialisation is.
 template <class P>
 Enclosure enclose_long_primitive(const float* constants, const Vec3<Enclosure>& q, const Enclosure::Vector& half,
                                  SpecialisationInBox& specialisation) {
-    const Region at(q);
-    if constexpr (std::is_same_v<P, Siren::Network>) {
-        // The second number of a network's data is half the side of the cube.
-        const auto half_of_cube = static_cast<double>(constants[1]);
-        if (at.farthest() < half_of_cube) return enclose(network_in_box(constants, at.centre, at.half_extents), at);
+    if constexpr (AnyLocalPrimitive<P>) {
+        using Stated = typename EnclosingOf<typename P::Specialised>::Stated;
+        const auto value = static_cast<double>(value_by_specialisation<P>(constants, Region(q), specialisation));
+        if constexpr (EnclosesItself<Stated>)
+            if (const float* data = specialisation.found.data.data())
+                if (const auto known = Stated::enclosed(data, q, half)) return *known;
+        return enclose_lipschitz(value, Interval::all(), q, half);
+    } else {
+        using Stated = typename EnclosingOf<P>::Stated;
+        static_assert(StatesEnclosing<Stated>,
+                      "a long primitive must state how it is enclosed (phasetree/model/enclosing.hpp)");
+        if constexpr (EnclosesItself<Stated>) {
+            if (const auto known = Stated::enclosed(constants, q, half)) return *known;
+        } else if constexpr (Stated::enclosed_by == EnclosedBy::equation) {
+            return program::distance_of<P>(constants, q);
+        }
+        const auto value = static_cast<double>(program::distance_of<P>(constants, Region(q).point()));
+        return enclose_lipschitz(value, Interval::all(), q, half);
     }
-    if constexpr (std::is_same_v<P, FractalNoise>) return program::distance_of<P>(constants, q);
-    double value = 0;
-    if constexpr (AnyLocalPrimitive<P>)
-        value = static_cast<double>(value_by_specialisation<P>(constants, at, specialisation));
-    else
-        value = static_cast<double>(program::distance_of<P>(constants, at.point()));
-    const float* balls = nullptr;
-    if constexpr (std::is_same_v<P, Balls::Specialised>) balls = constants;
-    if constexpr (std::is_same_v<P, Balls>) balls = specialisation.found.data.data();
-    if (balls)
-        if (const auto known = balls_in_box(balls, q, half)) return *known;
-    const float* pieces = nullptr;
-    if constexpr (std::is_same_v<P, Mesh::Specialised>) pieces = constants;
-    if constexpr (std::is_same_v<P, Mesh>) pieces = specialisation.found.data.data();
-    if (pieces)
-        if (const auto known = mesh_in_box(pieces, at)) return enclose(*known, at).tightened(half);
-    Range values = Range::all();
-    if constexpr (std::is_same_v<P, Volume::Samples> || std::is_same_v<P, Labels::Depth>) {
-        const VoxelsInBox known = voxels_in_box(constants, at, std::is_same_v<P, Labels::Depth>);
-        if (known.field) return enclose(*known.field, at).tightened(half);
-        values = known.values;
-    }
-    const auto slope = enclosure::detail::each_axis([&](std::size_t i) {
-        return within(
-            portable::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
-    });
-    return Enclosure(value, values, slope, enclosure::detail::no_gradient, Range::all()).tightened(half);
 }
 
 /// The enclosure of any other primitive, from its equation.

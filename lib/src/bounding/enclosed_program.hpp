@@ -17,9 +17,19 @@ struct EnclosedProgram {
     const ProgramContext* context = nullptr;
     const Enclosure* registers = nullptr;
     std::span<const std::uint32_t> slot;  ///< for each instruction, the first register of its value
+    Enclosure::Vector half{};             ///< the box's half extents, rounded up
 
     const Enclosure& operator[](std::uint32_t value) const { return registers[slot[value]]; }
     std::span<const float> constants() const { return context->constants; }
+    /// The enclosure of an output's value, without the output's sign. Components are 1-Lipschitz, even in pruned
+    /// programs (for the proof, see pruning/prune.hpp). So their gradients are within ±1 even where the enclosures of
+    /// the instructions are wider.
+    Enclosure of_output(const program::ProgramOutput& o) const {
+        Enclosure e = (*this)[o.value];
+        for (enclosure::Interval& g : e.gradient) g = {std::max(g.low, -1.0), std::min(g.high, 1.0)};
+        e.tighten(half);
+        return e;
+    }
 };
 
 }  // namespace phasetree::bounding

@@ -11,7 +11,7 @@
 
 namespace phasetree::bounding {
 
-using enclosure::Range;
+using enclosure::Interval;
 using mesh::Edge, mesh::Face, mesh::PieceList, mesh::Vertex;
 
 namespace {
@@ -59,7 +59,7 @@ std::optional<FieldInBox> mesh_in_box(const float* pieces, const PointRange& at)
     const Dual centre = PieceList::distance(pieces, Vec3<Dual>{coordinate(0), coordinate(1), coordinate(2)});
     FieldInBox field;
     field.value = static_cast<double>(centre.value());
-    field.curvature = is_one_face(pieces) ? Range{} : Range::all();
+    field.curvature = is_one_face(pieces) ? Interval{} : Interval::all();
     // A unit vector within this angle of the axis differs from it by at most a chord. Normals are rounded to floats.
     const double chord = 2 * std::sin(angle / 2) + 1e-6;
     for (int i = 0; i < 3; ++i) {

@@ -8,7 +8,7 @@
 
 namespace phasetree::bounding {
 
-using enclosure::Enclosure, enclosure::Range;
+using enclosure::Enclosure, enclosure::Interval;
 
 /// A linear function and an upper bound of the deviation of a field f from it in a box:
 ///     |f(p) − (at_centre + normal·(p − centre))| ≤ slack.
@@ -25,7 +25,7 @@ struct NearlyLinear {
     NearlyLinear(const Enclosure& f, const Enclosure::Vector& half) : at_centre(f.centre), slack(0) {
         double by_gradient = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Range& g = f.gradient[i];
+            const Interval& g = f.gradient[i];
             const double at = f.centre_gradient[i];
             if (!(g.low <= g.high && g.high - g.low < 1e30)) {
                 slack = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ struct NearlyLinear {
     double spread(const Enclosure& f, const Enclosure::Vector& half) const {
         double squared = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Range& g = f.gradient[i];
+            const Interval& g = f.gradient[i];
             const double off = std::max(std::abs(g.high - normal[i]), std::abs(g.low - normal[i]));
             squared += off * off;
             squared_half += half[i] * half[i];

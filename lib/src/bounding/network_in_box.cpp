@@ -6,11 +6,11 @@
 
 #include "evaluation/target.hpp"
 #include "phasetree/math/portable.hpp"
-#include "phasetree/nodes/fields/siren_network.hpp"
+#include "phasetree/nodes/fields/siren.hpp"
 
 namespace phasetree::bounding {
 
-using enclosure::limited, enclosure::Range;
+using enclosure::limited, enclosure::Interval;
 using evaluation::active_kernel;
 using kernel::absolute_lane, kernel::network_lanes;
 
@@ -47,7 +47,7 @@ double norm3(const double* t) {
 }
 
 // The range of the eigenvalues of a symmetric matrix (Smith, "Eigenvalues of a symmetric 3 × 3 matrix", 1961).
-Range eigenvalues(const double* h) {
+Interval eigenvalues(const double* h) {
     const double mean = (h[0] + h[3] + h[5]) / 3;
     const double a = h[0] - mean, b = h[3] - mean, c = h[5] - mean, xy = h[1], xz = h[2], yz = h[4];
     const double p = std::sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
@@ -131,10 +131,22 @@ FieldInBox network_in_box(const float* data, const std::array<double, 3>& centre
         result.gradient[i] = f.first()[i];
         result.gradients[i] = limited(result.gradient[i] - change * margin, result.gradient[i] + change * margin);
     }
-    const Range at_centre = eigenvalues(f.second());
+    const Interval at_centre = eigenvalues(f.second());
     const double change = radius * (norm3(f.third()) + radius / 2 * fourth) * margin;
     result.curvature = limited(at_centre.low - change, at_centre.high + change);
     return result;
 }
 
 }  // namespace phasetree::bounding
+
+namespace phasetree {
+
+std::optional<enclosure::Enclosure> Siren::Network::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                             const std::array<double, 3>&) {
+    const enclosure::Region at(q);
+    // The second number of the data is half the side of the cube. Points beyond the cube are projected onto it.
+    if (!(at.farthest() < static_cast<double>(data[1]))) return std::nullopt;
+    return enclose(bounding::network_in_box(data, at.centre, at.half_extents), at);
+}
+
+}  // namespace phasetree

@@ -8,7 +8,7 @@
 
 namespace phasetree::bounding {
 
-using enclosure::Range;
+using enclosure::Interval;
 using kernel::most_certificate_steps;
 using program::ProgramOutput;
 using rewriting::Threshold;
@@ -35,7 +35,7 @@ class Certifier {
     // Appends a certificate that sign · (v − τ) > 0. False if there is no room for it.
     bool add(std::uint32_t v, double sign, double tau) {
         const Instruction& in = enclosed_.program.code[v];
-        const Range& curvature = enclosed_[v].curvature;
+        const Interval& curvature = enclosed_[v].curvature;
         if (std::abs(curvature.low) < unbounded || std::abs(curvature.high) < unbounded) return add_leaf(v, sign, tau);
         if (const auto operand = Threshold::of_operand(in, enclosed_.constants(), tau))
             return add(in.a, operand->is_reversed ? -sign : sign, operand->tau);
@@ -82,7 +82,7 @@ class Certifier {
         return add(in.a, sign, tau) && add(in.b, sign, tau) && push({kind});
     }
     bool add_leaf(std::uint32_t v, double sign, double tau) {
-        const Range& curvature = enclosed_[v].curvature;
+        const Interval& curvature = enclosed_[v].curvature;
         // The kernel needs 1-Lipschitz leaves, so steeper values are scaled down.
         const double factor = 1 / std::max(1.0, static_cast<double>(enclosed_.program.lipschitz[v]));
         const auto bound = [&](double upward) {

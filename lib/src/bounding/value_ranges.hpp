@@ -9,8 +9,7 @@ struct ValueRanges {
     std::span<const float> lows, highs;
     std::span<const float> slope;  ///< a Lipschitz bound of each value in the box
     EnclosedProgram enclosed;
-    std::array<double, 3> half;  ///< the box's half extents, rounded up
-    double margin;               ///< an upper bound of the rounding error of one value
+    double margin;  ///< an upper bound of the rounding error of one value
 
     float low(std::uint32_t i) const { return lows[i]; }
     float high(std::uint32_t i) const { return highs[i]; }

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "math/dual.hpp"
-#include "phasetree/nodes/fields/voxel_grid.hpp"
+#include "phasetree/nodes/fields/volume.hpp"
+#include "phasetree/nodes/phased/labels.hpp"
 
 namespace phasetree::bounding {
 
@@ -46,8 +47,8 @@ struct Counted {
     double all() const { return static_cast<double>(along(0)) * along(1) * along(2); }
 };
 
-Range range_of_blocks(const Table& table, const Counted& counted) {
-    Range values{Range::most, -Range::most};
+Interval range_of_blocks(const Table& table, const Counted& counted) {
+    Interval values{Interval::most, -Interval::most};
     const auto first = [&](std::size_t axis) { return std::max(counted.first[axis], 0) & ~7; };
     const auto last = [&](std::size_t axis) { return std::min(counted.last[axis], table.size[axis] - 1); };
     for (int z = first(2); z <= last(2); z += 8)
@@ -72,17 +73,17 @@ class Differences {
                     values_[i++] = table(there(x, 0), there(y, 1), there(z, 2));
         stride_ = {1, counted.along(0), counted.along(0) * counted.along(1)};
     }
-    Range values() const {
+    Interval values() const {
         return over({1, 1, 1}, [](const float* v) { return static_cast<double>(*v); });
     }
     // Between neighbours along an axis.
-    Range first(std::size_t axis) const {
+    Interval first(std::size_t axis) const {
         std::array<int, 3> needs{1, 1, 1};
         ++needs[axis];
         const int s = stride_[axis];
         return over(needs, [&](const float* v) { return static_cast<double>(v[s]) - static_cast<double>(v[0]); });
     }
-    Range second(std::size_t axis) const {
+    Interval second(std::size_t axis) const {
         std::array<int, 3> needs{1, 1, 1};
         needs[axis] += 2;
         const int s = stride_[axis];
@@ -90,7 +91,7 @@ class Differences {
             return static_cast<double>(v[2 * s]) - 2 * static_cast<double>(v[s]) + static_cast<double>(v[0]);
         });
     }
-    Range mixed(std::size_t a, std::size_t b) const {
+    Interval mixed(std::size_t a, std::size_t b) const {
         std::array<int, 3> needs{1, 1, 1};
         ++needs[a];
         ++needs[b];
@@ -105,8 +106,8 @@ class Differences {
     // The range of f over all voxels that have the required number of relevant voxels after them; [0, 0] if there are
     // none.
     template <class F>
-    Range over(const std::array<int, 3>& needs, const F& f) const {
-        Range range{Range::most, -Range::most};
+    Interval over(const std::array<int, 3>& needs, const F& f) const {
+        Interval range{Interval::most, -Interval::most};
         for (int z = 0; z + needs[2] <= counted_.along(2); ++z)
             for (int y = 0; y + needs[1] <= counted_.along(1); ++y)
                 for (int x = 0; x + needs[0] <= counted_.along(0); ++x) {
@@ -114,7 +115,7 @@ class Differences {
                     range.low = std::min(range.low, d);
                     range.high = std::max(range.high, d);
                 }
-        return range.low <= range.high ? range : Range{};
+        return range.low <= range.high ? range : Interval{};
     }
 
     const Counted& counted_;
@@ -123,9 +124,9 @@ class Differences {
 };
 
 // The range of the eigenvalues of a symmetric matrix whose entries are in these ranges (Gershgorin's circles).
-Range eigenvalues(const std::array<Range, 3>& diagonal, const std::array<Range, 3>& others) {
+Interval eigenvalues(const std::array<Interval, 3>& diagonal, const std::array<Interval, 3>& others) {
     // others[i] is the entry that is in neither row i nor column i.
-    Range all{Range::most, -Range::most};
+    Interval all{Interval::most, -Interval::most};
     for (std::size_t i = 0; i < 3; ++i) {
         double radius = 0;
         for (std::size_t j = 0; j < 3; ++j)
@@ -166,9 +167,9 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
     }
     const bool is_within = std::ranges::none_of(counted.is_beyond, [](bool b) { return b; });
     const bool is_one_cell = counted.along(0) <= 2 && counted.along(1) <= 2 && counted.along(2) <= 2;
-    field.curvature = Range::all();
+    field.curvature = Interval::all();
     if (is_within && (is_spline || is_one_cell)) {
-        std::array<Range, 3> diagonal{}, others{};
+        std::array<Interval, 3> diagonal{}, others{};
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
             if (is_spline) diagonal[i] = differences.second(i) * (inverse[i] * inverse[i]);
@@ -181,3 +182,30 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
 }
 
 }  // namespace phasetree::bounding
+
+namespace phasetree {
+
+namespace {
+
+enclosure::Enclosure enclosed_by_voxels(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                        const std::array<double, 3>& half, bool is_spline) {
+    const enclosure::Region at(q);
+    const bounding::VoxelsInBox known = bounding::voxels_in_box(data, at, is_spline);
+    if (known.field) return enclose(*known.field, at).tightened(half);
+    const Vec3<float> centre = at.point();
+    const float value = is_spline ? voxels::spline_at(data, centre) : voxels::linear_at(data, centre);
+    return enclose_lipschitz(static_cast<double>(value), known.values, q, half);
+}
+
+}  // namespace
+
+std::optional<enclosure::Enclosure> Volume::Samples::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                              const std::array<double, 3>& half) {
+    return enclosed_by_voxels(data, q, half, false);
+}
+std::optional<enclosure::Enclosure> Labels::Depth::enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                            const std::array<double, 3>& half) {
+    return enclosed_by_voxels(data, q, half, true);
+}
+
+}  // namespace phasetree

@@ -6,11 +6,11 @@
 
 namespace phasetree::bounding {
 
-using enclosure::FieldInBox, enclosure::Range;
+using enclosure::FieldInBox, enclosure::Interval;
 
 /// What is known about the interpolation of a grid's voxels in a box.
 struct VoxelsInBox {
-    Range values{};                     ///< of all voxels in the blocks that are relevant in the box
+    Interval values{};                  ///< of all voxels in the blocks that are relevant in the box
     std::optional<FieldInBox> field{};  ///< if few voxels are relevant
 };
 

@@ -21,7 +21,7 @@ float tie_breaker(const Bounds& box) {
 
 }  // namespace
 
-bool CellBudget::is_worth_dividing(const Bounds& box, float saving) {
+bool CellBudget::request_division(const Bounds& box, float saving) {
     if (least_saving_ == 0) return true;
     const float distinct = saving / tie_breaker(box);
     if (distinct >= least_saving_) return true;

@@ -28,9 +28,11 @@ class CellBudget {
     }
     std::size_t charged_bytes() const { return charged_bytes_; }
 
-    /// Whether dividing a box, which may save this much, is worth the memory. Thread-safe.
-    bool is_worth_dividing(const Bounds& box, float saving);
-    /// The largest rejected saving, divided by its box's tie breaker (budget.cpp). If this were the least saving, one
+    /// Requests the memory for dividing a box, which may save this much. Returns false, and records the saving for
+    /// largest_refused_saving(), if that is not worth the memory. Request only the division of boxes that would be
+    /// divided if memory were unlimited. Thread-safe.
+    [[nodiscard]] bool request_division(const Bounds& box, float saving);
+    /// The largest refused saving, divided by its box's tie breaker (budget.cpp). If this were the least saving, one
     /// more box would be divided.
     float largest_refused_saving() const { return largest_refused_; }
 

@@ -5,12 +5,13 @@
 #include <memory>
 
 #include "bounding/enclose.hpp"
+#include "bounding/interface_bounds.hpp"
 #include "pruning/prune.hpp"
 #include "rewriting/features.hpp"
 
 namespace phasetree::building {
 
-using bounding::Encloser, bounding::InterfaceBounds, bounding::ValueRanges;
+using bounding::Encloser, bounding::interface_bounds, bounding::InterfaceBounds, bounding::ValueRanges;
 using pruning::prune, pruning::without_far_bounds;
 using rewriting::ArenaScope, rewriting::finest_spacing, rewriting::has_grid, rewriting::has_local_primitive,
     rewriting::work_of_parts;
@@ -66,7 +67,7 @@ class CandidateSearch {
                 continue;
             }
             const Bounds before = cell.facts.box;
-            if (!apply(encloser->interface_bounds(), cell)) return std::nullopt;
+            if (!apply(*encloser, cell)) return std::nullopt;
             if (round >= most_rounds || !is_much_smaller(cell, before)) break;
             encloser = narrower_encloser(cell.facts.box);
         }
@@ -75,13 +76,14 @@ class CandidateSearch {
     }
 
   private:
-    // Stores what is known of the interfaces in a cell, and cuts its box to them. False if there are none.
-    bool apply(const InterfaceBounds& interface, Candidate& cell) {
+    // Stores what is known of the interfaces in a cell, and cuts its box to them. Returns false if there are none.
+    bool apply(const Encloser& encloser, Candidate& cell) {
+        const InterfaceBounds interface = interface_bounds(encloser.enclosed(), worker_.scratch);
         cell.facts.bound = interface.bound;
         cell.facts.curvature = interface.curvature;
         cell.certificate = worker_.programs.copy(interface.certificate);
         cell.facts.has_certificate = !cell.certificate.empty();
-        const std::span<Specialisation> specialisations = worker_.programs.copy(interface.specialisations);
+        const std::span<Specialisation> specialisations = worker_.programs.copy(encloser.specialisations());
         for (Specialisation& s : specialisations) s.data = worker_.programs.copy(s.data);
         cell.specialisations = specialisations;
         cell.facts.box = intersect(cell.facts.box, interface.box.inflated(context_.reach));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "evaluation/batch_of_points.hpp"
 #include "evaluation/target.hpp"
 #include "pruning/jumps.hpp"
 #include "rewriting/features.hpp"
@@ -11,7 +12,7 @@
 
 namespace phasetree::building {
 
-using evaluation::active_kernel, evaluation::ValuesAtPoint;
+using evaluation::active_kernel, evaluation::BatchOfPoints, evaluation::ValuesAtPoint;
 using pruning::finest_jump, pruning::may_jump, pruning::prune, pruning::RangesInBall, pruning::slopes_in_ball;
 using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::readable_steps, rewriting::ReadableSteps,
     rewriting::specialised;
@@ -29,16 +30,12 @@ ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Wo
                                                constants.first_behind(worker.number, count));
     const ReadableSteps steps = readable_steps(program, worker.scratch);
     static_assert(batch_size >= SubBoxes::most, "each child has a lane of its own");
-    BatchOfFloats x, y, z;
-    for (std::size_t i = 0; i < batch_size; ++i) {
-        const glm::vec3 c = boxes.box[std::min(i, boxes.count - 1)].centre();
-        x[i] = c.x;
-        y[i] = c.y;
-        z[i] = c.z;
-    }
+    std::array<glm::vec3, SubBoxes::most> centres;
+    for (std::size_t i = 0; i < boxes.count; ++i) centres[i] = boxes.box[i].centre();
+    const auto points = BatchOfPoints::of(std::span(centres).first(boxes.count));
     const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
     const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
-    active_kernel().evaluate(steps.routine(all), x.lane.data(), y.lane.data(), z.lane.data(),
+    active_kernel().evaluate(steps.routine(all), points.x.lane.data(), points.y.lane.data(), points.z.lane.data(),
                              registers.data()->lane.data(), nullptr);
     return {registers.data(), steps.slot, 0};
 }

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 
-#include "phasetree/nodes/fields/siren.hpp"
+#include "rewriting/data_primitive.hpp"
 #include "rewriting/live_set.hpp"
 
 namespace phasetree::building {
 
 using program::OpTraits, program::ProgramOutput, program::traits;
-using rewriting::ArenaScope, rewriting::LiveSet;
+using rewriting::ArenaScope, rewriting::LiveSet, rewriting::with_data_primitive;
 
 namespace {
 
 // The cost of an instruction, in halves of a simple one.
 unsigned half_instructions(const Instruction& in, std::span<const float> constants) {
     const OpTraits& t = traits(in.op);
-    return t.is_network ? static_cast<unsigned>(Siren::Network::multiplications(&constants[in.data])) / 3
-                        : t.half_instructions;
+    unsigned halves = t.half_instructions;
+    if (t.has_cost_in_data)
+        with_data_primitive(in.op, [&]<class P>() {
+            if constexpr (HasCostInData<P>) halves = P::half_instructions(&constants[in.data]);
+        });
+    return halves;
 }
 
 // The average number of batches per visit for rays on one side of the interface, given the bound of the curvature

@@ -75,10 +75,10 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
     return {cell.cost, interface_area(cell.facts.box)};
 }
 
-// Whether a node becomes one cell without a trial of its children.
-bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& budget) {
+// Whether dividing a node may pay off for rays.
+bool may_pay_off(const BuildNode& node, const BuildContext& context) {
     const Candidate& cell = node.cell;
-    const float diagonal = node.box.diagonal(), least = least_cost(cell.facts.box);
+    const float diagonal = node.box.diagonal();
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
@@ -90,16 +90,21 @@ bool is_final(const BuildNode& node, const BuildContext& context, CellBudget& bu
         cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
     const int deepest = context.options.deepest + more_divisions(cell, context.options);
     const bool is_small = diagonal < 64 * context.reach;
-    // is_worth_dividing() must come last, because it records the saving that it rejects: that of a box which would be
-    // divided if there were more memory.
-    return node.futile_divisions >= node.policy.most_futile_divisions || node.depth >= deepest || is_small ||
-           has_few_parts || cell.cost < (1 + saving) * least + cost_model::traversal * surface(node.box) ||
-           !budget.is_worth_dividing(node.box, cell.cost - least);
+    const float least = (1 + saving) * least_cost(cell.facts.box) + cost_model::traversal * surface(node.box);
+    return node.futile_divisions < node.policy.most_futile_divisions && node.depth < deepest && !is_small &&
+           !has_few_parts && !(cell.cost < least);
+}
+
+// The most that rays could save if a node is divided.
+float largest_saving(const BuildNode& node) {
+    return node.cell.cost - least_cost(node.cell.facts.box);
 }
 
 // Finds the cells of a node: either the node itself, or the cells of its children if they cost less.
 CellCosts find_cells(const BuildNode& node, const BuildContext& context, Worker& worker) {
-    if (is_final(node, context, worker.pool.budget())) {
+    const bool is_divided =
+        may_pay_off(node, context) && worker.pool.budget().request_division(node.box, largest_saving(node));
+    if (!is_divided) {
         if (node.depth <= reported_depth) context.progress.add(node.share);
         return add_cell(node, worker);
     }
@@ -167,8 +172,11 @@ class Division {
     CellCosts find_cells_of_child(BuildNode& child, Worker& own) const {
         const bool is_gain = cost_ratio_ < gain;
         child.share = node_.share / static_cast<double>(left_count_);
-        child.futile_divisions =
-            is_gain || is_too_coarse(child) || may_show_pattern(child, own) ? 0 : node_.futile_divisions + 1;
+        child.futile_divisions = 0;
+        if (!is_gain && !is_too_coarse(child)) {
+            if (needs_trial(child)) child.is_small_cheaper = may_gain_by_known_pattern(child, context_, own);
+            if (!may_show_pattern(child)) child.futile_divisions = node_.futile_divisions + 1;
+        }
         child.cost_ratio = is_gain ? 1.f : cost_ratio_;
         return find_cells(child, context_, own);
     }
@@ -186,13 +194,16 @@ class Division {
                (is_uneven && diagonal > child.policy.fine * context_.size);
     }
     // Whether nothing is known about a pattern until boxes are smaller than its features, and dividing down to that
-    // size is worthwhile. If it takes many divisions, a trial decides, once for a box and everything in it.
-    bool may_show_pattern(BuildNode& child, Worker& own) const {
-        if (!is_pattern_unknown(child)) return false;
+    // size is worthwhile, as far as a trial has shown.
+    static bool may_show_pattern(const BuildNode& child) {
+        return is_pattern_unknown(child) && child.is_small_cheaper.value_or(true);
+    }
+    // Whether showing a pattern may take many divisions, so that a trial must decide. There is one trial for a box and
+    // everything in it.
+    static bool needs_trial(const BuildNode& child) {
         constexpr float far = 32;  // times the size of boxes in which the pattern is known
-        const bool is_far = child.box.diagonal() > far * known_share_of_period * child.pattern_period;
-        if (is_far && !child.is_small_cheaper) child.is_small_cheaper = may_gain_by_known_pattern(child, context_, own);
-        return child.is_small_cheaper.value_or(true);
+        return !child.is_small_cheaper && is_pattern_unknown(child) &&
+               child.box.diagonal() > far * known_share_of_period * child.pattern_period;
     }
 
     const BuildNode& node_;
@@ -224,7 +235,7 @@ CellBuffers divide_into_cells(const Bounds& box, const WorkingProgram& program, 
     // The root is divided whenever the budget allows, without a comparison with a single cell, because boxes that are
     // large relative to the object always are (SubdivisionPolicy). Its saving is taken to be its whole cost. A budget
     // for a single cell (divide_within.cpp) rejects that, and so finds where savings begin.
-    if (budget.is_worth_dividing(root.box, root.cell.cost))
+    if (budget.request_division(root.box, root.cell.cost))
         divide(root, context, worker);
     else
         add_cell(root, worker);

@@ -29,9 +29,10 @@ constexpr int futile_divisions_of_network = 1, futile_divisions_of_long_program 
 // scenes of the gallery and the objects of `phasetree-bench`. None of them is critical.
 SubdivisionPolicy::SubdivisionPolicy(const WorkingProgram& program, float work) {
     const auto size = static_cast<float>(program.code.size());
-    const auto is_network = [](const Instruction& in) { return traits(in.op).is_network; };
+    const auto is_best_in_small_boxes = [](const Instruction& in) { return traits(in.op).is_best_in_small_boxes; };
     const float of_long_primitives = work_of_each_if_long * size;
-    if (work > least_work_of_network + of_long_primitives && std::ranges::any_of(program.code, is_network)) {
+    if (work > least_work_of_network + of_long_primitives &&
+        std::ranges::any_of(program.code, is_best_in_small_boxes)) {
         large = large_if_dear;
         most_futile_divisions = futile_divisions_of_network;
         uneven = uneven_network;

@@ -165,10 +165,9 @@ class Carver {
             const auto corners = ConvexPolyhedron(box_, planes_).mesh().corners;
             std::vector<std::pair<double, glm::dvec3>> far;
             for (std::size_t first = 0; first < corners.size(); first += batch_size) {
-                std::array<glm::dvec3, batch_size> p;
-                for (std::size_t i = 0; i < batch_size; ++i) p[i] = corners[std::min(first + i, corners.size() - 1)];
-                const BallBatch balls = field_.at(p);
-                for (std::size_t i = 0; i < batch_size && first + i < corners.size(); ++i)
+                const std::size_t count = std::min(batch_size, corners.size() - first);
+                const BallBatch balls = field_.at(std::span(corners).subspan(first, count));
+                for (std::size_t i = 0; i < count; ++i)
                     if (balls[i].radius > 2 * tolerance_) far.emplace_back(balls[i].radius, corners[first + i]);
             }
             std::stable_sort(far.begin(), far.end(), [](const auto& a, const auto& b) { return a.first > b.first; });

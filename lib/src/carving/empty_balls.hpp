@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "evaluation/batch_of_points.hpp"
 #include "phasetree/carving/carve.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 
@@ -29,14 +31,12 @@ class EmptyBalls {
                 {farthest_, std::abs(static_cast<double>(box.low[i])), std::abs(static_cast<double>(box.high[i]))});
     }
 
-    BallBatch at(const std::array<glm::dvec3, batch_size>& points) {
+    /// At one to eight points. The last one also fills the remaining entries.
+    BallBatch at(std::span<const glm::dvec3> points) {
         if (options_.cancelled && evaluations_ % 64 == 0 && options_.cancelled()) throw CarvingCancelled();
-        BatchOfFloats x, y, z;
-        for (std::size_t i = 0; i < batch_size; ++i) {
-            x[i] = static_cast<float>(points[i].x);
-            y[i] = static_cast<float>(points[i].y);
-            z[i] = static_cast<float>(points[i].z);
-        }
+        std::array<glm::vec3, batch_size> rounded;
+        for (std::size_t i = 0; i < points.size(); ++i) rounded[i] = glm::vec3(points[i]);
+        const auto [x, y, z] = evaluation::BatchOfPoints::of(std::span(rounded).first(points.size()));
         std::array<BatchOfFloats, 2> phi;
         evaluator_.evaluate(x, y, z, phi, workspace_);
         ++evaluations_;

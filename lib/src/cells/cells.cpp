@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "cells/data.hpp"
+#include "evaluation/batch_of_points.hpp"
 #include "evaluation/target.hpp"
 #include "trace/normal.hpp"
 
 namespace phasetree {
 
-using evaluation::active_kernel, evaluation::component;
+using evaluation::active_kernel, evaluation::BatchOfPoints, evaluation::component;
 using kernel::PackedCertificateStep;
 using trace::NormalOf;
 
@@ -44,10 +45,7 @@ Phase InterfaceCells::label(const glm::vec3& p, Evaluator::Workspace& w) const {
 }
 
 Phase InterfaceCells::label(std::size_t cell, const glm::vec3& p, Evaluator::Workspace& w) const {
-    BatchOfFloats x, y, z;
-    x.lane.fill(p.x);
-    y.lane.fill(p.y);
-    z.lane.fill(p.z);
+    const auto [x, y, z] = BatchOfPoints::all_at(p);
     Samples s;
     const Data::Cell& c = data_->cells[cell];
     active_kernel().sample(data_->routine(c), x.lane.data(), y.lane.data(), z.lane.data(), w.registers(data_->slots(c)),

@@ -4,6 +4,7 @@
 #include <bit>
 #include <ranges>
 
+#include "phasetree_support/mixed_hash.hpp"
 #include "rewriting/specialise.hpp"
 
 namespace phasetree::cells {
@@ -15,19 +16,6 @@ using rewriting::data_of_specialised;
 
 namespace {
 
-// A hash of 64-bit words, added two at a time.
-class Hash64 {
-  public:
-    explicit Hash64(std::uint64_t start) : hash_(start) {}
-    void put(std::uint64_t first, std::uint64_t second) {
-        hash_ = (hash_ ^ first) * 0x9e3779b97f4a7c15u + second * 0xbf58476d1ce4e5b9u;
-        hash_ ^= hash_ >> 32;
-    }
-    std::uint64_t get() const { return hash_; }
-
-  private:
-    std::uint64_t hash_;
-};
 std::uint64_t as_one_word(std::uint64_t high, std::uint32_t low) {
     return high << 32 | low;
 }
@@ -75,12 +63,18 @@ void RoutineTables::shrink_to_fit() {
 }
 
 RoutineBuilder::Key RoutineBuilder::key_of(const CellBuffer& buffer, const CellBuffer::Cell& cell) {
-    Hash64 hash(cell.leading);
-    for (const Instruction& in : buffer.code_of(cell))
-        hash.put(as_one_word(static_cast<std::uint32_t>(in.op), in.data), as_one_word(in.a, in.b));
-    for (const ProgramOutput& o : buffer.outputs_of(cell)) hash.put(as_one_word(o.phase.index, o.value), o.negate);
-    for_each_value(buffer.certificate_of(cell), [&](std::uint32_t value) { hash.put(value, 1); });
-    return {&buffer, &cell, hash.get()};
+    std::uint64_t hash = cell.leading;
+    const auto put = [&](std::uint64_t word) { hash = support::mixed(hash, word); };
+    for (const Instruction& in : buffer.code_of(cell)) {
+        put(as_one_word(static_cast<std::uint32_t>(in.op), in.data));
+        put(as_one_word(in.a, in.b));
+    }
+    for (const ProgramOutput& o : buffer.outputs_of(cell)) {
+        put(as_one_word(o.phase.index, o.value));
+        put(o.negate);
+    }
+    for_each_value(buffer.certificate_of(cell), put);
+    return {&buffer, &cell, hash};
 }
 
 bool RoutineBuilder::Key::operator==(const Key& other) const {
@@ -129,16 +123,22 @@ RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, con
 
 // The index of this shape in the table. Appends it unless an equal shape exists.
 std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32_t leading) {
-    Hash64 hash(leading);
-    for (const Step& s : assembly.steps) hash.put(as_one_word(s.op, s.to), as_one_word(s.a, s.b));
-    for (const OutputSlot& o : assembly.outputs)
-        hash.put(as_one_word(o.slot, std::bit_cast<std::uint32_t>(o.phase)), std::bit_cast<std::uint32_t>(o.sign));
+    std::uint64_t hash = leading;
+    const auto put = [&](std::uint64_t word) { hash = support::mixed(hash, word); };
+    for (const Step& s : assembly.steps) {
+        put(as_one_word(s.op, s.to));
+        put(as_one_word(s.a, s.b));
+    }
+    for (const OutputSlot& o : assembly.outputs) {
+        put(as_one_word(o.slot, std::bit_cast<std::uint32_t>(o.phase)));
+        put(std::bit_cast<std::uint32_t>(o.sign));
+    }
     const auto is_equal_shape = [&](const RoutineTables::Shape& s) {
         return s.leading == leading && s.slots == assembly.slots &&
                std::ranges::equal(std::span(tables.steps).subspan(s.first_step, s.steps), assembly.steps) &&
                std::ranges::equal(std::span(tables.outputs).subspan(s.first_output, s.outputs), assembly.outputs);
     };
-    const auto [first, end] = shapes_.equal_range(hash.get());
+    const auto [first, end] = shapes_.equal_range(hash);
     for (auto known = first; known != end; ++known)
         if (is_equal_shape(tables.shapes[known->second])) return known->second;
     const std::uint32_t shape = narrow(tables.shapes.size());
@@ -146,7 +146,7 @@ std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32
                              narrow(tables.outputs.size()), narrow(assembly.outputs.size()), assembly.slots});
     tables.steps.insert(tables.steps.end(), assembly.steps.begin(), assembly.steps.end());
     tables.outputs.insert(tables.outputs.end(), assembly.outputs.begin(), assembly.outputs.end());
-    shapes_.emplace(hash.get(), shape);
+    shapes_.emplace(hash, shape);
     return shape;
 }
 

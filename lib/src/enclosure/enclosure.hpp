@@ -3,7 +3,7 @@
 
 #include "enclosure/elementary.hpp"   // IWYU pragma: export
 #include "enclosure/functions.hpp"    // IWYU pragma: export
+#include "enclosure/interval.hpp"     // IWYU pragma: export
 #include "enclosure/length.hpp"       // IWYU pragma: export
 #include "enclosure/number.hpp"       // IWYU pragma: export
-#include "enclosure/range.hpp"        // IWYU pragma: export
 #include "enclosure/value_noise.hpp"  // IWYU pragma: export

@@ -3,20 +3,21 @@
 #include <array>
 #include <cmath>
 
+#include "enclosure/interval.hpp"
 #include "enclosure/length.hpp"
 #include "enclosure/number.hpp"
-#include "enclosure/range.hpp"
 #include "phasetree/math/point_range.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::enclosure {
 
 /// Proven bounds of a field in a box, up to the rounding errors of doubles.
 struct FieldInBox {
-    double value = 0;                  ///< at the box's centre
-    std::array<double, 3> gradient{};  ///< at the box's centre
-    std::array<Range, 3> gradients{};  ///< anywhere in the box
-    Range curvature{};                 ///< d²f/dt² along straight lines of unit speed
-    Range values = Range::all();       ///< what is known of the value, apart from what follows from the gradients
+    double value = 0;                     ///< at the box's centre
+    std::array<double, 3> gradient{};     ///< at the box's centre
+    std::array<Interval, 3> gradients{};  ///< anywhere in the box
+    Interval curvature{};                 ///< d²f/dt² along straight lines of unit speed
+    Interval values = Interval::all();    ///< what is known of the value, apart from what follows from the gradients
 };
 
 /// The region that contains the point at which a field is evaluated, if its coordinates are given as enclosures.
@@ -59,6 +60,17 @@ inline Enclosure enclose(const FieldInBox& f, const Region& at) {
     // |q′|² lies between zero and its upper bound, so q′ᵀf″q′ lies between zero and the curvature times this bound.
     e.set_curvature(hull(f.curvature, {}) * detail::squared_stretch(at.x) + within(bent));
     return e;
+}
+
+/// The enclosure of f(q), where f is 1-Lipschitz in its own space: from its value at the centre of q's region, and from
+/// its known range there. `half` contains the half extents of the box in which q varies.
+inline Enclosure enclose_lipschitz(double value, const Interval& values, const Vec3<Enclosure>& q,
+                                   const Enclosure::Vector& half) {
+    const auto slope = detail::each_axis([&](std::size_t i) {
+        return within(
+            portable::hypot(q.x.gradient[i].magnitude(), q.y.gradient[i].magnitude(), q.z.gradient[i].magnitude()));
+    });
+    return Enclosure(value, values, slope, detail::no_gradient, Interval::all()).tightened(half);
 }
 
 }  // namespace phasetree::enclosure

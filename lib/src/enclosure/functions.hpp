@@ -15,7 +15,7 @@ inline Enclosure smooth_min(const Enclosure& a, const Enclosure& b, float r) {
     const Enclosure apart = b - a;
     Enclosure s = phasetree::smooth_min<Enclosure>(a, b, r);
     const double radius = static_cast<double>(r);
-    const Range& v = apart.value;
+    const Interval& v = apart.value;
     const double nearest = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
     if (nearest >= radius) return s;
     const double sharpest = (1 - nearest / radius) / radius;
@@ -33,20 +33,20 @@ inline Enclosure falloff(const Enclosure& d, float radius) {
     const double low = inside(d.value.low), high = inside(d.value.high);
     const auto curvature = [](double x) { return (1 - x * x) * (30 * x * x - 6); };
     const auto slope = [](double x) { return -6 * x * (1 - x * x) * (1 - x * x); };
-    Range bends = hull({curvature(low), curvature(low)}, {curvature(high), curvature(high)});
-    Range slopes = hull({slope(low), slope(low)}, {slope(high), slope(high)});
+    Interval bends = hull({curvature(low), curvature(low)}, {curvature(high), curvature(high)});
+    Interval slopes = hull({slope(low), slope(low)}, {slope(high), slope(high)});
     constexpr double most_curved = 0.7745966692414834, steepest = 0.4472135954999579;  // √0.6, √0.2
     if (low < most_curved && high > most_curved) bends.high = 4.8;
     if (low < steepest && high > steepest) slopes.low = -static_cast<double>(steepest_falloff) * (1 + 1e-6);
     if (d.value.low < 0 || d.value.high * k > 1) bends = hull(bends, {});  // flat beyond
-    const Range by_slope = detail::squares_of_slope(d) * (bends * (k * k));
-    const Range straight = d.curvature * (slopes * k);
+    const Interval by_slope = detail::squares_of_slope(d) * (bends * (k * k));
+    const Interval straight = d.curvature * (slopes * k);
     // On a skeleton, φ′ vanishes at the same rate as d: φ′(d)/d = −6(1 − x²)²/R².
     const auto share = [](double x) { return -6 * (1 - x * x) * (1 - x * x); };
-    Range shares = hull({share(low), share(low)}, {share(high), share(high)});
+    Interval shares = hull({share(low), share(low)}, {share(high), share(high)});
     if (d.value.low < 0) shares = hull(shares, {});
-    const Range near = d.value_curvature * (shares * (k * k));
-    f.set_curvature(by_slope + Range{std::max(straight.low, near.low), std::min(straight.high, near.high)});
+    const Interval near = d.value_curvature * (shares * (k * k));
+    f.set_curvature(by_slope + Interval{std::max(straight.low, near.low), std::min(straight.high, near.high)});
     return f;
 }
 
@@ -56,10 +56,10 @@ namespace detail {
 inline Enclosure tightened_by_convexity(Enclosure f, std::initializer_list<const Enclosure*> x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += std::min(e->curvature.low, 0.0) * std::min(e->curvature.low, 0.0);
-    f.curvature.low = std::max(f.curvature.low, std::max(-std::sqrt(sum), -Range::most));
+    f.curvature.low = std::max(f.curvature.low, std::max(-std::sqrt(sum), -Interval::most));
     f.value_curvature = f.value * f.curvature;
     for (std::size_t i = 0; i < 3; ++i) {
-        Range weighted{};
+        Interval weighted{};
         for (const Enclosure* e : x) weighted = weighted + hull(e->gradient[i], {});
         f.gradient[i] = {std::max(f.gradient[i].low, weighted.low), std::min(f.gradient[i].high, weighted.high)};
     }
@@ -109,7 +109,7 @@ inline Enclosure squared_distance_to_segment(const Vec3<Enclosure>& q, const glm
     Enclosure r = phasetree::squared_distance_to_segment<Enclosure>(q, along, inverse);
     const std::array<const Enclosure*, 3> x{&q.x, &q.y, &q.z};
     const double aside = 2 * std::sqrt(r.value.high) * detail::curvature_of(x);
-    const Range curvature = limited(-aside, 2 * detail::squared_stretch(x) + aside);
+    const Interval curvature = limited(-aside, 2 * detail::squared_stretch(x) + aside);
     r.set_curvature({std::max(r.curvature.low, curvature.low), std::min(r.curvature.high, curvature.high)});
     return r;
 }
@@ -127,8 +127,8 @@ inline Enclosure known_to_be_convex(Enclosure f, const Vec3<Enclosure>& q) {
 inline SineCosine<Enclosure> sine_cosine(const Enclosure& x) {
     SineCosine<Enclosure> r = phasetree::sine_cosine<Enclosure>(x);
     if (!(x.value.magnitude() < 1e4)) return r;
-    const auto cut = [](const Range& v) { return Range{std::max(v.low, -1.0), std::min(v.high, 1.0)}; };
-    const Range s = cut(r.sine.value), c = cut(r.cosine.value);
+    const auto cut = [](const Interval& v) { return Interval{std::max(v.low, -1.0), std::min(v.high, 1.0)}; };
+    const Interval s = cut(r.sine.value), c = cut(r.cosine.value);
     r.sine.set_curvature(c * x.curvature - s * detail::squares_of_slope(x));
     r.cosine.set_curvature(-s * x.curvature - c * detail::squares_of_slope(x));
     return r;

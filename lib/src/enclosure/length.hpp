@@ -10,7 +10,7 @@ namespace detail {
 /// where J is the Jacobian. It is at most the largest row sum of absolute values of that matrix (Gershgorin).
 template <std::size_t n>
 double squared_stretch(const std::array<const Enclosure*, n>& x) {
-    std::array<std::array<Range, 3>, 3> squared{};
+    std::array<std::array<Interval, 3>, 3> squared{};
     for (const Enclosure* e : x)
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = i; j < 3; ++j)
@@ -28,21 +28,21 @@ template <std::size_t n>
 double curvature_of(const std::array<const Enclosure*, n>& x) {
     double sum = 0;
     for (const Enclosure* e : x) sum += e->curvature.magnitude() * e->curvature.magnitude();
-    return std::min(std::sqrt(sum), Range::most);
+    return std::min(std::sqrt(sum), Interval::most);
 }
 /// Improves the gradient and curvature of f = |x|: f″ = (|x′|² − f′² + x·x″)/f with 0 ≤ f′² ≤ |x′|².
 template <std::size_t n>
 Enclosure with_curvature_of_length(Enclosure f, const std::array<const Enclosure*, n>& x) {
-    Range along{};
+    Interval along{};
     for (const Enclosure* e : x) along = along + e->value_curvature;
-    const double stretch = squared_stretch(x), steepest = std::min(std::sqrt(stretch), Range::most);
-    for (Range& g : f.gradient) g = {std::max(g.low, -steepest), std::min(g.high, steepest)};
-    const Range product = limited(0, stretch) + along;
+    const double stretch = squared_stretch(x), steepest = std::min(std::sqrt(stretch), Interval::most);
+    for (Interval& g : f.gradient) g = {std::max(g.low, -steepest), std::min(g.high, steepest)};
+    const Interval product = limited(0, stretch) + along;
     if (!(f.value.low > 0)) {
         f.value_curvature = product;
         return f;
     }
-    const Range curvature = product * reciprocal(f.value);
+    const Interval curvature = product * reciprocal(f.value);
     f.set_curvature({std::max(f.curvature.low, curvature.low), std::min(f.curvature.high, curvature.high)});
     return f;
 }
@@ -67,7 +67,7 @@ bool are_affine(const std::array<const Enclosure*, n>& x) {
     double width = 0;
     for (const Enclosure* e : x) {
         width += std::abs(e->curvature.low) + std::abs(e->curvature.high);
-        for (const Range& g : e->gradient) width += std::abs(g.high - g.low);
+        for (const Interval& g : e->gradient) width += std::abs(g.high - g.low);
     }
     return width == 0;
 }
@@ -77,11 +77,11 @@ template <std::size_t n>
 Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
     using Axes = std::array<double, 4>;
     std::array<Axes, n> slope;
-    Range squared{};
+    Interval squared{};
     double at_centre = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const Enclosure& e = *x[k];
-        const Range s = square(e.value);
+        const Interval s = square(e.value);
         squared.low += s.low;
         squared.high += s.high;
         at_centre += e.centre * e.centre;
@@ -105,20 +105,20 @@ Enclosure length_of_affine(const std::array<const Enclosure*, n>& x) {
     f.value = limited(std::sqrt(squared.low), std::sqrt(squared.high));
     double stretch = 0;
     for (const Axes& row : product) stretch = std::max(stretch, std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
-    const Range inverse = f.value.low > 0 ? limited(1 / f.value.high, 1 / f.value.low)
-                                          : limited(f.value.high > 0 ? 1 / f.value.high : 0, Range::most);
+    const Interval inverse = f.value.low > 0 ? limited(1 / f.value.high, 1 / f.value.low)
+                                             : limited(f.value.high > 0 ? 1 / f.value.high : 0, Interval::most);
     // The inverse is positive.
     const auto times_inverse = [&](double l, double h) {
         return limited(l < 0 ? l * inverse.high : l * inverse.low, h > 0 ? h * inverse.high : h * inverse.low);
     };
     for (std::size_t i = 0; i < 3; ++i) {
         const double steepest = std::sqrt(product[i][i]);
-        const Range g = times_inverse(std::max(low[i], -Range::most), std::min(high[i], Range::most));
+        const Interval g = times_inverse(std::max(low[i], -Interval::most), std::min(high[i], Interval::most));
         f.gradient[i] = {std::max(g.low, -steepest), std::min(g.high, steepest)};
         f.centre_gradient[i] = f.centre > 0 ? middle[i] / f.centre : 0;
     }
-    const Range bends = limited(0, stretch);
-    f.curvature = f.value.low > 0 ? bends * inverse : limited(0, Range::most);
+    const Interval bends = limited(0, stretch);
+    f.curvature = f.value.low > 0 ? bends * inverse : limited(0, Interval::most);
     f.value_curvature = bends;
     return f;
 }

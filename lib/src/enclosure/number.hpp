@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "enclosure/range.hpp"
+#include "enclosure/interval.hpp"
 
 namespace phasetree::enclosure {
 
@@ -32,16 +32,16 @@ struct Enclosure {
     using Vector = std::array<double, 3>;
 
     double centre = 0;
-    Range value;
-    std::array<Range, 3> gradient{};
+    Interval value;
+    std::array<Interval, 3> gradient{};
     Vector centre_gradient{};
-    Range curvature;
-    Range value_curvature;  ///< value · curvature, which is finite where a distance is zero
+    Interval curvature;
+    Interval value_curvature;  ///< value · curvature, which is finite where a distance is zero
 
     Enclosure() = default;
     explicit Enclosure(float v) : centre(static_cast<double>(v)), value{centre, centre} {}
-    [[gnu::always_inline]] Enclosure(double c, const Range& v, const std::array<Range, 3>& g, const Vector& cg,
-                                     const Range& b)
+    [[gnu::always_inline]] Enclosure(double c, const Interval& v, const std::array<Interval, 3>& g, const Vector& cg,
+                                     const Interval& b)
         : centre(c), value(v), gradient(g), centre_gradient(cg), curvature(b), value_curvature(v * b) {}
 
     /// The coordinate of a point of the box along an axis; `middle` and `half` describe the box.
@@ -69,21 +69,21 @@ struct Enclosure {
         e.tighten(half);
         return e;
     }
-    [[gnu::always_inline]] void set_curvature(const Range& c) {
+    [[gnu::always_inline]] void set_curvature(const Interval& c) {
         curvature = c;
         value_curvature = value * c;
     }
     /// An upper bound of the gradient's squared length.
     double squared_slope() const {
         double sum = 0;
-        for (const Range& g : gradient) sum += g.magnitude() * g.magnitude();
+        for (const Interval& g : gradient) sum += g.magnitude() * g.magnitude();
         return sum;
     }
 };
 
 namespace detail {
 template <class F>
-[[gnu::always_inline]] inline std::array<Range, 3> each_axis(F&& f) {
+[[gnu::always_inline]] inline std::array<Interval, 3> each_axis(F&& f) {
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
 template <class F>
@@ -91,10 +91,10 @@ template <class F>
     return {f(std::size_t{0}), f(std::size_t{1}), f(std::size_t{2})};
 }
 /// The range of the product of the slopes of a and b along any line, and that of the square of the slope of a.
-inline Range products_of_slopes(const Enclosure& a, const Enclosure& b) {
+inline Interval products_of_slopes(const Enclosure& a, const Enclosure& b) {
     return within(std::sqrt(a.squared_slope() * b.squared_slope()));
 }
-inline Range squares_of_slope(const Enclosure& a) {
+inline Interval squares_of_slope(const Enclosure& a) {
     return limited(0, a.squared_slope());
 }
 
@@ -135,7 +135,7 @@ inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quie
             at_centre, a.curvature * b.value + b.curvature * a.value + detail::products_of_slopes(a, b) * 2};
 }
 [[gnu::always_inline]] inline Enclosure operator/(const Enclosure& a, const Enclosure& b) {
-    const Range inverse = reciprocal(b.value), v = a.value * inverse;
+    const Interval inverse = reciprocal(b.value), v = a.value * inverse;
     const double quotient = a.centre / b.centre;
     Enclosure r(quotient, v,
                 detail::each_axis([&](std::size_t i) { return (a.gradient[i] - v * b.gradient[i]) * inverse; }),
@@ -146,7 +146,7 @@ inline constexpr Enclosure::Vector no_gradient{std::numeric_limits<double>::quie
     return r;
 }
 [[gnu::always_inline]] inline Enclosure operator+(const Enclosure& a, float b) {
-    return {a.centre + static_cast<double>(b), a.value + Range{b, b}, a.gradient, a.centre_gradient, a.curvature};
+    return {a.centre + static_cast<double>(b), a.value + Interval{b, b}, a.gradient, a.centre_gradient, a.curvature};
 }
 [[gnu::always_inline]] inline Enclosure operator-(const Enclosure& a, float b) {
     return a + -b;
@@ -184,14 +184,15 @@ struct Decision {
             d.is_tie   ? detail::no_gradient
             : d.centre ? yes.centre_gradient
                        : no.centre_gradient,
-            Range::all()};
+            Interval::all()};
 }
 [[gnu::always_inline]] inline Enclosure min(const Enclosure& a, const Enclosure& b) {
     const Decision d = less(a, b);
     Enclosure r = select(d, a, b);
     r.value = {std::min(a.value.low, b.value.low), std::min(a.value.high, b.value.high)};
     // On the seam of a minimum, the slope falls, so the curvature is still bounded from above.
-    if (d.can_be_true && d.can_be_false) r.set_curvature({-Range::most, std::max(a.curvature.high, b.curvature.high)});
+    if (d.can_be_true && d.can_be_false)
+        r.set_curvature({-Interval::most, std::max(a.curvature.high, b.curvature.high)});
     return r;
 }
 [[gnu::always_inline]] inline Enclosure max(const Enclosure& a, const Enclosure& b) {
@@ -199,7 +200,7 @@ struct Decision {
     Enclosure r = select(d, a, b);
     r.value = {std::max(a.value.low, b.value.low), std::max(a.value.high, b.value.high)};
     if (d.can_be_true && d.can_be_false) {
-        r.set_curvature({std::min(a.curvature.low, b.curvature.low), Range::most});
+        r.set_curvature({std::min(a.curvature.low, b.curvature.low), Interval::most});
         const bool is_zero = b.value.low == 0 && b.value.high == 0 && b.squared_slope() == 0;
         if (is_zero) r.value_curvature = r.value * hull(a.curvature, {});
     }
@@ -212,16 +213,17 @@ struct Decision {
     return r;
 }
 inline Enclosure floor(const Enclosure& a) {
-    const Range v{std::floor(a.value.low), std::floor(a.value.high)};
-    return {std::floor(a.centre), v, {}, {}, v.low == v.high ? Range{} : Range::all()};
+    const Interval v{std::floor(a.value.low), std::floor(a.value.high)};
+    return {std::floor(a.centre), v, {}, {}, v.low == v.high ? Interval{} : Interval::all()};
 }
 [[gnu::always_inline]] inline Enclosure sqrt(const Enclosure& a) {
-    const Range v{std::sqrt(std::max(a.value.low, 0.0)), std::sqrt(std::max(a.value.high, 0.0))};
-    const Range slope =
-        v.low > 0 ? Range{0.5 / v.high, 0.5 / v.low} : limited(v.high > 0 ? 0.5 / v.high : 0, Range::most);
+    const Interval v{std::sqrt(std::max(a.value.low, 0.0)), std::sqrt(std::max(a.value.high, 0.0))};
+    const Interval slope =
+        v.low > 0 ? Interval{0.5 / v.high, 0.5 / v.low} : limited(v.high > 0 ? 0.5 / v.high : 0, Interval::most);
     const double centre = std::sqrt(std::max(a.centre, 0.0)), centre_slope = centre > 0 ? 0.5 / centre : 0;
     Enclosure r(centre, v, detail::each_axis([&](std::size_t i) { return a.gradient[i] * slope; }),
-                detail::each_number([&](std::size_t i) { return a.centre_gradient[i] * centre_slope; }), Range::all());
+                detail::each_number([&](std::size_t i) { return a.centre_gradient[i] * centre_slope; }),
+                Interval::all());
     // (√a)″ = a″/2√a − (√a)′²/√a
     if (v.low > 0) r.set_curvature(a.curvature * slope - detail::squares_of_slope(r) * slope * 2);
     return r;

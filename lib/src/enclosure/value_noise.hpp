@@ -13,7 +13,7 @@ namespace detail {
 
 /// The ranges of the first and second derivatives of lattice::fade over a part of [0, 1].
 struct FadeRange {
-    Range first, second;
+    Interval first, second;
 
     FadeRange(double low, double high) : first(hull(at(slope(low)), at(slope(high)))) {
         constexpr double most_curved = 0.21132486540518713, curvature = 5.773502691896258;  // (3 − √3)/6, 10/√3
@@ -26,7 +26,7 @@ struct FadeRange {
     static double bend(double t) { return 60 * t * (1 - t) * (1 - 2 * t); }
 
   private:
-    static Range at(double v) { return {v, v}; }
+    static Interval at(double v) { return {v, v}; }
 };
 
 /// The values at a lattice cell's corners; bit i of a corner's index is set if it is the upper corner along axis i.
@@ -81,7 +81,7 @@ class NoiseInBox {
             add(corners(cell), cell, n == 0, d);
         }
         f.values = d.value;
-        f.curvature = {Range::most, -Range::most};
+        f.curvature = {Interval::most, -Interval::most};
         for (std::size_t i = 0; i < dimensions; ++i) {
             double change = 0, mixed = 0;
             for (std::size_t j = 0; j < dimensions; ++j) {
@@ -100,9 +100,9 @@ class NoiseInBox {
 
   private:
     struct Derivatives {
-        Range value;
-        std::array<Range, dimensions> first;
-        std::array<std::array<Range, dimensions>, dimensions> second;
+        Interval value;
+        std::array<Interval, dimensions> first;
+        std::array<std::array<Interval, dimensions>, dimensions> second;
     };
 
     void at_centre(const Corners<dimensions>& w, const std::array<double, dimensions>& cell, FieldInBox& f) const {
@@ -126,8 +126,8 @@ class NoiseInBox {
 
     void add(const Corners<dimensions>& w, const std::array<double, dimensions>& cell, bool is_first,
              Derivatives& d) const {
-        const auto join = [&](Range& all, const Range& here) { all = is_first ? here : hull(all, here); };
-        Range values{w[0], w[0]};
+        const auto join = [&](Interval& all, const Interval& here) { all = is_first ? here : hull(all, here); };
+        Interval values{w[0], w[0]};
         for (const double v : w) values = hull(values, {v, v});
         join(d.value, values);
         std::array<std::optional<FadeRange>, dimensions> fade;
@@ -135,11 +135,11 @@ class NoiseInBox {
             fade[i].emplace(std::clamp(at_.centre[i] - at_.half_extents[i] - cell[i], 0.0, 1.0),
                             std::clamp(at_.centre[i] + at_.half_extents[i] - cell[i], 0.0, 1.0));
         for (std::size_t i = 0; i < dimensions; ++i) {
-            const Range steps = of_differences(w, std::size_t{1} << i, 0);
+            const Interval steps = of_differences(w, std::size_t{1} << i, 0);
             join(d.first[i], fade[i]->first * steps);
             join(d.second[i][i], fade[i]->second * steps);
             for (std::size_t j = 0; j < i; ++j) {
-                const Range twists = of_differences(w, std::size_t{1} << i, std::size_t{1} << j);
+                const Interval twists = of_differences(w, std::size_t{1} << i, std::size_t{1} << j);
                 join(d.second[i][j], fade[i]->first * fade[j]->first * twists);
                 d.second[j][i] = d.second[i][j];
             }
@@ -149,8 +149,8 @@ class NoiseInBox {
     static bool is_upper(std::size_t corner, std::size_t axis) { return (corner >> axis & 1) != 0; }
 
     /// The range of the corners' differences along one axis; with `other`, of the second differences along both axes.
-    static Range of_differences(const Corners<dimensions>& w, std::size_t axis, std::size_t other) {
-        Range all{Range::most, -Range::most};
+    static Interval of_differences(const Corners<dimensions>& w, std::size_t axis, std::size_t other) {
+        Interval all{Interval::most, -Interval::most};
         for (std::size_t corner = 0; corner < w.size(); ++corner) {
             if ((corner & (axis | other)) != 0) continue;
             double step = w[corner | axis] - w[corner];

@@ -1,6 +1,7 @@
 #include "phasetree/evaluation/evaluator.hpp"
 
 #include "evaluation/assemble.hpp"
+#include "evaluation/batch_of_points.hpp"
 #include "evaluation/component.hpp"
 #include "evaluation/target.hpp"
 
@@ -33,10 +34,7 @@ void Evaluator::sample_ray(const glm::vec3& origin, const glm::vec3& direction, 
 }
 
 Phases<float> Evaluator::distances(const glm::vec3& p, Workspace& w) const {
-    BatchOfFloats x, y, z;
-    x.lane.fill(p.x);
-    y.lane.fill(p.y);
-    z.lane.fill(p.z);
+    const auto [x, y, z] = evaluation::BatchOfPoints::all_at(p);
     std::vector<BatchOfFloats> out(program_.outputs.size());
     evaluate(x, y, z, out, w);
     Phases<float> result;

@@ -19,7 +19,7 @@ Component component(const Routine& routine, std::uint32_t slots, const glm::vec3
     registers[2] = Dual(p.z, 0, 0, 1);
     interpret(
         RoutineSteps(routine), registers.data(),
-        []<class P>(const float* constants, const Vec3<Dual>& q, Dual& to) {
+        []<class P>(std::size_t, const float* constants, const Vec3<Dual>& q, Dual& to) {
             to = program::distance_of<P>(constants, q);
         },
         [](const Dual&) {});

@@ -20,12 +20,15 @@ struct PointInRegisters {
     operator Vec3<T>() const { return {registers[slot], registers[slot + 1], registers[slot + 2]}; }
 };
 
+/// What interpret() does with a step.
+enum class StepAction : unsigned char { run, skip, stop };
+
 /// The steps of a routine in the form that interpret() expects.
 class RoutineSteps {
   public:
     explicit RoutineSteps(const Routine& routine) : routine_(routine) {}
     std::size_t size() const { return routine_.count; }
-    static bool is_left_out(std::size_t) { return false; }
+    static StepAction action(std::size_t) { return StepAction::run; }
     const Step& step(std::size_t i) const { return routine_.steps[i]; }
     const float* constants(std::size_t i) const { return routine_.constants + routine_.data[i]; }
 
@@ -33,17 +36,20 @@ class RoutineSteps {
     const Routine& routine_;
 };
 
-/// Runs all steps except the skipped ones. Registers 0 … 2 hold the point.
+/// Runs the steps in order, as steps.action(i) says of each when all earlier ones have been run or skipped. Returns
+/// false if a step stopped the run. Registers 0 … 2 hold the point.
 ///
-/// For a primitive P, calls `distance.template operator()<P>(constants, point, to)`, which must set `to` to its
-/// distance; the point is a Vec3<T> or PointInRegisters<T>. Calls `done(number)` with each number that any other step
-/// has computed, including each coordinate of a point, and the distance of a fused primitive after its scale and
+/// For a primitive P in step i, calls `distance.template operator()<P>(i, constants, point, to)`, which must set `to`
+/// to its distance; the point is a Vec3<T> or PointInRegisters<T>. Calls `done(number)` with each number that any other
+/// step has computed, including each coordinate of a point, and the distance of a fused primitive after its scale and
 /// offset. It is not called for plain primitives, because `distance` sees their results.
 template <class Steps, class T, class Distance, class Done>
-void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
+bool interpret(const Steps& steps, T* registers, Distance&& distance, Done&& done) {
     constexpr auto first_primitive = static_cast<std::uint32_t>(Op::first_primitive);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        if (steps.is_left_out(i)) continue;
+        const StepAction action = steps.action(i);
+        if (action == StepAction::skip) continue;
+        if (action == StepAction::stop) return false;
         const Step& s = steps.step(i);
         const T& a = registers[s.a];
         const T& b = registers[s.b];
@@ -61,7 +67,7 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
                 done(registers[s.to + 2]);
             };
             const auto primitive = [&]<class P>(const float* floats, const auto& point) {
-                distance.template operator()<P>(floats, point, to);
+                distance.template operator()<P>(i, floats, point, to);
             };
             if (s.op < first_map) {
                 if (index < Primitives::size)
@@ -138,6 +144,7 @@ void interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
         }
         done(to);
     }
+    return true;
 }
 
 }  // namespace phasetree::evaluation

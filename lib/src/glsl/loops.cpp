@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "glsl/readings.hpp"
+#include "phasetree_support/mixed_hash.hpp"
 
 namespace phasetree::glsl {
 
@@ -16,11 +17,6 @@ constexpr std::uint32_t fewest_saved = 32, fewest_saved_by_prefix = 256;
 constexpr std::size_t longest_iteration = 2048, most_comparisons = std::size_t{1} << 28,
                       most_steps_tried = std::size_t{1} << 25;
 
-std::uint64_t combined(std::uint64_t a, std::uint64_t b) {
-    a ^= b + 0x9e3779b97f4a7c15u + (a << 6) + (a >> 2);
-    return a * 0xff51afd7ed558ccdu;
-}
-
 // An item that is not yet in a loop, with a hash of its form: its operations without its operands.
 struct Candidate {
     NestItem item;
@@ -33,8 +29,8 @@ class LoopSearch {
         for (std::uint32_t i = 0; i < trace.steps.size(); ++i) {
             const TraceStep& s = trace.steps[i];
             const std::uint64_t form =
-                combined(static_cast<std::uint64_t>(s.op) << 8 | static_cast<std::uint64_t>(s.function),
-                         static_cast<std::uint64_t>(s.table) << 4 | s.operands);
+                support::mixed(static_cast<std::uint64_t>(s.op) << 8 | static_cast<std::uint64_t>(s.function),
+                               static_cast<std::uint64_t>(s.table) << 4 | s.operands);
             list_.push_back({{i, 1, 1, {}}, form});
         }
     }
@@ -110,7 +106,7 @@ class LoopSearch {
         for (std::size_t i = first; i < first + length; ++i) {
             loop.body.push_back(list_[i].item);
             loop.body.back().offset -= start;
-            form = combined(form, list_[i].form);
+            form = support::mixed(form, list_[i].form);
         }
         steps_tried_ += loop.span();
         if (steps_tried_ > most_steps_tried || !is_loop(trace_, loop)) return std::nullopt;

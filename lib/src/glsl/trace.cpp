@@ -17,7 +17,7 @@ class OneStep {
     OneStep(Op op, std::span<const float> constants)
         : step_{static_cast<std::uint32_t>(op), 4, 0, 3}, constants_(constants) {}
     static std::size_t size() { return 1; }
-    static bool is_left_out(std::size_t) { return false; }
+    static evaluation::StepAction action(std::size_t) { return evaluation::StepAction::run; }
     const kernel::Step& step(std::size_t) const { return step_; }
     const float* constants(std::size_t) const { return constants_.data(); }
 
@@ -48,7 +48,7 @@ Trace trace_of(Op op, std::span<const float> constants) {
         registers[0] = Traced(&trace, 0), registers[3] = Traced(&trace, 1);
     evaluation::interpret(
         OneStep(op, constants), registers.data(),
-        []<class P>(const float* floats, const Vec3<Traced>& q, Traced& to) {
+        []<class P>(std::size_t, const float* floats, const Vec3<Traced>& q, Traced& to) {
             to = program::distance_of<P>(floats, q);
         },
         [](const Traced&) {});

@@ -114,4 +114,8 @@ BallList read_balls(const std::filesystem::path& path) {
     throw SceneError(path.string(), "is not a file of balls: its name must end in .ply or .csv");
 }
 
+BallList FileFormat<BallList>::read(const std::filesystem::path& path) {
+    return read_balls(path);
+}
+
 }  // namespace phasetree

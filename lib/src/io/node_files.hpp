@@ -5,13 +5,11 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <utility>
+#include <typeindex>
 #include <vector>
 
 #include "io/node_source.hpp"
 #include "model/preparation.hpp"
-#include "phasetree/io/balls.hpp"
-#include "phasetree/io/mesh.hpp"
 #include "phasetree/io/tree.hpp"
 
 namespace phasetree::io {
@@ -51,24 +49,28 @@ class NodeFiles {
     template <class N>
     std::optional<KeptNodes::Source> source_of_node(N& node, Value file) const {
         const std::filesystem::path path = document_.file(file);
-        std::vector<std::filesystem::path> files{path};
-        if constexpr (std::is_same_v<decltype(node.file), FromFile<LabelGrid>>) {
-            try {
-                if (readers_.label_files) files = readers_.label_files(path);
-            } catch (const std::exception&) {
-                return std::nullopt;  // the reader of the files will report the problem
-            }
+        std::vector<std::filesystem::path> files;
+        try {
+            files = files_of(node.file, path);
+        } catch (const std::exception&) {
+            return std::nullopt;  // the reader of the files will report the problem
         }
         return source_of(node, path, files);
+    }
+    // The files that the name of a content stands for.
+    template <class Content>
+    std::vector<std::filesystem::path> files_of(const FromFile<Content>&, const std::filesystem::path& path) const {
+        const FileReader<Content>* const reader = readers_.find<Content>();
+        if (!reader || !reader->files) return {path};
+        return reader->files(path);
     }
 
     template <class Content>
     void read(FromFile<Content>& target, const std::string& part, Value file) {
         const std::filesystem::path path = document_.file(file);
-        auto& known = std::get<Known<Content>>(known_);
-        const std::pair key{target.path, part};
-        if (const auto found = known.find(key); found != known.end()) {
-            target.content = found->second;
+        const std::tuple key{std::type_index(typeid(Content)), target.path, part};
+        if (const auto found = known_.find(key); found != known_.end()) {
+            target.content = std::static_pointer_cast<const Content>(found->second);
             return;
         }
         try {
@@ -76,42 +78,26 @@ class NodeFiles {
         } catch (const std::exception& e) {
             throw document_.error(file, e.what());
         }
-        known.emplace(key, target.content);
+        known_.emplace(key, target.content);
     }
 
     template <class Content>
-    Content content_of(const std::filesystem::path& path, const std::string& part) const {
-        if constexpr (std::is_same_v<Content, SirenNetwork>) {
-            return read_siren(path);
-        } else if constexpr (std::is_same_v<Content, TriangleMesh>) {
-            return read_mesh(path);
-        } else if constexpr (std::is_same_v<Content, BallList>) {
-            return read_balls(path);
-        } else if constexpr (std::is_same_v<Content, VoxelGrid>) {
-            if (!readers_.level_set) throw std::runtime_error("this program cannot read OpenVDB files");
-            return readers_.level_set(path, part);
-        } else if constexpr (std::is_same_v<Content, LabelGrid>) {
-            if (!readers_.label_grid)
-                throw std::runtime_error("this program can read neither OpenVDB files nor images");
-            return readers_.label_grid(path, part);
-        } else if constexpr (std::is_same_v<Content, TextOutlines>) {
-            if (!readers_.text_outlines) throw std::runtime_error("this program cannot read fonts");
-            return readers_.text_outlines(path, part);
+    Content content_of(const std::filesystem::path& path, [[maybe_unused]] const std::string& part) const {
+        static_assert(FileContent<Content>, "the content of a file lacks a FileFormat (phasetree/model/from_file.hpp)");
+        if constexpr (ReadByLibrary<Content>) {
+            return FileFormat<Content>::read(path);
         } else {
-            if (!readers_.height_grid) throw std::runtime_error("this program cannot read images");
-            return readers_.height_grid(path);
+            const FileReader<Content>* const reader = readers_.find<Content>();
+            if (!reader || !reader->read) throw std::runtime_error(std::string(FileFormat<Content>::no_reader));
+            return reader->read(path, part);
         }
     }
 
     const Document& document_;
     const FileReaders& readers_;
     const model::PreparationTogether& budget_;
-    /// By the name in the document and the requested part.
-    template <class Content>
-    using Known = std::map<std::pair<std::string, std::string>, std::shared_ptr<const Content>>;
-    std::tuple<Known<SirenNetwork>, Known<HeightGrid>, Known<TriangleMesh>, Known<VoxelGrid>, Known<LabelGrid>,
-               Known<BallList>, Known<TextOutlines>>
-        known_;
+    /// What has been read, by the type of the content, the name in the document and the requested part.
+    std::map<std::tuple<std::type_index, std::string, std::string>, std::shared_ptr<const void>> known_;
 };
 
 }  // namespace phasetree::io

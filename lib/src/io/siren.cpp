@@ -63,4 +63,8 @@ SirenNetwork read_siren(const std::filesystem::path& path) {
     return network;
 }
 
+SirenNetwork FileFormat<SirenNetwork>::read(const std::filesystem::path& path) {
+    return read_siren(path);
+}
+
 }  // namespace phasetree

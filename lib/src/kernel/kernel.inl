@@ -256,10 +256,6 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
 
 #include "kernel/march.inl"
 
-#include "kernel/search.inl"
-
-#include "kernel/decide.inl"
-
 #include "kernel/visit.inl"
 
 #include "kernel/network_layer.inl"

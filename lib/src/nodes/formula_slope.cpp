@@ -8,13 +8,13 @@
 
 namespace phasetree::nodes {
 
-using enclosure::Range;
+using enclosure::Interval;
 using formula::Op;
 
 namespace {
 
 constexpr double close_enough = 1.02;  // stop when the bound is at most this many times the steepest gradient found
-constexpr double no_bound = 1e50;      // larger bounds count as none: Range::most is larger
+constexpr double no_bound = 1e50;      // larger bounds count as none: Interval::most is larger
 
 // Reports why a term has no bound in a box: the first step without a bound whose operands have bounds.
 [[noreturn]] void refuse(const TermSteps& term, const TermInBox& in, const BoxOfDoubles& box, bool has_bounds) {
@@ -62,7 +62,7 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
         if (std::isfinite(squared)) seen = std::max(seen, std::sqrt(squared));
         open.push({std::min(bound_around, in.bound()), box});
     };
-    look(whole, Range::most);
+    look(whole, Interval::most);
     // Half of the longest side of a box, among the axes on which the term depends.
     const auto size = [&](const BoxOfDoubles& box) {
         double longest = 0;

@@ -7,13 +7,13 @@
 
 namespace phasetree::nodes {
 
-using enclosure::Enclosure, enclosure::Range;
+using enclosure::Enclosure, enclosure::Interval;
 using Index = FormulaIndex;
 
 namespace {
 
 // The range of the whole formula in a box.
-Range values_in(const FormulaTerms& formula, const BoxOfDoubles& box) {
+Interval values_in(const FormulaTerms& formula, const BoxOfDoubles& box) {
     using What = Formula::Part::What;
     std::vector<Enclosure> terms;
     TermInBox in;
@@ -21,9 +21,9 @@ Range values_in(const FormulaTerms& formula, const BoxOfDoubles& box) {
         in.run(term, box);
         terms.push_back(in.result().tightened(box.halves()));
     }
-    std::vector<Range> value;
+    std::vector<Interval> value;
     for (const Formula::Part& part : formula.parts) {
-        const auto of = [&](Index i) -> const Range& { return value[i]; };
+        const auto of = [&](Index i) -> const Interval& { return value[i]; };
         const double k = static_cast<double>(part.constant);
         switch (part.what) {
             case What::term:
@@ -33,7 +33,7 @@ Range values_in(const FormulaTerms& formula, const BoxOfDoubles& box) {
                 value.push_back(-of(part.a));
                 break;
             case What::absolute: {
-                const Range& a = of(part.a);
+                const Interval& a = of(part.a);
                 const double least = a.low > 0 ? a.low : a.high < 0 ? -a.high : 0;
                 value.push_back({least, a.magnitude()});
                 break;
@@ -45,7 +45,7 @@ Range values_in(const FormulaTerms& formula, const BoxOfDoubles& box) {
                 value.push_back({std::max(of(part.a).low, of(part.b).low), std::max(of(part.a).high, of(part.b).high)});
                 break;
             case What::add_constant:
-                value.push_back(of(part.a) + Range{k, k});
+                value.push_back(of(part.a) + Interval{k, k});
                 break;
             case What::smooth_minimum:
                 value.push_back(
@@ -71,7 +71,7 @@ BoxOfDoubles around_solid(const FormulaTerms& formula, const BoxOfDoubles& whole
         const Open top = open.back();
         open.pop_back();
         budget.pay(work_of_a_step * steps);
-        const Range values = values_in(formula, top.box);
+        const Interval values = values_in(formula, top.box);
         // The formula in floats may be negative where the exact one is not.
         if (values.low > 1e-5 * std::min(1 + values.magnitude(), 1e4)) continue;
         if (top.depth < divisions) {

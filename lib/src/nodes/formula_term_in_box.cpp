@@ -5,7 +5,7 @@
 
 namespace phasetree::nodes {
 
-using enclosure::Enclosure, enclosure::Range;
+using enclosure::Enclosure, enclosure::Interval;
 using formula::Op;
 using Index = FormulaIndex;
 
@@ -31,7 +31,7 @@ double TermInBox::slope_of(const FormulaStep& s) const {
             return slopes_[s.a];
         case Op::sine:
         case Op::cosine:
-            return at(s.a) <= 1e4 ? slopes_[s.a] : Range::most;  // sine_of() is not valid beyond
+            return at(s.a) <= 1e4 ? slopes_[s.a] : Interval::most;  // sine_of() is not valid beyond
         case Op::add:
         case Op::subtract:
             return slopes_[s.a] + slopes_[s.b];
@@ -52,9 +52,9 @@ double TermInBox::slope_of(const FormulaStep& s) const {
             return slope_of_length({s.a, s.b, s.c}, 3);
         case Op::divide:
         case Op::square_root:
-            return Range::most;
+            return Interval::most;
     }
-    return Range::most;
+    return Interval::most;
 }
 
 // An upper bound of the slope of the length of a vector of n values. The length is at most as steep as the largest
@@ -66,7 +66,7 @@ double TermInBox::slope_of_length(const std::array<Index, 3>& of, std::size_t n)
         double row = slopes_[of[i]] * slopes_[of[i]];
         for (std::size_t j = 0; j < n; ++j) {
             if (i == j) continue;
-            Range product{};
+            Interval product{};
             for (std::size_t axis = 0; axis < 3; ++axis)
                 product = product + values_[of[i]].gradient[axis] * values_[of[j]].gradient[axis];
             row += std::min(product.magnitude(), slopes_[of[i]] * slopes_[of[j]]);

@@ -106,10 +106,7 @@ double blob_slope(const Blob& blob) {
     Preparation preparation(Blob::info.name);
     Skeletons skeletons(blob, preparation);
     const auto add = [&](std::span<const glm::vec3> centres, float half) {
-        BatchOfPoints points;
-        for (std::size_t lane = 0; lane < batch_size; ++lane)
-            points.set(lane, centres[std::min(lane, centres.size() - 1)]);
-        skeletons.find(points, centres.size());
+        skeletons.find(BatchOfPoints::of(centres), centres.size());
         for (std::size_t lane = 0; lane < centres.size(); ++lane) {
             const std::vector<double>& d = skeletons.at(lane);
             largest = std::max(largest, steepness(blob, d, 0));

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "phasetree/nodes/list.hpp"
+#include <algorithm>
+
 #include "program/op_traits.hpp"
 
 namespace phasetree::preparation {
@@ -22,19 +23,17 @@ Program recorded(std::string_view node, const Field& field) {
     }
 }
 
-constexpr auto height_map = static_cast<Op>(static_cast<std::size_t>(Op::first_primitive) + Primitives::size +
-                                            index_in<HeightMap>(DataPrimitives()));
-
-// The cost of an evaluation. A long primitive counts as several steps, and a primitive with data as a quarter of its
-// floats. A height map reads only nine of its floats per evaluation.
+// The cost of an evaluation. A long primitive counts as several steps, and a primitive with data as a quarter of the
+// floats that it reads.
 std::uint64_t steps_of(const Program& program) {
     std::uint64_t steps = 20;  // for the call
     for (std::size_t i = 1; i < program.instructions.size(); ++i) {
         const Instruction& in = program.instructions[i];
         const std::size_t end =
             i + 1 < program.instructions.size() ? program.instructions[i + 1].data : program.constants.size();
-        const std::size_t floats = in.op == height_map ? 0 : (end - in.data) / 4;
-        steps += std::max<std::uint64_t>(traits(in.op).half_instructions / 2, floats);
+        const std::size_t all = end - in.data, read = traits(in.op).floats_read;
+        const std::size_t floats = read == 0 ? all : std::min(read, all);
+        steps += std::max<std::uint64_t>(traits(in.op).half_instructions / 2, floats / 4);
     }
     return steps;
 }

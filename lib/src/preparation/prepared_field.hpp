@@ -1,22 +1,13 @@
 #pragma once
 
+#include "evaluation/batch_of_points.hpp"
 #include "model/preparation.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 
 namespace phasetree::preparation {
 
+using evaluation::BatchOfPoints;
 using model::Preparation;
-
-/// A batch of points.
-struct BatchOfPoints {
-    BatchOfFloats x{}, y{}, z{};
-
-    void set(std::size_t lane, const glm::vec3& p) {
-        x[lane] = p.x;
-        y[lane] = p.y;
-        z[lane] = p.z;
-    }
-};
 
 /// A field that a node evaluates to derive data. It is evaluated through its program; a walk through the tree could
 /// take exponential time, because it visits a shared shape once per use. A Preparation pays for the work.

@@ -22,7 +22,5 @@ inline constexpr std::uint32_t first_map = static_cast<std::uint32_t>(Op::first_
                                            static_cast<std::uint32_t>(Primitives::size + DataPrimitives::size);
 inline constexpr std::uint32_t affine_map = first_map + static_cast<std::uint32_t>(PointMaps::size);
 inline constexpr std::uint32_t first_placed = affine_map + 1;
-/// The operation that folds space.
-inline constexpr Op fold_map = static_cast<Op>(first_map + static_cast<std::uint32_t>(index_in<FoldMap>(PointMaps())));
 
 }  // namespace phasetree::program

@@ -10,38 +10,64 @@ namespace {
 
 static_assert(first_placed + Primitives::size <= most_operations);
 
-// Whether each primitive of a list is long.
-template <class... Ps>
-constexpr auto long_ones(TypeList<Ps...>) {
-    return std::array<bool, sizeof...(Ps)>{LongPrimitive<Ps>...};
+constexpr std::uint16_t half_instructions_of_short = 3;  // rough estimates
+constexpr std::uint16_t typical_half_instructions = 120;
+
+// The cost of a primitive; a typical one if it depends on the data.
+template <class P>
+constexpr std::uint16_t half_instructions_of() {
+    if constexpr (LocalDataPrimitive<P>) {
+        return P::search_half_instructions;
+    } else if constexpr (LongPrimitive<P>) {
+        static_assert(StatesCost<P>, "a long primitive must state its cost (phasetree/model/concepts.hpp)");
+        if constexpr (HasConstantCost<P>)
+            return P::half_instructions;
+        else
+            return typical_half_instructions;
+    } else {
+        return half_instructions_of_short;
+    }
 }
 
-constexpr OpTraits& traits_of(auto& all, Op op) {
-    return all[static_cast<std::size_t>(op)];
+template <class P>
+constexpr OpTraits traits_of_primitive() {
+    OpTraits t;
+    t.half_instructions = half_instructions_of<P>();
+    t.has_cost_in_data = HasCostInData<P> && !LocalDataPrimitive<P>;
+    t.is_long_primitive = LongPrimitive<P>;
+    t.is_pattern = PatternPrimitive<P> || PatternDataPrimitive<P>;
+    t.is_voxel_grid = PatternDataPrimitive<P>;
+    t.is_local = AnyLocalPrimitive<P>;
+    t.has_many_parts = PrimitiveOfParts<P>;
+    if constexpr (requires { P::floats_read; }) t.floats_read = P::floats_read;
+    if constexpr (requires { P::is_best_in_small_boxes; }) t.is_best_in_small_boxes = P::is_best_in_small_boxes;
+    return t;
 }
 
-// Sets the traits of patterns and of primitives that can be specialised.
+// Sets the traits of all primitives of a list.
 template <class... Ps>
-constexpr void mark_patterns(TypeList<Ps...>, auto& all) {
+constexpr void set_primitives(TypeList<Ps...>, auto& all) {
+    const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
+    ((of(op_of<Ps>()) = traits_of_primitive<Ps>()), ...);
+}
+// Marks the specialised forms of the local primitives of a list.
+template <class... Ps>
+constexpr void mark_specialised(TypeList<Ps...>, auto& all) {
     const auto mark = [&]<class P>() {
-        if constexpr (PatternPrimitive<P> || PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_pattern = true;
-        if constexpr (PatternDataPrimitive<P>) traits_of(all, op_of<P>()).is_voxel_grid = true;
-        if constexpr (AnyLocalPrimitive<P>) {
-            OpTraits& local = traits_of(all, op_of<P>());
-            local.is_local = true;
-            local.half_instructions = 800;  // rough estimate for all sites of a Voronoi pattern
-            local.has_many_parts = PrimitiveOfParts<P>;
-            traits_of(all, op_of<typename P::Specialised>()).is_specialised = true;
-        }
-        if constexpr (requires { P::search_half_instructions; })
-            traits_of(all, op_of<P>()).half_instructions = P::search_half_instructions;
+        if constexpr (AnyLocalPrimitive<P>)
+            all[static_cast<std::size_t>(op_of<typename P::Specialised>())].is_specialised = true;
     };
     (mark.template operator()<Ps>(), ...);
+}
+// Sets the traits of all maps of a list.
+template <class... Ms>
+constexpr void set_maps(TypeList<Ms...>, auto& all) {
+    std::size_t op = first_map;
+    ((all[op++] = {.gives_point = true, .is_fold = FoldingMap<Ms>}), ...);
 }
 
 constexpr auto all_traits() {
     std::array<OpTraits, most_operations> all{};
-    constexpr auto first_primitive = static_cast<std::size_t>(Op::first_primitive);
     const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
     of(Op::input) = {.operands = 0, .gives_point = true};
     for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::far_bound, Op::far_bound_inside,
@@ -50,17 +76,14 @@ constexpr auto all_traits() {
     for (const Op op :
          {Op::add_constant, Op::constant_minus, Op::multiply_constant, Op::smooth_minimum, Op::guarded, Op::falloff})
         of(op).has_constant = true;
-    constexpr auto is_long = long_ones(Primitives());
-    for (std::size_t i = 0; i < Primitives::size + DataPrimitives::size; ++i)
-        all[first_primitive + i].is_long_primitive =
-            i >= is_long.size() || is_long[i];  // primitives with data follow; all count as long
-    for (std::size_t i = first_primitive; i < first_placed + Primitives::size; ++i)
-        all[i].half_instructions = all[i].is_long_primitive ? 120 : 3;  // rough estimates
-    for (std::size_t i = first_map; i < first_placed; ++i) all[i].gives_point = true;
-    all[first_map + index_in<FoldMap>(PointMaps())].is_fold = true;
-    all[first_primitive + Primitives::size + index_in<Siren::Network>(DataPrimitives())].is_network = true;
-    mark_patterns(Primitives(), all);
-    mark_patterns(DataPrimitives(), all);
+    set_primitives(Primitives(), all);
+    set_primitives(DataPrimitives(), all);
+    mark_specialised(Primitives(), all);
+    mark_specialised(DataPrimitives(), all);
+    set_maps(PointMaps(), all);
+    all[affine_map].gives_point = true;
+    for (std::size_t i = first_map; i < first_placed + Primitives::size; ++i)
+        all[i].half_instructions = half_instructions_of_short;
     return all;
 }
 }  // namespace

@@ -12,17 +12,19 @@ struct OpTraits {
     std::uint8_t operands = 1;  ///< the number of operand values
     /// Its cost, in halves of a simple operation such as an addition; a rough estimate.
     std::uint16_t half_instructions = 2;
+    std::uint16_t floats_read = 0;   ///< the number of its floats that an evaluation reads; 0 for about all of them
     bool gives_point = false;        ///< its result is a point instead of a number
     bool has_constant = false;       ///< its data is a single constant
     bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
-    bool is_network = false;         ///< a neural field: Siren::Network
-    bool is_fold = false;            ///< it folds space, so it is not continuous
-    bool is_pattern = false;         ///< a PatternPrimitive or a PatternDataPrimitive: it has a period
-    bool is_voxel_grid = false;      ///< a PatternDataPrimitive
-    bool is_local = false;           ///< a LocalPrimitive or a LocalDataPrimitive: only a small part of it matters in a
-                                     ///< small box
-    bool has_many_parts = false;     ///< a PrimitiveOfParts
-    bool is_specialised = false;     ///< the form that a LocalPrimitive takes in a small box
+    bool has_cost_in_data = false;   ///< its cost depends on its data (HasCostInData)
+    bool is_best_in_small_boxes = false;  ///< it is expensive, and its bounds are much better in small boxes
+    bool is_fold = false;                 ///< it folds space, so it is not continuous
+    bool is_pattern = false;              ///< a PatternPrimitive or a PatternDataPrimitive: it has a period
+    bool is_voxel_grid = false;           ///< a PatternDataPrimitive
+    bool is_local = false;        ///< a LocalPrimitive or a LocalDataPrimitive: only a small part of it matters in a
+                                  ///< small box
+    bool has_many_parts = false;  ///< a PrimitiveOfParts
+    bool is_specialised = false;  ///< the form that a LocalPrimitive takes in a small box
 };
 /// The maximum number of operations, including those of fused.hpp.
 inline constexpr std::size_t most_operations = 256;

@@ -1,18 +1,16 @@
 #pragma once
 
+#include "pruning/operation_rules.hpp"
 #include "pruning/prune.hpp"
-#include "pruning/required_interval.hpp"
 #include "rewriting/live_set.hpp"
 #include "rewriting/rewrite.hpp"
 
 namespace phasetree::pruning {
 
-using program::operands, program::ProgramOutput;
 using rewriting::LiveSet, rewriting::Rewriter, rewriting::SignedValue;
 
-/// The sweep of prune.hpp over one program, from the last instruction to the first. For each instruction, it decides
-/// from the ranges of the operands and from the required interval what the instruction becomes, and what that requires
-/// of the operands. `Ranges` provides the values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
+/// The sweep of prune.hpp over one program: applies the OperationRules from the last instruction to the first, and
+/// rewrites what is left. `Ranges` is as for the rules.
 template <class Ranges>
 class BackwardSweep {
   public:
@@ -23,11 +21,8 @@ class BackwardSweep {
           constants_(context.constants),
           ranges_(ranges),
           opaque_(context.opaque),
-          drops_far_bounds_(drops_far_bounds),
           arenas_(arenas),
-          required_(arenas.scratch.allocate<RequiredInterval>(program.code.size())),
-          replacement_(arenas.scratch.allocate<std::uint32_t>(program.code.size())),
-          op_(arenas.scratch.allocate<Op>(program.code.size())),
+          rules_(program, ranges, context.constants, drops_far_bounds, arenas.scratch),
           live_(arenas.scratch.allocate<std::uint32_t>(program.code.size())) {}
 
     std::optional<WorkingProgram> run() {
@@ -35,14 +30,11 @@ class BackwardSweep {
         if (!possible || !has_interface(*possible)) return std::nullopt;
         const std::span<const ProgramOutput> outputs = *possible;
 
-        std::ranges::fill(required_, RequiredInterval{});
-        for (const ProgramOutput& o : outputs) require(o.value, RequiredInterval::threshold(0));
+        rules_.start(outputs);
         for (auto i = static_cast<std::uint32_t>(program_.code.size()); i-- > 1;)
-            if (!required_[i].is_empty()) {
+            if (!rules_.required(i).is_empty()) {
                 live_[live_count_++] = i;
-                replacement_[i] = i;
-                op_[i] = program_.code[i].op;
-                resolve(i);
+                rules_.resolve(i);
             }
         if (is_unchanged(outputs)) return program_;
         const WorkingProgram rest = rewritten(outputs);
@@ -65,7 +57,7 @@ class BackwardSweep {
             const auto is_like = [&](std::uint32_t j) {
                 return program_.code[j].op == in.op && program_.code[j].data == in.data;
             };
-            if (std::ranges::count_if(live, is_like) == 1) found[count++] = {in.data, required_[i].high()};
+            if (std::ranges::count_if(live, is_like) == 1) found[count++] = {in.data, rules_.required(i).high()};
         }
         return found.first(count);
     }
@@ -76,8 +68,8 @@ class BackwardSweep {
         const std::span<ProgramOutput> possible = arenas_.scratch.allocate<ProgramOutput>(program_.outputs.size());
         std::size_t count = 0;
         for (const ProgramOutput& o : program_.outputs) {
-            const float low = o.negate ? -high(o.value) : this->low(o.value);
-            const float high = o.negate ? -this->low(o.value) : this->high(o.value);
+            const float low = o.negate ? -ranges_.high(o.value) : ranges_.low(o.value);
+            const float high = o.negate ? -ranges_.low(o.value) : ranges_.high(o.value);
             if (high < 0) return std::nullopt;
             if (low <= 0) possible[count++] = o;
         }
@@ -92,7 +84,7 @@ class BackwardSweep {
     /// own. If there are two phases, they must also share one value already; otherwise, by_one_component() may shorten
     /// the program.
     bool is_unchanged(std::span<const ProgramOutput> outputs) const {
-        return !is_changed_ && outputs.size() == program_.outputs.size() &&
+        return !rules_.is_changed() && outputs.size() == program_.outputs.size() &&
                (outputs.size() != 2 || outputs[0].value == outputs[1].value) &&
                ranges_.slope.data() == program_.lipschitz.data() &&
                live_count_ + 1 == program_.code.size();  // the input is always kept
@@ -109,17 +101,18 @@ class BackwardSweep {
         const std::span<const float> slope = ranges_.slope;
         for (std::size_t k = live_count_; k-- > 0;) {
             const std::uint32_t i = live_[k];
-            if (replacement_[i] != i) {
-                written[i] = written[replacement_[i]];
+            if (rules_.replacement(i) != i) {
+                written[i] = written[rules_.replacement(i)];
                 continue;
             }
             const Instruction& in = code[i];
+            const Op op = rules_.op(i);
             // A changed operation, which is a negation or a maximum, is as steep as its steepest operand.
-            const float bound = op_[i] == in.op        ? slope[i]
-                                : operands(op_[i]) > 1 ? std::max(slope[in.a], slope[in.b])
-                                                       : slope[in.a];
-            written[i] = rewriter.write({op_[i], in.a, in.b, in.data}, written[in.a], written[in.b], bound,
-                                        required_[i].is_sign());
+            const float bound = op == in.op        ? slope[i]
+                                : operands(op) > 1 ? std::max(slope[in.a], slope[in.b])
+                                                   : slope[in.a];
+            written[i] = rewriter.write({op, in.a, in.b, in.data}, written[in.a], written[in.b], bound,
+                                        rules_.required(i).is_sign());
         }
         const std::span<ProgramOutput> rest = scratch.allocate<ProgramOutput>(outputs.size());
         std::size_t count = 0;
@@ -145,57 +138,14 @@ class BackwardSweep {
         return (second.size() < first.size() ? second : first).program(arenas_);
     }
 
-    float low(std::uint32_t i) const { return ranges_.low(i); }
-    float high(std::uint32_t i) const { return ranges_.high(i); }
-    bool is_above(std::uint32_t a, std::uint32_t b, float least = 0) const { return ranges_.is_above(a, b, least); }
-    float constant(const Instruction& in) const { return constants_[in.data]; }
-
-    /// Adds an interval to the requirements of a value.
-    void require(std::uint32_t i, RequiredInterval r) { required_[i] = required_[i].hull(r); }
-    /// Replaces a value by an earlier one.
-    void replace(std::uint32_t i, std::uint32_t by) {
-        replacement_[i] = by;
-        is_changed_ = true;
-        require(by, required_[i]);
-    }
-    /// Replaces an instruction's operation.
-    void change(std::uint32_t i, Op op) {
-        op_[i] = op;
-        is_changed_ = true;
-    }
-
-    // The rules in operation_rules.hpp. Each decides what an instruction becomes and requires its operands.
-    void resolve(std::uint32_t i);
-    void resolve_minimum(std::uint32_t i);
-    void resolve_maximum(std::uint32_t i);
-    void resolve_smooth_minimum(std::uint32_t i);
-    void resolve_guarded(std::uint32_t i);
-    void resolve_sum(std::uint32_t i);
-    void resolve_difference(std::uint32_t i);
-    void resolve_corner(std::uint32_t i);
-    void resolve_nearer(std::uint32_t i);
-    void resolve_absolute(std::uint32_t i);
-    void resolve_product(std::uint32_t i);
-    struct Choice {
-        bool is_a, is_b;                          ///< whether an operand may replace the extremum
-        RequiredInterval required_a, required_b;  ///< what is required of the operands if neither replaces it
-    };
-    void resolve_extremum(std::uint32_t i, const Choice&);
-    bool is_leaf(std::uint32_t i) const;
-    bool is_zero(std::uint32_t i) const;
-
     const WorkingProgram& program_;
     std::span<const float> constants_;
     const Ranges& ranges_;
     PhaseSet opaque_;
-    bool drops_far_bounds_;
     const Arenas& arenas_;
-    std::span<RequiredInterval> required_;
-    std::span<std::uint32_t> replacement_;  ///< for each live value: itself or an earlier one
-    std::span<Op> op_;                      ///< for each live value: its operation, possibly changed
-    std::span<std::uint32_t> live_;         ///< the required values, from the last one on
+    OperationRules<Ranges> rules_;
+    std::span<std::uint32_t> live_;  ///< the required values, from the last one on
     std::size_t live_count_ = 0;
-    bool is_changed_ = false;
 };
 
 }  // namespace phasetree::pruning

@@ -1,14 +1,14 @@
 #include "pruning/jumps.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "phasetree/nodes/copies/endless_grid.hpp"
+#include "program/dispatch.hpp"
 #include "program/fused.hpp"
 
 namespace phasetree::pruning {
 
-using program::is_fold, program::operands;
+using program::first_map, program::is_fold, program::operands;
 
 namespace {
 
@@ -20,11 +20,12 @@ constexpr float least_slope_of_jump = 0x1p20f;
 float finest_jump(const WorkingProgram& program, std::span<const float> constants) {
     float finest = Bounds::infinity;
     for (std::size_t i = 0; i < program.code.size(); ++i) {
-        if (!is_fold(program.code[i].op) || program.lipschitz[i] <= least_slope_of_jump) continue;
-        FoldMap fold;
-        std::memcpy(static_cast<void*>(&fold), constants.data() + program.code[i].data, sizeof fold);
-        for (int axis = 0; axis < 3; ++axis)
-            if (fold.spacing[axis] > 0) finest = std::min(finest, fold.spacing[axis]);
+        const Instruction& in = program.code[i];
+        if (!is_fold(in.op) || program.lipschitz[i] <= least_slope_of_jump) continue;
+        program::dispatch(PointMaps(), static_cast<std::uint32_t>(in.op) - first_map, [&]<class M>() {
+            if constexpr (FoldingMap<M>)
+                finest = std::min(finest, program::read<M>(constants.data() + in.data).finest_spacing());
+        });
     }
     return finest;
 }

@@ -1,13 +1,106 @@
 #pragma once
 
-#include "pruning/backward_sweep.hpp"
+#include <algorithm>
 
-/// The rules of pruning, one function for each operation that has more than one rule. `r` is the required interval of
-/// the instruction `in` with the index i.
+#include "pruning/required_interval.hpp"
+#include "rewriting/working_program.hpp"
+
 namespace phasetree::pruning {
 
+using program::operands, program::ProgramOutput;
+using rewriting::Arena, rewriting::WorkingProgram;
+
+/// The rules of pruning: what an instruction becomes, given the ranges of its operands and the interval in which its
+/// value is required, and what that requires of its operands. There is a function for each operation that has more than
+/// one rule; `r` is the required interval of the instruction `in` with the index i.
+///
+/// Instructions are resolved from the last to the first, each after all that use its value. `Ranges` provides the
+/// values' ranges: low(i), high(i), is_above(a, b, least) and slope[i].
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve(std::uint32_t i) {
+class OperationRules {
+  public:
+    /// All memory is in `scratch`. Call start() first.
+    OperationRules(const WorkingProgram& program, const Ranges& ranges, std::span<const float> constants,
+                   bool drops_far_bounds, Arena& scratch)
+        : program_(program),
+          constants_(constants),
+          ranges_(ranges),
+          drops_far_bounds_(drops_far_bounds),
+          required_(scratch.allocate<RequiredInterval>(program.code.size())),
+          replacement_(scratch.allocate<std::uint32_t>(program.code.size())),
+          op_(scratch.allocate<Op>(program.code.size())) {}
+
+    /// Requires the signs of these outputs, and nothing else.
+    void start(std::span<const ProgramOutput> outputs) {
+        std::ranges::fill(required_, RequiredInterval{});
+        for (const ProgramOutput& o : outputs) require(o.value, RequiredInterval::threshold(0));
+    }
+    /// Applies the rules to an instruction whose value is required.
+    void resolve(std::uint32_t i) {
+        replacement_[i] = i;
+        op_[i] = program_.code[i].op;
+        apply(i);
+    }
+
+    const RequiredInterval& required(std::uint32_t i) const { return required_[i]; }
+    /// What a resolved value becomes: itself or an earlier one.
+    std::uint32_t replacement(std::uint32_t i) const { return replacement_[i]; }
+    /// The operation of a resolved instruction, possibly changed.
+    Op op(std::uint32_t i) const { return op_[i]; }
+    /// Whether any value was replaced or any operation was changed.
+    bool is_changed() const { return is_changed_; }
+
+  private:
+    float low(std::uint32_t i) const { return ranges_.low(i); }
+    float high(std::uint32_t i) const { return ranges_.high(i); }
+    bool is_above(std::uint32_t a, std::uint32_t b, float least = 0) const { return ranges_.is_above(a, b, least); }
+    float constant(const Instruction& in) const { return constants_[in.data]; }
+
+    /// Adds an interval to the requirements of a value.
+    void require(std::uint32_t i, RequiredInterval r) { required_[i] = required_[i].hull(r); }
+    /// Replaces a value by an earlier one.
+    void replace(std::uint32_t i, std::uint32_t by) {
+        replacement_[i] = by;
+        is_changed_ = true;
+        require(by, required_[i]);
+    }
+    /// Replaces an instruction's operation.
+    void change(std::uint32_t i, Op op) {
+        op_[i] = op;
+        is_changed_ = true;
+    }
+
+    void apply(std::uint32_t i);
+    void resolve_minimum(std::uint32_t i);
+    void resolve_maximum(std::uint32_t i);
+    void resolve_smooth_minimum(std::uint32_t i);
+    void resolve_guarded(std::uint32_t i);
+    void resolve_sum(std::uint32_t i);
+    void resolve_difference(std::uint32_t i);
+    void resolve_corner(std::uint32_t i);
+    void resolve_nearer(std::uint32_t i);
+    void resolve_absolute(std::uint32_t i);
+    void resolve_product(std::uint32_t i);
+    struct Choice {
+        bool is_a, is_b;                          ///< whether an operand may replace the extremum
+        RequiredInterval required_a, required_b;  ///< what is required of the operands if neither replaces it
+    };
+    void resolve_extremum(std::uint32_t i, const Choice&);
+    bool is_leaf(std::uint32_t i) const;
+    bool is_zero(std::uint32_t i) const;
+
+    const WorkingProgram& program_;
+    std::span<const float> constants_;
+    const Ranges& ranges_;
+    bool drops_far_bounds_;
+    std::span<RequiredInterval> required_;
+    std::span<std::uint32_t> replacement_;
+    std::span<Op> op_;
+    bool is_changed_ = false;
+};
+
+template <class Ranges>
+void OperationRules<Ranges>::apply(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     if (in.op >= Op::first_primitive) {
@@ -56,7 +149,7 @@ void BackwardSweep<Ranges>::resolve(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
@@ -72,7 +165,7 @@ void BackwardSweep<Ranges>::resolve_minimum(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_maximum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float low_a = low(in.a), high_a = high(in.a), low_b = low(in.b), high_b = high(in.b);
@@ -91,7 +184,7 @@ void BackwardSweep<Ranges>::resolve_maximum(std::uint32_t i) {
 /// branches, because every other comparison here would be mispredicted. If a single operand is left, it is required
 /// twice in the same way.
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choice) {
+void OperationRules<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choice) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const std::uint32_t first = (choice.is_b & (!choice.is_a)) ? in.b : in.a, second = choice.is_a ? in.a : in.b;
@@ -104,7 +197,7 @@ void BackwardSweep<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choi
 
 /// min(a, b) − ρ/6 · max(1 − |b − a|/ρ, 0)³ with the blending radius ρ (smooth_min in math/number.hpp).
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float radius = constant(in);
@@ -131,7 +224,7 @@ void BackwardSweep<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
 /// max(a, min(b, c − a)), where a is the bound, which is continuous, and b is the field, which may jump (`guarded` in
 /// math/number.hpp).
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_guarded(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     // Where a > c/2, c − a is below a, so the maximum is a. Where a is above r, so is the maximum.
@@ -152,7 +245,7 @@ void BackwardSweep<Ranges>::resolve_guarded(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_sum(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_sum(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     if (is_zero(in.a)) return replace(i, in.b);
@@ -167,7 +260,7 @@ void BackwardSweep<Ranges>::resolve_sum(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_difference(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_difference(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     if (is_leaf(in.a)) {
@@ -181,7 +274,7 @@ void BackwardSweep<Ranges>::resolve_difference(std::uint32_t i) {
 /// The corner of a and b is max(a, b) where that is negative, and otherwise the length of the vector (max(a, 0), max(b,
 /// 0)). So it is at least as large as either operand.
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_corner(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     // If one operand is negative and the smaller, the corner is the other.
@@ -203,7 +296,7 @@ void BackwardSweep<Ranges>::resolve_corner(std::uint32_t i) {
 
 /// max(a, (a − b)/2) is negative where a is negative and less than b.
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_nearer(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     // It is at least a, so it is above r where a is.
@@ -221,7 +314,7 @@ void BackwardSweep<Ranges>::resolve_nearer(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_absolute(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_absolute(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     if (low(in.a) > 0) return replace(i, in.a);
@@ -233,7 +326,7 @@ void BackwardSweep<Ranges>::resolve_absolute(std::uint32_t i) {
 }
 
 template <class Ranges>
-void BackwardSweep<Ranges>::resolve_product(std::uint32_t i) {
+void OperationRules<Ranges>::resolve_product(std::uint32_t i) {
     const Instruction& in = program_.code[i];
     const RequiredInterval r = required_[i];
     const float c = constant(in);
@@ -244,14 +337,14 @@ void BackwardSweep<Ranges>::resolve_product(std::uint32_t i) {
 
 /// Whether pruning cannot delete any part of what computes a value.
 template <class Ranges>
-bool BackwardSweep<Ranges>::is_leaf(std::uint32_t i) const {
+bool OperationRules<Ranges>::is_leaf(std::uint32_t i) const {
     const Instruction& in = program_.code[i];
     return in.op >= Op::first_primitive || (in.op == Op::multiply_constant && is_leaf(in.a));
 }
 
 /// Whether a value is exactly zero in the whole region, such as the falloff of a skeleton out of reach.
 template <class Ranges>
-bool BackwardSweep<Ranges>::is_zero(std::uint32_t i) const {
+bool OperationRules<Ranges>::is_zero(std::uint32_t i) const {
     const Instruction& in = program_.code[i];
     if (in.op == Op::multiply_constant) return is_zero(in.a);
     return in.op == Op::falloff && low(in.a) > constant(in);

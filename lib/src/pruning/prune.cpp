@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pruning/operation_rules.hpp"
+#include "pruning/backward_sweep.hpp"
 
 namespace phasetree::pruning {
 

@@ -5,49 +5,46 @@
 
 #include "bounding/enclose_primitive.hpp"
 #include "evaluation/interpret.hpp"
+#include "program/op_traits.hpp"
 
 namespace phasetree::trace {
 
 using bounding::enclose_long_primitive, bounding::enclose_primitive;
-using enclosure::Enclosure, enclosure::Range;
-using evaluation::interpret, evaluation::RoutineSteps;
+using enclosure::Enclosure, enclosure::Interval;
+using evaluation::interpret, evaluation::RoutineSteps, evaluation::StepAction;
 using kernel::RayCrossing, kernel::Routine, kernel::Step, kernel::Visit;
-using program::fold_map;
+using program::first_map, program::is_fold;
 using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(), which calls size() before each step. The list ends after a fold of space that
-// jumps between the values of its point, because an enclosure across a jump would be wrong. has_jumped() reports this.
-class StepsUpToJump {
+// The steps of a routine for interpret(). The run stops at a fold of space that jumps between the values of its point,
+// because an enclosure across a jump would be wrong.
+class StepsUpToJump : public RoutineSteps {
   public:
-    StepsUpToJump(const Routine& routine, const Enclosure* registers)
-        : steps_(routine), registers_(registers), size_(routine.count) {}
-    std::size_t size() const { return has_jumped_ ? 0 : size_; }
-    static bool is_left_out(std::size_t) { return false; }
-    const Step& step(std::size_t i) const {
-        const Step& s = steps_.step(i);
-        if (s.op == static_cast<std::uint32_t>(fold_map)) {
-            const auto fold = program::read<FoldMap>(steps_.constants(i));
-            for (int axis = 0; axis < 3; ++axis) {
-                const Range& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
-                const auto cell = [&](double at) {
-                    return std::floor(
-                        (at - static_cast<double>(fold.centre[axis])) * static_cast<double>(fold.inverse[axis]) + 0.5);
-                };
-                has_jumped_ = has_jumped_ || cell(x.low) != cell(x.high);
-            }
-        }
-        return s;
+    StepsUpToJump(const Routine& routine, const Enclosure* registers) : RoutineSteps(routine), registers_(registers) {}
+    StepAction action(std::size_t i) const {
+        return is_fold(static_cast<Op>(step(i).op)) && jumps(i) ? StepAction::stop : StepAction::run;
     }
-    const float* constants(std::size_t i) const { return steps_.constants(i); }
-    bool has_jumped() const { return has_jumped_; }
 
   private:
-    RoutineSteps steps_;
+    // Whether the fold of a step jumps.
+    bool jumps(std::size_t i) const {
+        const Step& s = step(i);
+        bool jumps = false;
+        program::dispatch(PointMaps(), s.op - first_map, [&]<class M>() {
+            if constexpr (FoldingMap<M>) {
+                const auto fold = program::read<M>(constants(i));
+                for (int axis = 0; axis < 3; ++axis) {
+                    const Interval& x = registers_[s.a + static_cast<std::uint32_t>(axis)].value;
+                    jumps = jumps || fold.jumps_between(axis, x.low, x.high);
+                }
+            }
+        });
+        return jumps;
+    }
+
     const Enclosure* registers_;
-    std::size_t size_;
-    mutable bool has_jumped_ = false;
 };
 
 // Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
@@ -84,20 +81,19 @@ ComponentAlongRay::ComponentAlongRay(const Visit& visit, const RayCrossing& c)
 }
 
 double ComponentAlongRay::upper_bound(float t_low, float t_high, double precision) {
-    if (!output_) return Range::most;
+    if (!output_) return Interval::most;
     const double middle = 0.5 * (double{t_low} + double{t_high}), half = 0.5 * (double{t_high} - double{t_low});
     for (int i = 0; i < 3; ++i) {
         const auto along = static_cast<double>(direction_[i]);
         const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);
         registers_[static_cast<std::size_t>(i)] =
-            Enclosure(centre, {centre - half_width, centre + half_width}, {Range{along, along}}, {along}, {});
+            Enclosure(centre, {centre - half_width, centre + half_width}, {Interval{along, along}}, {along}, {});
     }
     // The first axis of the enclosures' box represents t; the others are unused.
     const Enclosure::Vector extent{half, 0, 0};
-    StepsUpToJump steps(routine_, registers_.data());
-    interpret(
-        steps, registers_.data(),
-        [&]<class P, class Point>(const float* constants, const Point& q, Enclosure& result) {
+    const bool is_complete = interpret(
+        StepsUpToJump(routine_, registers_.data()), registers_.data(),
+        [&]<class P, class Point>(std::size_t, const float* constants, const Point& q, Enclosure& result) {
             if constexpr (LongPrimitive<P>) {
                 ArenaScope scope(scratch_);
                 bounding::SpecialisationInBox unused{{}, scratch_};
@@ -111,9 +107,10 @@ double ComponentAlongRay::upper_bound(float t_low, float t_high, double precisio
             result.tighten(extent);
         },
         [&](Enclosure& e) { e.tighten(extent); });
-    const Range& value = registers_[output_->slot].value;
+    if (!is_complete) return Interval::most;
+    const Interval& value = registers_[output_->slot].value;
     const double most = output_->sign < 0 ? -value.low : value.high;
-    return steps.has_jumped() || std::isnan(most) ? Range::most : most;
+    return std::isnan(most) ? Interval::most : most;
 }
 
 }  // namespace phasetree::trace

@@ -16,7 +16,7 @@ class ComponentAlongRay {
     /// object.
     ComponentAlongRay(const kernel::Visit&, const kernel::RayCrossing&);
 
-    /// An upper bound of the component between two distances along the ray; Range::most if none is known. The caller
+    /// An upper bound of the component between two distances along the ray; Interval::most if none is known. The caller
     /// does not need a bound that is tighter than `precision`.
     double upper_bound(float t_low, float t_high, double precision);
 

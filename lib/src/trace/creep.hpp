@@ -7,8 +7,8 @@
 // *Enclosed stretches.* Interval arithmetic with derivatives bounds the component φ of the ray's phase over a whole
 // stretch of the ray (ComponentAlongRay). If φ < resolution/16 all along it, no other phase is deeper than the rounding
 // error, and the ray passes the stretch. Here, creeping rays differ from others: for other rays, a phase that is never
-// deeper than the rounding error still counts if it lasts for one and a half resolutions (March::is_crossing). A creep
-// along a plane is one such stretch; along a curved surface, stretches are about √(resolution · radius) long.
+// deeper than the rounding error still counts if it lasts for one and a half resolutions (March::decide_crossing). A
+// creep along a plane is one such stretch; along a curved surface, stretches are about √(resolution · radius) long.
 //
 // *Walks.* Where nothing can be proven (outlines, patterns and images, whose derivatives are unknown), the ray walks in
 // steps of a resolution, eight per batch, while the interface is near. Where the label flickers because of rounding

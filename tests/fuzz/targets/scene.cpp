@@ -10,6 +10,7 @@
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "source_directory.hpp"
+#include "support/example_readers.hpp"
 
 namespace phasetree::fuzz {
 
@@ -18,29 +19,7 @@ namespace {
 constexpr std::size_t most_instructions = 300;  // of what is traced: an input is to take milliseconds
 constexpr int most_questions = 60;              // whether building is cancelled: one for each box that is divided
 
-HeightGrid some_heights(const std::filesystem::path&) {
-    return {3, 2, {0, 0.5f, 1, 0.25f, 0, 0.75f}};
-}
-
-VoxelGrid some_level_set(const std::filesystem::path&, const std::string&) {
-    return VoxelGrid::of_voxels("volume", {{9, 4, 3}, glm::dvec3(-0.4), glm::dvec3(0.1)},
-                                [](int x, int y, int) { return 0.02f * static_cast<float>((x + y) % 5 - 2); });
-}
-
-LabelGrid some_labels(const std::filesystem::path&, const std::string&) {
-    LabelGrid grid;
-    grid.lattice.size = {3, 2, 2};
-    grid.numbers = {0, 1, 2};
-    grid.voxels = {0, 1, 1, 2, 2, 0, 1, 0, 1, 2, 1, 0};
-    return grid;
-}
-
-TextOutlines some_text(const std::filesystem::path&, const std::string&) {
-    return {{{.width = 1, .places = 1, .letters = {{0, 0, {{{0, 0}, {0.5f, -0.25f}, {1, 0}, {1, 1}}}}}}}};
-}
-
-const FileReaders readers{
-    .height_grid = some_heights, .level_set = some_level_set, .label_grid = some_labels, .text_outlines = some_text};
+const FileReaders readers = tests::example_readers();
 
 // Files are sought beside the gallery's scenes.
 Document document_of(std::string_view text) {

@@ -3,6 +3,7 @@
 /// Lists of balls, one by one.
 
 #include "phasetree/nodes/phased/particles.hpp"
+#include "support/random_number.hpp"
 #include "support/set_algebra/components.hpp"
 
 namespace phasetree::tests::oracle {
@@ -60,3 +61,19 @@ inline Components components(const Particles& n, const dvec3& p) {
 }
 
 }  // namespace phasetree::tests::oracle
+
+namespace phasetree::tests {
+
+inline BallList random_content(Random& rng, std::type_identity<BallList>) {
+    BallList list;
+    const bool has_radii = rng.chance(0.7), has_phases = rng.chance(0.7);
+    const auto coordinate = [&] { return detail::random_number(rng, {"", "m", ""}); };
+    for (int left = 1 + rng.below(rng.chance(0.3) ? 60 : 6); left > 0; --left) {
+        list.centres.emplace_back(coordinate(), coordinate(), coordinate());
+        if (has_radii) list.radii.push_back(rng.chance(0.3) ? 0.25f : rng.uniform(0.05f, 0.4f));
+        if (has_phases) list.phases.push_back(static_cast<std::uint8_t>(rng.below(2)));
+    }
+    return list;
+}
+
+}  // namespace phasetree::tests

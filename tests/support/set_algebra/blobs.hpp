@@ -2,6 +2,7 @@
 
 /// Fields of other models: a sum of skeletons, a network.
 
+#include "support/random_tree.hpp"
 #include "support/set_algebra/primitives.hpp"
 
 namespace phasetree::tests::oracle {
@@ -67,3 +68,19 @@ inline bool member(const Siren& n, const dvec3& p) {
 }
 
 }  // namespace phasetree::tests::oracle
+
+namespace phasetree::tests {
+
+inline SirenNetwork random_content(Random& rng, std::type_identity<SirenNetwork>) {
+    SirenNetwork network;
+    network.radius = rng.uniform(0.5f, 1.2f);
+    for (const auto& [inputs, outputs] : {std::pair(3, 7), std::pair(7, 5), std::pair(5, 1)}) {
+        SirenNetwork::Layer layer{inputs, outputs, {}, {}};
+        for (int i = 0; i < inputs * outputs; ++i) layer.weights.push_back(rng.uniform(-0.9f, 0.9f));
+        for (int o = 0; o < outputs; ++o) layer.bias.push_back(rng.uniform(-0.9f, 0.5f));
+        network.layers.push_back(std::move(layer));
+    }
+    return network;
+}
+
+}  // namespace phasetree::tests

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "support/random_text.hpp"
 #include "support/set_algebra/profiles.hpp"
 
 namespace phasetree::tests::oracle {
@@ -111,3 +112,11 @@ inline bool member(const Text& n, const dvec3& p) {
 }
 
 }  // namespace phasetree::tests::oracle
+
+namespace phasetree::tests {
+
+inline TextOutlines random_content(Random& rng, std::type_identity<TextOutlines>) {
+    return random_text(rng);
+}
+
+}  // namespace phasetree::tests

@@ -2,6 +2,7 @@
 
 /// Patterns that fill space: Voronoi cells, endless copies, terrains of an image.
 
+#include "support/random_tree.hpp"
 #include "support/set_algebra/components.hpp"
 #include "support/set_algebra/primitives.hpp"
 
@@ -155,3 +156,13 @@ Components components(const N& n, const dvec3& p) {
 }
 
 }  // namespace phasetree::tests::oracle
+
+namespace phasetree::tests {
+
+inline HeightGrid random_content(Random& rng, std::type_identity<HeightGrid>) {
+    HeightGrid grid{2 + rng.below(4), 2 + rng.below(4), {}};
+    for (int i = 0; i < grid.width * grid.height; ++i) grid.values.push_back(rng.uniform(0, 1));
+    return grid;
+}
+
+}  // namespace phasetree::tests

@@ -4,6 +4,7 @@
 
 #include "phasetree/nodes/fields/volume.hpp"
 #include "phasetree/nodes/phased/labels.hpp"
+#include "support/random_voxels.hpp"
 #include "support/set_algebra/components.hpp"
 #include "support/set_algebra/primitives.hpp"
 
@@ -81,3 +82,20 @@ inline Components components(const Labels& n, const dvec3& p) {
 }
 
 }  // namespace phasetree::tests::oracle
+
+namespace phasetree::tests {
+
+inline VoxelGrid random_content(Random& rng, std::type_identity<VoxelGrid>) {
+    return random_level_set(rng);
+}
+inline LabelGrid random_content(Random& rng, std::type_identity<LabelGrid>) {
+    return random_labels(rng, 2 + rng.below(3));
+}
+/// Images have no spacing of their own. There are as many numbers as the example's phases and the vacuum.
+inline LabelGrid example_content(Random& rng, std::type_identity<LabelGrid>) {
+    LabelGrid grid = random_labels(rng, 3);
+    grid.has_spacing = false;
+    return grid;
+}
+
+}  // namespace phasetree::tests

@@ -22,11 +22,14 @@ HeightGrid read_height_grid(const std::filesystem::path& path) {
 }
 
 FileReaders file_readers() {
-    return {.height_grid = read_height_grid,
-            .level_set = read_level_set,
-            .label_grid = read_label_grid,
-            .label_files = layers_of_stack,
-            .text_outlines = read_text};
+    const auto read_heights = [](const std::filesystem::path& path, const std::string&) {
+        return read_height_grid(path);
+    };
+    return FileReaders()
+        .add<HeightGrid>({.read = read_heights})
+        .add<VoxelGrid>({.read = read_level_set})
+        .add<LabelGrid>({.read = read_label_grid, .files = layers_of_stack})
+        .add<TextOutlines>({.read = read_text});
 }
 
 }  // namespace phasetree::tracer

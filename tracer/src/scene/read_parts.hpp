@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "phasetree/io/document.hpp"
+#include "phasetree/io/file_readers.hpp"
+#include "phasetree/nodes/fields/height_grid.hpp"
 #include "scene/scene.hpp"
 #include "scene/shutter.hpp"
 

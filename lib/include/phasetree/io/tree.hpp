@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -9,13 +8,10 @@
 #include <vector>
 
 #include "phasetree/io/document.hpp"
+#include "phasetree/io/file_readers.hpp"
 #include "phasetree/io/node_places.hpp"
 #include "phasetree/model/handle.hpp"
-#include "phasetree/nodes/fields/height_grid.hpp"
 #include "phasetree/nodes/fields/siren_network.hpp"
-#include "phasetree/nodes/fields/voxel_grid.hpp"
-#include "phasetree/nodes/phased/label_grid.hpp"
-#include "phasetree/nodes/profiles/text_outlines.hpp"
 
 namespace phasetree {
 
@@ -32,20 +28,6 @@ struct PhaseNames {
 struct SceneTree {
     PhaseNames phases;
     Phased object;
-};
-
-/// Callbacks that read the files named by nodes. The library itself reads neither images nor OpenVDB nor fonts; the
-/// application provides readers for them. A reader may throw any std::exception whose what() describes the problem.
-/// `grid` is the name of the grid to read from a file that may contain several, or empty.
-struct FileReaders {
-    std::function<HeightGrid(const std::filesystem::path&)> height_grid{};
-    std::function<VoxelGrid(const std::filesystem::path&, const std::string& grid)> level_set{};
-    std::function<LabelGrid(const std::filesystem::path&, const std::string& grid)> label_grid{};
-    /// The files that the name of a label grid stands for, such as the images of a stack. Without this callback, the
-    /// name stands for one file.
-    std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> label_files{};
-    /// The outlines of a text in a font.
-    std::function<TextOutlines(const std::filesystem::path& font, const std::string& text)> text_outlines{};
 };
 
 /// Read the weights of a network: {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}. Throws SceneError;

@@ -7,6 +7,7 @@
 
 #include "phasetree/math/affine_map.hpp"
 #include "phasetree/math/point_range.hpp"
+#include "phasetree/model/enclosing.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree {
@@ -31,12 +32,25 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
-/// A primitive with a long equation, which counts as several instructions. In boxes where its Lipschitz bound is tight
-/// enough, its equation is not evaluated with interval arithmetic.
+/// A primitive with a long equation. It states its cost (StatesCost) and how it is enclosed in a box (StatesEnclosing,
+/// unless it is local: LocalPrimitive); without either, the library does not compile.
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
+
+/// A primitive that states what evaluating it for a batch of eight points costs: `half_instructions`, in halves of the
+/// cost of a simple instruction such as an addition. A rough estimate is enough.
+template <class N>
+concept HasConstantCost = requires {
+    { N::half_instructions } -> std::convertible_to<unsigned>;
+};
+template <class N>
+concept HasCostInData = requires(const float* data) {
+    { N::half_instructions(data) } -> std::same_as<unsigned>;
+};
+template <class N>
+concept StatesCost = HasConstantCost<N> || HasCostInData<N>;
 
 /// A primitive whose features are about as large as period(), a length in the primitive's own space. In larger boxes
 /// its values cannot be bounded well.
@@ -87,6 +101,14 @@ concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm:
 template <class M>
 concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const Vec3<float>& p) {
     { m(p) } -> std::same_as<Vec3<float>>;
+};
+
+/// A map that folds space, so that it jumps. The number of jumps along an axis is unlimited.
+template <class M>
+concept FoldingMap = PointMap<M> && requires(const M& m, int axis, double low, double high) {
+    { m.finest_spacing() } -> std::same_as<float>;  // the smallest distance between two jumps along an axis
+    // Whether the map jumps between two values of a point's coordinate.
+    { m.jumps_between(axis, low, high) } -> std::same_as<bool>;
 };
 
 /// An affine map that equals affine() to the last bit, so that it can be composed with the map that follows it.

@@ -34,6 +34,7 @@
 #include "phasetree/nodes/fields/link.hpp"
 #include "phasetree/nodes/fields/merge.hpp"
 #include "phasetree/nodes/fields/mesh.hpp"
+#include "phasetree/nodes/fields/mesh_traits.hpp"
 #include "phasetree/nodes/fields/octahedron.hpp"
 #include "phasetree/nodes/fields/offset.hpp"
 #include "phasetree/nodes/fields/plane.hpp"

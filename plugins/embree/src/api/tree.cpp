@@ -1,5 +1,7 @@
 #include "api/tree_data.hpp"
 
+#include "phasetree/nodes/fields/height_grid.hpp"
+
 struct PhasetreeImageSink {
     phasetree::HeightGrid grid;
 };
@@ -15,7 +17,7 @@ std::uint64_t number_of(PhasetreeTree handle) {
 PhasetreeTree make(Document document, std::optional<PhasetreeFileReader> reader) {
     FileReaders readers;
     if (reader) {
-        readers.height_grid = [reader](const std::filesystem::path& path) {
+        const auto read_image = [reader](const std::filesystem::path& path, const std::string&) {
             PhasetreeImageSink sink;
             if (const char* problem = reader->readImage(reader->userPtr, path.string().c_str(), &sink))
                 throw std::runtime_error(problem);
@@ -24,6 +26,7 @@ PhasetreeTree make(Document document, std::optional<PhasetreeFileReader> reader)
                     fmt::format("\"{}\": the application's reader returned no image", path.string()));
             return std::move(sink.grid);
         };
+        readers.add<HeightGrid>({.read = read_image});
     }
     SceneTree tree = read_tree(document, readers);
     std::vector<std::optional<std::string>> materials(1);  // the vacuum's

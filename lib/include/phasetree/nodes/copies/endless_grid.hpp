@@ -19,6 +19,20 @@ struct FoldMap {
         return {folded(p.x, 0), folded(p.y, 1), folded(p.z, 2)};
     }
 
+    /// See FoldingMap.
+    float finest_spacing() const {
+        float finest = Bounds::infinity;
+        for (int axis = 0; axis < 3; ++axis)
+            if (spacing[axis] > 0) finest = std::min(finest, spacing[axis]);
+        return finest;
+    }
+    bool jumps_between(int axis, double low, double high) const {
+        const auto cell = [&](double at) {
+            return std::floor((at - static_cast<double>(centre[axis])) * static_cast<double>(inverse[axis]) + 0.5);
+        };
+        return cell(low) != cell(high);
+    }
+
   private:
     template <class T>
     T folded(const T& x, int axis) const {

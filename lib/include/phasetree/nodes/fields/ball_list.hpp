@@ -5,6 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "phasetree/model/from_file.hpp"
+
 namespace phasetree {
 
 /// Balls read from a file. Radii and phases are either empty or have one entry per centre. A phase is an index into a
@@ -20,6 +22,11 @@ struct BallList {
     std::size_t bytes() const {
         return centres.size() * sizeof(centres[0]) + radii.size() * sizeof(radii[0]) + phases.size();
     }
+};
+
+template <>
+struct FileFormat<BallList> {
+    static BallList read(const std::filesystem::path&);
 };
 
 }  // namespace phasetree

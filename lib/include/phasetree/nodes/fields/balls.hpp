@@ -67,6 +67,9 @@ struct Balls {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
+        /// A few balls, one by one.
+        static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                            const std::array<double, 3>& half);
         static std::size_t floats(const float* data) { return balls::ShortList::floats(data); }
         static unsigned half_instructions(const float* data) {
             return 2 + 4 * static_cast<unsigned>(balls::ShortList::count(data));

@@ -139,6 +139,8 @@ struct Formula {
 
     /// A term f/λ.
     struct Term {
+        static constexpr unsigned half_instructions = 120;
+        static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }

@@ -18,7 +18,9 @@ namespace phasetree {
 /// distance() is the noise divided by the bound of its slope, and therefore 1-Lipschitz like every primitive.
 struct FractalNoise {
     static constexpr bool is_long = true;  ///< a LongPrimitive
-    float frequency = 1;                   ///< 1/size of the first octave
+    static constexpr unsigned half_instructions = 120;
+    static constexpr EnclosedBy enclosed_by = EnclosedBy::equation;
+    float frequency = 1;  ///< 1/size of the first octave
     float octaves = 1;
     float weight = 1 / steepest;  ///< of the first octave
 

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "phasetree/model/from_file.hpp"
+
 namespace phasetree {
 
 /// Heights on a rectangular grid, from 0 to 1. Stored row by row; the first row is at the largest y, as in an image
@@ -12,6 +14,11 @@ struct HeightGrid {
     std::vector<float> values;
 
     std::size_t bytes() const { return values.size() * sizeof(float); }
+};
+
+template <>
+struct FileFormat<HeightGrid> {
+    static constexpr std::string_view no_reader = "this program reads no images";
 };
 
 }  // namespace phasetree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "phasetree/model/from_file.hpp"
 #include "phasetree/nodes/fields/height_grid.hpp"
@@ -76,6 +77,9 @@ struct HeightMap {
         table[6] = high;
         highest = high;
     }
+    static constexpr std::uint16_t floats_read = 9;  ///< per evaluation; see OpTraits
+    static constexpr unsigned half_instructions = 120;
+    static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {

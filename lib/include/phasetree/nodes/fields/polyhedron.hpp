@@ -44,6 +44,8 @@ struct Polyhedron {
             table.insert(table.end(), {n.x, n.y, n.z, offset});
         }
     }
+    static constexpr unsigned half_instructions = 120;
+    static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {

@@ -35,6 +35,8 @@ struct Polyline {
             table.insert(table.end(), {a.x, a.y, a.z, along.x, along.y, along.z, squared > 1e-18f ? 1 / squared : 0.f});
         }
     }
+    static constexpr unsigned half_instructions = 120;
+    static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {

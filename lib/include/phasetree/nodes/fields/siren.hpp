@@ -25,6 +25,13 @@ struct Siren {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
+        static constexpr bool is_best_in_small_boxes = true;  ///< see OpTraits
+        /// Inside the cube, by Taylor polynomials.
+        static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                            const std::array<double, 3>& half);
+        static unsigned half_instructions(const float* data) {
+            return static_cast<unsigned>(multiplications(data)) / 3;
+        }
         /// The number of multiplications per evaluation, which dominate its cost.
         static float multiplications(const float* data) {
             float sum = 0;

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "phasetree/model/from_file.hpp"
+
 namespace phasetree {
 
 /// A network of sinusoidal layers (Sitzmann et al., "Implicit Neural Representations with Periodic Activation
@@ -35,6 +37,11 @@ struct SirenNetwork {
     /// The data of the program's primitive: the number of layers, the radius, and for each layer its inputs, outputs, W
     /// and b. W and b of the last layer are multiplied by `scale`.
     std::vector<float> table(float scale) const;
+};
+
+template <>
+struct FileFormat<SirenNetwork> {
+    static SirenNetwork read(const std::filesystem::path&);
 };
 
 }  // namespace phasetree

@@ -28,7 +28,10 @@ struct Volume {
 
     /// The primitive f/λ.
     struct Samples {
-        static constexpr unsigned search_half_instructions = 120;
+        static constexpr unsigned half_instructions = 120;
+        /// By the voxels that are near.
+        static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
+                                                            const std::array<double, 3>& half);
         static float period(const float* data) { return voxels::feature_size(data); }
         std::shared_ptr<const VoxelGrid> grid{};
 

@@ -17,7 +17,8 @@ namespace phasetree {
 ///
 /// In a small box few sites matter: those that may be the nearest, and those whose bisector is not clamped.
 struct VoronoiCells {
-    static constexpr bool is_long = true;  ///< a LongPrimitive
+    static constexpr bool is_long = true;               ///< a LongPrimitive
+    static constexpr unsigned half_instructions = 800;  ///< for all sites
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"voronoi_cells", "4.3, 9.1",
                                    "g/2 − max(v, 0),  v = (Σ over t ≠ s of (bₜ + c)⁻⁸)^(−1/8) − c,  "
@@ -93,6 +94,7 @@ struct VoronoiCells {
     }
     /// The same primitive, with only the sites that matter in one small box as its data.
     struct Specialised : SpecialisedVoronoi {
+        static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
         static unsigned half_instructions(const float* data) { return 10 + 5 * sites(data); }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p);

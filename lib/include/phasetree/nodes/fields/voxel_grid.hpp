@@ -14,6 +14,7 @@
 #include "phasetree/math/found_equation.hpp"
 #include "phasetree/math/number.hpp"
 #include "phasetree/math/vec3.hpp"
+#include "phasetree/model/from_file.hpp"
 
 namespace phasetree {
 
@@ -246,4 +247,11 @@ T spline_at(const float* data, const Vec3<T>& p) {
 }
 
 }  // namespace voxels
+
+/// The file of a level set, as the node `volume` reads it.
+template <>
+struct FileFormat<VoxelGrid> {
+    static constexpr std::string_view no_reader = "this program reads no OpenVDB files";
+};
+
 }  // namespace phasetree

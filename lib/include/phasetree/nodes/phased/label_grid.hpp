@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "phasetree/model/from_file.hpp"
 #include "phasetree/nodes/fields/voxel_grid.hpp"
 
 namespace phasetree {
@@ -20,6 +21,11 @@ struct LabelGrid {
     std::vector<std::uint8_t> voxels{};   ///< index in `numbers` of each voxel, x fastest, then y
 
     std::size_t bytes() const { return voxels.size() + numbers.size() * sizeof(numbers[0]); }
+};
+
+template <>
+struct FileFormat<LabelGrid> {
+    static constexpr std::string_view no_reader = "this program reads neither OpenVDB files nor images";
 };
 
 }  // namespace phasetree

@@ -19,7 +19,8 @@ struct Voronoi {
         "phases. With the same size, jitter and seed, the cells are those of voronoi_cells."};
     /// The primitive for the distance to the nearest site of one kind.
     struct Nearest {
-        static constexpr bool is_long = true;  ///< a LongPrimitive
+        static constexpr bool is_long = true;               ///< a LongPrimitive
+        static constexpr unsigned half_instructions = 800;  ///< for all sites
         float size = 1;
         float jitter = 1;
         float seed = 0;
@@ -47,6 +48,7 @@ struct Voronoi {
 
         /// The same primitive, with only the sites of its kind that may be the nearest in one small box as its data.
         struct Specialised : SpecialisedVoronoi {
+            static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
             static unsigned half_instructions(const float* data) { return 6 + 2 * sites(data); }
             template <class T>
             static T distance(const float* data, const Vec3<T>& p) {

@@ -23,6 +23,7 @@ struct OutlineInBox {
     /// box would be inside without its pieces and 1 otherwise, the number of heights, the heights, and the pieces.
     struct Specialised {
         static constexpr std::size_t head = 4;
+        static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }

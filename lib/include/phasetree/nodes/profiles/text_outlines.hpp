@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "phasetree/model/from_file.hpp"
+
 namespace phasetree {
 
 /// A text laid out in lines, as outlines of a font. The unit is the font's em: capitals are about 0.7 em high. x runs
@@ -34,6 +36,11 @@ struct TextOutlines {
         }
         return sum;
     }
+};
+
+template <>
+struct FileFormat<TextOutlines> {
+    static constexpr std::string_view no_reader = "this program reads no fonts";
 };
 
 }  // namespace phasetree
