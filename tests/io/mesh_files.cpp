@@ -220,7 +220,7 @@ TEST_CASE("every shortened file is read or refused") {
 TEST_CASE("a scene has a mesh beside it, and says where it names one that is no solid") {
     const WrittenFiles files(read_mesh);
     std::ofstream(files.path() / "solid.obj") << obj;
-    std::ofstream(files.path() / "open.obj") << obj.substr(0, obj.rfind("f "));
+    std::ofstream(files.path() / "sheet.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const auto scene = [&](const std::string& file) {
         return Document::from_text(
             "{\"version\": 1, \"phases\": {\"a\": {}}, \"tree\": {\"set\": {\"phase\": \"a\", \"of\":\n"
@@ -232,13 +232,13 @@ TEST_CASE("a scene has a mesh beside it, and says where it names one that is no 
     CHECK(write_tree(tree).find("solid.obj") != std::string::npos);
     std::string said;
     try {
-        (void)read_tree(scene("open.obj"));
+        (void)read_tree(scene("sheet.obj"));
     } catch (const SceneError& e) {
         said = e.what();
     }
     CAPTURE(said);
     CHECK(said.find(":2:2: mesh: ") != std::string::npos);
-    CHECK(said.find("is not closed: the edge from ") != std::string::npos);
+    CHECK(said.find("sheet.obj is a sheet that encloses nothing: ") != std::string::npos);
 }
 
 }  // namespace test_mesh_files

@@ -82,7 +82,8 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
         // Counts multiply, in a grid and down the tree. A slope that is only sampled is not proven.
         value = p.name == "samples" ? 0 : 1 + rng.below(2);
     } else if constexpr (std::is_same_v<Value, std::string>) {
-        value = random_formula(rng);
+        static constexpr const char* rules[] = {"", "winding_number", "even_odd", "non_zero"};
+        value = p.name == "rule" ? rules[rng.below(4)] : random_formula(rng);
     } else if constexpr (std::is_same_v<Value, glm::vec3>) {
         for (int i = 0; i < 3; ++i) value[i] = random_number(rng, p);
     } else if constexpr (std::is_same_v<Value, glm::vec2>) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "nodes/box_tree.hpp"
+#include "nodes/mesh_repair/repair.hpp"
 #include "nodes/mesh_surface.hpp"
 #include "phasetree/math/portable.hpp"
 
@@ -148,15 +150,38 @@ class TableWriter {
     std::vector<double> largest_angle_;
 };
 
+using mesh::WindingRule;
+
+WindingRule rule_of(const std::string& rule) {
+    if (rule.empty() || rule == "winding_number") return WindingRule::winding_number;
+    if (rule == "even_odd") return WindingRule::even_odd;
+    if (rule == "non_zero") return WindingRule::non_zero;
+    throw ModelError(
+        fmt::format("mesh: unknown rule \"{}\": use \"winding_number\", \"even_odd\" or \"non_zero\"", rule));
+}
+
+// The surface as it is; nothing if it has to be repaired.
+std::optional<Surface> clean_surface(const TriangleMesh& triangles, const std::string& name) {
+    try {
+        Surface surface = mesh::surface_of(triangles, name);
+        mesh::require_no_crossing(surface, name);
+        mesh::require_outward(surface, name);
+        return surface;
+    } catch (const mesh::UncleanMesh&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 void Mesh::prepare() {
     const std::string name = file.path.empty() ? "it" : file.path;
     if (file.content->triangles.size() > TriangleMesh::most_triangles)
         throw ModelError(fmt::format("mesh: {} has more than {} triangles", name, TriangleMesh::most_triangles));
-    const Surface surface = mesh::surface_of(*file.content, name);
-    mesh::require_no_crossing(surface, name);
-    mesh::require_outward(surface, name);
+    const WindingRule winding_rule = rule_of(rule);
+    const std::optional<Surface> clean = clean_surface(*file.content, name);
+    const Surface surface = clean ? *clean : mesh::repaired(*file.content, winding_rule, name);
+    corners = clean ? std::vector<glm::vec3>() : surface.vertices;
     table = TableWriter(surface)();
     box = {};
     for (const Bounds& b : mesh::boxes_of(surface)) box = unite(box, b);
@@ -164,7 +189,8 @@ void Mesh::prepare() {
 
 double Mesh::support(const glm::dvec3& d, float level) const {
     double most = -std::numeric_limits<double>::infinity();
-    for (const glm::vec3& v : file.content->vertices) most = std::max(most, glm::dot(d, glm::dvec3(v)));
+    for (const glm::vec3& v : corners.empty() ? file.content->vertices : corners)
+        most = std::max(most, glm::dot(d, glm::dvec3(v)));
     return most + glm::length(d) * static_cast<double>(level);
 }
 

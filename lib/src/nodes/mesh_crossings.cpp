@@ -155,8 +155,8 @@ void require_no_crossing(const Surface& s, const std::string& name) {
         work.pay(steps);
         if (!crossed) continue;
         const Bounds both = intersect(boxes[t], boxes[*crossed]);
-        throw ModelError(fmt::format("mesh: {} crosses or touches itself: triangles {} and {}, near {}", name,
-                                     s.numbers[t], s.numbers[*crossed], written(both.centre())));
+        throw UncleanMesh(fmt::format("mesh: {} crosses or touches itself: triangles {} and {}, near {}", name,
+                                      s.numbers[t], s.numbers[*crossed], written(both.centre())));
     }
 }
 
@@ -173,7 +173,7 @@ void require_outward(const Surface& s, const std::string& name) {
     }
     if (roots.size() == 1) {
         if (volume[0] > 0) return;
-        throw ModelError(fmt::format("mesh: {} is inside out: its triangles are clockwise seen from outside", name));
+        throw UncleanMesh(fmt::format("mesh: {} is inside out: its triangles are clockwise seen from outside", name));
     }
     const BoxTree tree(boxes_of(s), most_in_leaf);
     model::Preparation work("mesh");
@@ -189,9 +189,9 @@ void require_outward(const Surface& s, const std::string& name) {
                 winding_number(s, tree, s.corner(root, 0), d, [&](std::uint32_t t) { return shells.root(t) == root; });
         }
         if (winding == expected) continue;
-        throw ModelError(fmt::format("mesh: {} has a part that is {}: that of its triangle {} at {}", name,
-                                     volume[root] > 0 ? "within its solid" : "inside out", s.numbers[root],
-                                     written(s.corner(root, 0))));
+        throw UncleanMesh(fmt::format("mesh: {} has a part that is {}: that of its triangle {} at {}", name,
+                                      volume[root] > 0 ? "within its solid" : "inside out", s.numbers[root],
+                                      written(s.corner(root, 0))));
     }
 }
 

@@ -21,11 +21,12 @@ constexpr float farthest_coordinate = 1e9f;
 class Complaint {
   public:
     explicit Complaint(const std::string& name) : name_(name) {}
-    [[noreturn]] void operator()(const std::string& what) const {
-        throw ModelError(fmt::format("mesh: {} {}", name_, what));
-    }
+    [[noreturn]] void operator()(const std::string& what) const { throw UncleanMesh(text(what)); }
+    [[noreturn]] void beyond_repair(const std::string& what) const { throw ModelError(text(what)); }
 
   private:
+    std::string text(const std::string& what) const { return fmt::format("mesh: {} {}", name_, what); }
+
     const std::string& name_;
 };
 
@@ -33,12 +34,12 @@ void check_numbers(const TriangleMesh& mesh, const Complaint& complain) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (!(std::abs(mesh.vertices[i][k]) <= farthest_coordinate))
-                complain(fmt::format("has a vertex ({}) that is farther than 1e9 m from the origin, or not a number",
-                                     i + 1));
+                complain.beyond_repair(fmt::format(
+                    "has a vertex ({}) that is farther than 1e9 m from the origin, or not a number", i + 1));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int i = 0; i < 3; ++i)
             if (mesh.triangles[t][i] >= mesh.vertices.size())
-                complain(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
+                complain.beyond_repair(fmt::format("has a triangle ({}) with a vertex that does not exist", t + 1));
 }
 
 // Adds the triangles of these points in ascending order, each starting with its smallest corner.
@@ -171,7 +172,7 @@ Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
     Surface s;
     add_triangles(s, mesh, joined);
     s.vertices = std::move(joined.points);
-    if (s.triangles.empty()) complain("has no triangles");
+    if (s.triangles.empty()) complain.beyond_repair("has no triangles");
     join(s, complain);
     require_single_rings(s, complain);
     add_normals(s, complain);

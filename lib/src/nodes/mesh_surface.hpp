@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "phasetree/math/bounds.hpp"
+#include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/triangle_mesh.hpp"
 
 namespace phasetree::mesh {
@@ -32,13 +33,20 @@ struct Surface {
     glm::dvec3 corner(std::uint32_t triangle, int i) const { return at(triangles[triangle][i]); }
 };
 
-/// Throws ModelError if the triangles do not form such a surface; `name` is the mesh's name in messages.
+/// Thrown for a mesh that is no clean surface. It can be repaired (mesh_repair/repair.hpp).
+class UncleanMesh : public ModelError {
+    using ModelError::ModelError;
+};
+
+/// Throws UncleanMesh if the triangles do not form such a surface, and ModelError if there are none or their numbers
+/// are bad; `name` is the mesh's name in messages.
 Surface surface_of(const TriangleMesh&, const std::string& name);
 
-/// Throws ModelError if two triangles cross, or touch outside their shared vertices and edges.
+/// Throws UncleanMesh if two triangles cross, or touch outside their shared vertices and edges.
 void require_no_crossing(const Surface&, const std::string& name);
 
-/// Throws ModelError if the solid is on the outside of a triangle: the whole surface, or one of several, is inside out.
+/// Throws UncleanMesh if the solid is on the outside of a triangle: the whole surface, or one of several, is inside
+/// out.
 void require_outward(const Surface&, const std::string& name);
 
 /// The boxes around the triangles.

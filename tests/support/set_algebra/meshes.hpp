@@ -1,7 +1,8 @@
 #pragma once
 
-/// The solid within a closed surface of triangles.
+/// The solid within a surface of triangles.
 
+#include <cmath>
 #include <numbers>
 
 #include "phasetree/nodes/fields/mesh.hpp"
@@ -29,7 +30,9 @@ inline double winding_number(const TriangleMesh& mesh, const dvec3& p) {
 }
 
 inline bool member(const Mesh& n, const dvec3& p) {
-    return winding_number(*n.file.content, p) > 0.5;
+    const double winding = winding_number(*n.file.content, p);
+    if (n.rule == "even_odd") return std::lround(winding) % 2 != 0;
+    return (n.rule == "non_zero" ? std::abs(winding) : winding) > 0.5;
 }
 inline double signed_value(const Mesh& n, const dvec3& p) {
     double nearest = absent;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "phasetree/math/found_equation.hpp"
 #include "phasetree/math/portable.hpp"
 #include "phasetree/model/from_file.hpp"
@@ -9,9 +12,12 @@
 
 namespace phasetree {
 
-/// The solid within a triangulated surface, exact on both sides. The surface must be closed, must not cross itself or
-/// touch itself along edges, and its triangles must all face outward. This is checked, so the nearest piece of the
-/// surface determines the sign of the distance (mesh_pieces.hpp).
+/// The solid within a triangulated surface, exact on both sides.
+///
+/// A clean surface is used as it is: closed, all triangles facing outward, not crossing itself, and not touching itself
+/// along edges. Any other is repaired first (lib/src/nodes/mesh_repair): the result is the boundary of the points
+/// around which the surface winds, without whatever lies within the solid or encloses nothing. Either way, the nearest
+/// piece of the surface determines the sign of the distance (mesh_pieces.hpp).
 ///
 /// Where two sheets of the surface are closer than the rounding of floats, either may be taken as the nearest, and the
 /// sign is uncertain even far from both.
@@ -21,24 +27,37 @@ namespace phasetree {
 struct Mesh {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
-                                   "The solid inside a closed triangle mesh; exact."};
+                                   "The solid inside a surface of triangles; exact."};
     static constexpr std::size_t most_pieces_in_box = 64;
 
     FromFile<TriangleMesh> file{};
-    std::vector<float> table{};  ///< derived: a PieceTree
-    Bounds box{};                ///< derived
+    std::string rule{};
+    std::vector<float> table{};        ///< derived: a PieceTree
+    std::vector<glm::vec3> corners{};  ///< derived: the vertices of the repaired surface; empty if the file is clean
+    Bounds box{};                      ///< derived
 
     template <class V>
     static void parameters(V&& v) {
         v(&Mesh::file, Parameter{"file", "",
-                                 "Mesh file: OBJ, PLY or STL, in metres. The surface must be closed, must not "
-                                 "intersect itself, and must be counter-clockwise seen from outside. Vertices that "
-                                 "differ only by rounding are merged; materials, normals and the like are ignored. "
-                                 "Walls and gaps thinner than a millionth of the mesh's size may be confused."});
+                                 "Mesh file: OBJ, PLY or STL, in metres. Triangles are counter-clockwise seen from "
+                                 "outside. Vertices that differ only by rounding are merged; materials, normals and "
+                                 "the like are ignored. Holes are closed, parts that intersect are joined, and parts "
+                                 "that are inside out are turned; only a mesh that encloses nothing is rejected. Walls "
+                                 "and gaps thinner than a millionth of the mesh's size may be confused."});
+        v(&Mesh::rule,
+          Parameter{.name = "rule",
+                    .unit = "",
+                    .description = "Which points are inside, by how often the surface winds around them: "
+                                   "\"winding_number\": at least once, the union of all parts; \"even_odd\": an odd "
+                                   "number of times, so a part within another is a cavity; \"non_zero\": any number of "
+                                   "times, in either direction. The default is \"winding_number\". All three are the "
+                                   "same for a closed mesh whose parts do not overlap.",
+                    .optional = true});
     }
-    /// Throws ModelError, with the place where the surface is wrong.
+    /// Throws ModelError if the numbers are bad or the surface encloses nothing.
     void prepare();
 
+    std::size_t derived_bytes() const { return std::span(table).size_bytes() + std::span(corners).size_bytes(); }
     std::span<const float> data() const { return table; }
     template <class T>
     static T distance(const float* data, const Vec3<T>& p) {

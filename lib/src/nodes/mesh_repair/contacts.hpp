@@ -1,0 +1,40 @@
+#pragma once
+
+#include "nodes/mesh_repair/chain.hpp"
+
+namespace phasetree::mesh {
+
+/// A point at which an edge, from `a` to `b` > `a`, has to be divided.
+struct EdgeContact {
+    std::uint32_t a, b;
+    glm::dvec3 at;
+};
+/// A point at which a triangle has to be divided.
+struct FaceContact {
+    std::uint32_t triangle;
+    glm::dvec3 at;
+};
+/// A segment between two such points along which a triangle meets another one. Its parts should be edges, too.
+struct SegmentContact {
+    std::uint32_t triangle;
+    glm::dvec3 from, to;
+};
+struct Contacts {
+    std::vector<EdgeContact> edges;
+    std::vector<FaceContact> faces;
+    std::vector<SegmentContact> segments;
+};
+
+/// What is closer than this counts as touching, in lattice steps. It is larger than the distances by which points are
+/// rounded, and than the rounding errors of the node's distances, so that no walls remain that these cannot resolve.
+inline constexpr double touching = 4;
+
+/// Find where two triangles cross or touch, other than in vertices and edges that they share: vertices of one close to
+/// an edge or the inside of the other, edges that pass each other closely, and edges that go through the inside.
+/// All results are lattice points. Numerical errors are far less than `touching`.
+void find_contacts(const Chain&, std::uint32_t one, std::uint32_t other, Contacts&);
+
+/// Find out whether a triangle is so thin that a corner touches the opposite edge.
+void find_own_contact(const Chain&, std::uint32_t triangle, Contacts&);
+
+}  // namespace phasetree::mesh
