@@ -339,7 +339,7 @@ TEST_CASE("what has no mesh is rejected, and a mesh can be cancelled") {
     CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.001f}),
                          doctest::Contains("more than 1024 cubes"), ModelError);
     CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.001f}),
-                         doctest::Contains("the least is 0.001953"), ModelError);
+                         doctest::Contains("use at least 0.001953"), ModelError);
     CHECK(mesh_of(Bounds::centred(glm::vec3(1)), nothing).triangles.empty());
     CHECK_THROWS_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.cancelled = [] { return true; }}),
                     MeshingCancelled);

@@ -75,7 +75,7 @@ class Formulas(unittest.TestCase):
     def test_refused_with_reason_and_place(self):
         x, y, z = self.x, self.y, self.z
         for expected, call in (
-            ("no bound far from the origin; say with \"bounds\"", lambda: (x**2 + y**2 - 1).field()),
+            ("unbounded far from the origin; limit it with \"bounds\"", lambda: (x**2 + y**2 - 1).field()),
             ("divides by zero near", lambda: (1 / x).within(-1, 1).field()),
             ("is zero or negative near", lambda: pt.sqrt(x + y).within(-1, 1).field()),
             ('at "sqrt((x + y))"', lambda: (z - pt.sqrt(x + y)).within(-1, 1).field()),

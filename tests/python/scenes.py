@@ -318,7 +318,7 @@ class Pictures(unittest.TestCase):
             ("no camera", lambda: scene.with_(camera=None).render()),
             ("no lights", lambda: scene.with_(lights=()).render()),
             ('"b" has no material', lambda: scene.with_(object=pt.phase("b")(pt.sphere(1))).render()),
-            ("is not a part", lambda: scene.render(crop=(0, 0, 100, 10))),
+            ("must lie within", lambda: scene.render(crop=(0, 0, 100, 10))),
             ('"samples" must be', lambda: scene.render(samples=0)),
             ("a light cannot be", lambda: scene.with_(lights=[pt.diffuse("#ffffff")])),
             ("shows an object of phases", lambda: pt.Scene(pt.sphere(1))),

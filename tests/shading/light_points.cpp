@@ -163,7 +163,7 @@ TEST_CASE("photometric files: what is wrong is said with its line") {
     };
     CHECK(says("", "no line TILT"));
     CHECK(says(std::string(100000, 'x'), "no line TILT"));
-    CHECK(says(replaced(file, "TILT=NONE", "TILT=lamp.tlt"), "line 3: TILT should be NONE or INCLUDE"));
+    CHECK(says(replaced(file, "TILT=NONE", "TILT=lamp.tlt"), "line 3: TILT must be NONE or INCLUDE"));
     CHECK(says(replaced(file, "2.0", "two"), "line 4: the candela multiplier must be a number"));
     CHECK(says(replaced(file, "3 3 1 2", "3 3 2 2"), "which is B"));
     CHECK(says(replaced(file, "3 3 1 2", "3 1e9 1 2"), "whole number from 1 to 1441"));
@@ -213,7 +213,7 @@ TEST_CASE("photometric files: the headings of all standards are read, however TI
                 }
     CHECK(problem_of(replaced(file, "TILT=NONE", "TILT NONE")).starts_with("it has no line TILT="));
     CHECK(problem_of(replaced(file, "TILT=NONE", "TILTED=NONE")).starts_with("it has no line TILT="));
-    CHECK(problem_of(replaced(file, "TILT=NONE", "tilt = lamp.tlt")).starts_with("line 3: TILT should be NONE or"));
+    CHECK(problem_of(replaced(file, "TILT=NONE", "tilt = lamp.tlt")).starts_with("line 3: TILT must be NONE or"));
 }
 
 TEST_CASE("photometric files: surplus numbers and decimal commas are refused, and other text at the end is not") {
@@ -238,7 +238,7 @@ TEST_CASE("photometric files: candelas that overflow are not called negative") {
     CHECK(problem_of(replaced(file, "1000 2.0", "1000 1e308")) ==
           "line 5: the candelas times 5e+307, the product of their multiplier and the factor of the ballast, are too "
           "large");
-    CHECK(problem_of(replaced(file, "77.5", "-77.5")).find("candelas should not be negative") != std::string::npos);
+    CHECK(problem_of(replaced(file, "77.5", "-77.5")).find("candelas must not be negative") != std::string::npos);
 }
 
 TEST_CASE("photometric files: random changes give a light or a reason") {

@@ -373,7 +373,7 @@ class Files(unittest.TestCase):
         with View(text) as view:
             warning = view.ready().state["warning"]
             checked = subprocess.run([COMMAND, "check", str(view.file)], capture_output=True, text=True, check=False, timeout=60)
-            self.assertIn('the group "lost" stands nowhere', checked.stderr)
+            self.assertIn('the group "lost" is not in the scene', checked.stderr)
             self.assertIn(checked.stderr.splitlines()[0], warning)
             self.assertIn(warning.strip(), view.said())
 

@@ -95,7 +95,7 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     CHECK(some.parts[0].name == "faint");
     CHECK(some.parts[1].name == "print");
     CHECK(some.not_shown.size() == 4);
-    CHECK(some.not_shown.at(0).find("\"pane\" is clear, and is left out") == 0);
+    CHECK(some.not_shown.at(0).find("\"pane\" is clear and therefore ignored") == 0);
     CHECK(some.not_shown.at(1).find("\"half\" is clear") == 0);
     CHECK(some.not_shown.at(2) == "\"faint\" is partly transmissive; it is rendered as opaque");
     CHECK(some.not_shown.at(3) == "\"print\" is partly transmissive; it is rendered as opaque");

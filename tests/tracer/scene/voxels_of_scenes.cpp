@@ -157,20 +157,20 @@ TEST_CASE("what does not go together is said at its place") {
         CHECK(said.find(what) != std::string::npos);
     };
     const std::string absorbs = R"("absorption": [1, 1, 1], )";
-    is_said(absorbs + R"("density_grid": {"file": "a.pgm"})", "needs \"spacing\"");
+    is_said(absorbs + R"("density_grid": {"file": "a.pgm"})", "give \"spacing\"");
     is_said(absorbs + R"("density_grid": {"file": "a.vdb", "spacing": [1, 1, 1]})",
-            "81: grids of OpenVDB have a spacing of their own");
+            "81: OpenVDB grids have their own spacing; remove \"spacing\"");
     is_said(absorbs + R"("density_grid": {IMAGE, "grid": "smoke"})", "images have no named grids; remove \"grid\"");
     is_said(absorbs + R"("density_grid": {"file": "b.pgm", "spacing": [1, 1, 1]})", "72: cannot use the voxels");
     is_said(R"("density_grid": {IMAGE})", "\"density_grid\" requires \"scattering\" or \"absorption\"");
     is_said(absorbs + R"("density": {"sphere": {"radius": 1}}, "density_depth": 1, "density_grid": {IMAGE})",
-            "\"density_grid\" and \"density\" exclude each other");
+            "\"density_grid\" and \"density\" cannot be combined");
     is_said(absorbs + R"("density_grid": {IMAGE}, "temperature_grid": {IMAGE})", "requires \"emission\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "temperature_grid": {IMAGE})",
-            "is of no use without \"density_grid\" or \"density\"");
+            "requires \"density_grid\" or \"density\"");
     is_said(absorbs + R"("emission": [1, 1, 1], "emission_spectrum": {"blackbody": 2000}, "density_grid": {IMAGE},
                          "temperature_grid": {IMAGE})",
-            "\"temperature_grid\" and \"emission_spectrum\" exclude each other");
+            "\"temperature_grid\" and \"emission_spectrum\" cannot be combined");
     is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e30, 0, 0]})",
             "its voxels are too small for their distance");
     is_said(absorbs + R"("density_grid": {IMAGE, "translate": [1e7, 0, 0]})",
