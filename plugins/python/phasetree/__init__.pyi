@@ -1565,12 +1565,13 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
     height: The height of white; black is at z = 0. (number in m; positive)
     """
 
-def mesh(file: str | PathLike[str]) -> Field:
-    r"""The solid within a closed surface of triangles, exact.
+def mesh(file: str | PathLike[str], rule: str | Expression | None = ...) -> Field:
+    r"""The solid within a surface of triangles, exact.
 
         ± min over the triangles of |p − nearest point|
 
-    file: The triangles: OBJ, PLY or STL, in metres, closed, not crossing itself, and counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are ignored. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    file: The triangles: OBJ, PLY or STL, in metres, counter-clockwise seen from outside. Corners that differ only by rounding are one; materials, normals and the like are ignored. Holes are closed, parts that cross each other are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected. Walls and gaps that are thinner than a millionth of the mesh's size may be taken for each other. (name of a file)
+    rule: Which points are inside, by how often the surface winds around them: "winding_number", once or more, the union of all parts; "even_odd", an odd number of times, so a part within another is a cavity; or "non_zero", any number of times, in either direction. The default is "winding_number". All three are the same for a closed mesh whose parts do not overlap. (text; default "")
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
