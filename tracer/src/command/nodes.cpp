@@ -1,4 +1,5 @@
 #include "command/commands.hpp"
+#include "command/errors.hpp"
 
 #include <CLI/CLI.hpp>
 #include "command/numbers.hpp"

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "nodes/mesh_repair/chain_winding.hpp"
-#include "nodes/mesh_repair/contacts.hpp"
 
 namespace phasetree::mesh {
 

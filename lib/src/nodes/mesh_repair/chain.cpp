@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "nodes/mesh_repair/vertex_at.hpp"
 #include "phasetree/nodes/fields/joined_vertices.hpp"
 
 namespace phasetree::mesh {
@@ -90,6 +91,7 @@ Chain welded(const TriangleMesh& mesh) {
         if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
             chain.triangles.push_back({corners});
     }
+    VertexAt(chain).join_touching();
     merge_equal(chain.triangles);
     for (ChainTriangle& t : chain.triangles) {
         if (t.times < 0) std::swap(t.corners[1], t.corners[2]);

@@ -3,7 +3,7 @@
 // The mesh becomes a chain: triangles with integer multiplicities, whose vertices are points of a lattice. Every step
 // below maps chains to chains, and keeps a closed chain closed, whatever is rounded:
 //
-//   weld         vertices are rounded to the lattice, and equal triangles are added up
+//   weld         vertices are rounded to the lattice, close ones are joined, and equal triangles are added up
 //   orient       triangles that share an edge get the same orientation, and shells that are inside out are turned
 //   close_holes  triangles between the boundary edges make the chain closed
 //   arrange      triangles are split until none of them cross; those that have become equal are added up
@@ -58,6 +58,10 @@ struct Chain {
     }
 };
 
+/// What is closer than this counts as touching, in lattice steps. It is larger than the distances by which points are
+/// rounded, and than the rounding errors of the node's distances, so that no walls remain that these cannot resolve.
+inline constexpr double touching = 4;
+
 /// A triangle's use of an edge, and whether the triangle traverses it from the low to the high vertex.
 struct EdgeOfChain {
     std::uint32_t low, high, triangle;
@@ -76,8 +80,8 @@ void for_each_edge(std::span<const EdgeOfChain> edges, F&& f) {
     }
 }
 
-/// Round vertices to the lattice. Of equal triangles one remains, or none if as many face either way. The result does
-/// not depend on the order of vertices and triangles.
+/// Round vertices to the lattice, and join those that touch. Of equal triangles one remains, or none if as many face
+/// either way. The result does not depend on the order of vertices and triangles.
 Chain welded(const TriangleMesh&);
 
 /// Add up equal triangles, remove those that count zero times, and sort.

@@ -25,10 +25,6 @@ struct Contacts {
     std::vector<SegmentContact> segments;
 };
 
-/// What is closer than this counts as touching, in lattice steps. It is larger than the distances by which points are
-/// rounded, and than the rounding errors of the node's distances, so that no walls remain that these cannot resolve.
-inline constexpr double touching = 4;
-
 /// Find where two triangles cross or touch, other than in vertices and edges that they share: vertices of one close to
 /// an edge or the inside of the other, edges that pass each other closely, and edges that go through the inside.
 /// All results are lattice points. Numerical errors are far less than `touching`.

@@ -26,10 +26,10 @@ Surface repaired(const TriangleMesh& mesh, WindingRule rule, const std::string& 
     if (!chain.triangles.empty()) {
         const std::vector<SideWinding> windings = windings_of(chain);
         if (!are_confirmed(chain, windings, touching_others))
-            throw ModelError(fmt::format(
-                "mesh: {} has parts that lie on each other within rounding, in so many places that it cannot be "
-                "repaired: move one of them by a ten-thousandth of the mesh's size, or remove it",
-                name));
+            throw ModelError(
+                fmt::format("mesh: {} has parts that lie on each other within rounding and cannot be separated: move "
+                            "one of them by a ten-thousandth of the mesh's size, or remove it",
+                            name));
         boundary = boundary_of(chain, windings, rule);
     }
     if (boundary.triangles.empty())

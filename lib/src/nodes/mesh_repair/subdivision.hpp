@@ -17,8 +17,8 @@ namespace phasetree::mesh {
 /// small triangles between consecutive vertices. The triangulation is constrained Delaunay in a projection, with ties
 /// decided by the numbers of vertices, so triangles in the same plane are divided alike where they overlap.
 ///
-/// Vertices may be off the triangle by rounding. Whatever they are, the boundary of the small triangles is that of the
-/// triangle with the vertices on its sides.
+/// Vertices may be off the triangle by rounding. The boundary of the small triangles is always that of the triangle
+/// with the vertices on its sides.
 class Subdivision {
   public:
     using Corners = std::array<std::uint32_t, 3>;
