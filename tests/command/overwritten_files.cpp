@@ -46,9 +46,10 @@ TEST_CASE("an output that is an input or another output is refused before any wo
     std::filesystem::create_hard_link(folder / "a.json", folder / "hard.json");
     std::filesystem::create_symlink("missing.exr", folder / "link.exr");
     std::filesystem::create_directory(folder / "sub");
-    REQUIRE(shell.run({"render", "a.json", "--quiet", "-o", "there.part", "-o", "there.exr"}).code == 0);
+    REQUIRE(shell.run({"render", "a.json", "--quiet", "--size", "24x12", "-o", "there.part", "-o", "there.exr"}).code ==
+            0);
     SceneText with_image;
-    with_image.lights = R"([{"environment": {"file": "sky.exr"}}])";
+    with_image.lights = R"([{"image": {"file": "sky.exr"}}])";
     write_text(shell.directory / "sky.json", with_image.text());
     std::filesystem::copy_file(folder / "there.exr", folder / "sky.exr");
 

@@ -221,22 +221,22 @@ TEST_CASE("photometric files: surplus numbers and decimal commas are refused, an
     CHECK(problem_of(file + "\n end of file 1\n") == "");
     const std::string surplus =
         "a number follows the last of the candelas, so there are more numbers than the file says";
-    CHECK(problem_of(file + "7\n") == "line 8: " + surplus);
-    CHECK(problem_of(file + "1e999\n") == "line 8: " + surplus);
+    CHECK(problem_of(file + "7\n") == "line 11: " + surplus);
+    CHECK(problem_of(file + "1e999\n") == "line 11: " + surplus);
     const std::string points = "; a comma separates numbers, so write decimal points";
-    CHECK(problem_of(replaced(file, "100 77.5 55", "100 77,5 55")) == "line 7: " + surplus + points);
+    CHECK(problem_of(replaced(file, "100 77.5 55", "100 77,5 55")) == "line 10: " + surplus + points);
     CHECK(problem_of(replaced(file, "0.5 1 60", "0,5 1 60")).ends_with(points));
     CHECK(problem_of(replaced(file, "2.0 3", "2,0 3")).ends_with(points));
     // Commas may separate all numbers.
     std::string commas = file.substr(file.find("1 1000"));
     std::ranges::replace(commas, ' ', ',');
     CHECK(problem_of(file.substr(0, file.find("1 1000")) + commas) == "");
-    CHECK(problem_of(file.substr(0, file.find("1 1000")) + commas + ",7") == "line 7: " + surplus);
+    CHECK(problem_of(file.substr(0, file.find("1 1000")) + commas + ",7") == "line 11: " + surplus);
 }
 
 TEST_CASE("photometric files: candelas that overflow are not called negative") {
     CHECK(problem_of(replaced(file, "1000 2.0", "1000 1e308")) ==
-          "line 5: the candelas times 5e+307, the product of their multiplier and the factor of the ballast, are too "
+          "line 10: the candelas times 5e+307, the product of their multiplier and the factor of the ballast, are too "
           "large");
     CHECK(problem_of(replaced(file, "77.5", "-77.5")).find("candelas must not be negative") != std::string::npos);
 }

@@ -236,11 +236,10 @@ void check_memory(const OIIO::ImageSpec& spec, const Window& held) {
     const auto rows = static_cast<double>(std::min(rows_at_a_time(spec), held.height()));
     const double megabytes = rows * static_cast<double>(held.width()) * spec.nchannels * sizeof(float) / megabyte;
     if (megabytes > most_megabytes)
-        throw std::runtime_error(
-            fmt::format("its data window of {} × {} pixels with {} channels takes {:.0f} MB for {}, and at most {:.0f} "
-                        "MB can be; crop it{}",
-                        held.width(), held.height(), spec.nchannels, megabytes, rows > 1 ? "a block of rows" : "a row",
-                        most_megabytes, spec.tile_width != 0 ? " or use smaller tiles" : ""));
+        throw std::runtime_error(fmt::format(
+            "{} of its data window of {} × {} pixels takes {:.0f} MB, and at most {:.0f} MB can be; crop it{}",
+            rows > 1 ? "a block of rows" : "a row", held.width(), held.height(), megabytes, most_megabytes,
+            spec.tile_width != 0 ? ", or use smaller tiles" : ""));
 }
 
 // Throws for windows that cannot be read. The caller checks the size of the display window. Rows of the
