@@ -132,7 +132,7 @@ class WrongScenes {
         ball("two nodes in one", "one member", R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})");
         ball("two numbers for three", "three", R"({"box": {"size": [1, 1]}})");
         ball("no children", "empty", R"({"union": []})");
-        ball("a plane without direction", "direction", R"({"plane": {"normal": [0, 0, 0]}})");
+        ball("a plane without direction", "normal must not be zero", R"({"plane": {"normal": [0, 0, 0]}})");
     }
     // Phases and their materials.
     void add_phases() {
@@ -230,7 +230,7 @@ class WrongScenes {
         light("light at the end of the world", "centre", R"({"sphere": {"centre": [0, 0, 3e18], "radius": 1}})");
         light("a light as large as the world", "width",
               R"({"rectangle": {"centre": [0, 0, 3], "target": [0, 0, 0], "width": 1e20, "height": 1}})");
-        add("camera in wood", "inside \"wood\"", [](SceneText& s) {
+        add("camera in wood", "inside the phase \"wood\"", [](SceneText& s) {
             s.tree = R"({"set": {"phase": "wood", "of": "ball"}})";
             s.camera = R"({"position": [0, 0, 0.5], "look_at": [0, 0, 0]})";
         });

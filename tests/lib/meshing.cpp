@@ -334,7 +334,7 @@ TEST_CASE("what has no mesh is rejected, and a mesh can be cancelled") {
     CHECK_THROWS_WITH_AS(mesh_of(Bounds::everything(), nothing), doctest::Contains("unbounded"), ModelError);
     for (const float none : {-1.f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
         CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = none}),
-                             doctest::Contains("it must be a length"), ModelError);
+                             doctest::Contains("must be a positive length"), ModelError);
     CHECK_THROWS_WITH_AS(mesh_of(Bounds{}, nothing), doctest::Contains("empty"), ModelError);
     CHECK_THROWS_WITH_AS(mesh_of(Bounds::centred(glm::vec3(1)), nothing, {.spacing = 0.001f}),
                          doctest::Contains("more than 1024 cubes"), ModelError);

@@ -84,8 +84,8 @@ class ListOfNodes(unittest.TestCase):
         for chapter in _phasetree.chapters():
             for page in chapter["kinds"] if chapter["title"] in _parts.kinds else ():
                 # Where there is one kind only it is a function of the package.
-                alone = {"Image": pt.image, "Normal maps": pt.normal_map, "Voxels": pt.voxels}
-                function = alone.get(chapter["title"]) or getattr(getattr(pt, chapter["title"].lower()), page["name"])
+                alone = {"Render settings": pt.image, "Normal maps": pt.normal_map, "Voxel grids": pt.voxels}
+                function = alone.get(chapter["title"]) or getattr(getattr(pt, _parts.module_name(chapter["title"])), page["name"])
                 self.assertIn(page["summary"], function.__doc__)
                 for p in page["parameters"]:
                     self.assertIn(_reference.python_name(p["name"]), inspect.signature(function).parameters)

@@ -1174,98 +1174,6 @@ def plane(normal: Sequence[float] | np.ndarray | None = ..., offset: float | Non
     offset: Distance of the plane from the origin along the normal. (number in m; default 0)
     """
 
-def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""The points that are inside any field.
-
-        min fᵢ
-
-    of: The fields, at least one. (list of fields)
-    """
-
-def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""The points that are inside all fields.
-
-        max fᵢ
-
-    of: The fields, at least one. (list of fields)
-    """
-
-def difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
-    r"""Subtracts fields from a field.
-
-        max(f, −min gᵢ)
-
-    from_: The field to cut. (field)
-    subtract: The fields to cut away, at least one. (list of fields)
-    """
-
-def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Union with filleted seams; folded from the first field to the last.
-
-        smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
-
-    Section 9.3 of the paper.
-
-    of: The fields, at least one. (list of fields)
-    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
-    """
-
-def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Intersection with rounded edges; folded from the first field to the last.
-
-        −smin(−a, −b)
-
-    Section 9.3 of the paper.
-
-    of: The fields, at least one. (list of fields)
-    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
-    """
-
-def smooth_difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Subtracts fields from a field and rounds the new edges.
-
-        −smin(−f, smin gᵢ)
-
-    Section 9.3 of the paper.
-
-    from_: The field to cut. (field)
-    subtract: The fields to cut away, at least one. (list of fields)
-    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
-    """
-
-def offset(of: Field | Expression, distance: float) -> Field:
-    r"""Inflates a field by t, or deflates it if t is negative.
-
-        f − t
-
-    Section 4.1 of the paper.
-
-    of: The field. (field)
-    distance: Distance by which the surface moves outwards. (number in m)
-    """
-
-def shell(of: Field | Expression, half_thickness: float) -> Field:
-    r"""A wall of thickness 2t about a field's surface.
-
-        |f| − t
-
-    Section 4.1 of the paper.
-
-    of: The field. (field)
-    half_thickness: Half of the wall, t. (number in m; positive)
-    """
-
-def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
-    r"""Phases of an object as a plain field; it is zero on the interfaces between them.
-
-        min over k of φₖ
-
-    Section 4.2 of the paper.
-
-    of: The object. (object)
-    phases: The phases to merge; by default all. (phase or list of phases; default all)
-    """
-
 def ellipsoid(radii: Sequence[float] | np.ndarray) -> Field:
     r"""An ellipsoid about the origin; a lower bound, exact at the ends of the axes.
 
@@ -1404,86 +1312,6 @@ def schwarz_d(period: float, thickness: float) -> Field:
     thickness: Minimum thickness of the wall. (number in m; positive)
     """
 
-def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
-    r"""Displaces the surface of a field by fractal noise.
-
-        min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
-
-    of: The field. (field)
-    amplitude: Largest displacement, a. (number in m; zero or more)
-    scale: Size of the largest bumps. (number in m; positive)
-    octaves: Number of octaves of noise, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
-    """
-
-@overload
-def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
-    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
-
-        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
-    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
-    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
-    """
-@overload
-def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
-    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
-
-        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
-    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
-    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
-    """
-
-@overload
-def polar_array(of: Field, count: int, angle: float | None = ...) -> Field:
-    r"""Copies rotated about the z axis by equal angles.
-
-        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 10000)
-    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
-    """
-@overload
-def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
-    r"""Copies rotated about the z axis by equal angles.
-
-        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 10000)
-    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
-    """
-
-@overload
-def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
-    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
-
-        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
-    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
-    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
-    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
-    """
-@overload
-def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
-    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
-
-        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
-    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
-    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
-    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
-    """
-
 def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> Field:
     r"""A round wire along a chain of straight segments.
 
@@ -1491,40 +1319,6 @@ def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> F
 
     points: The chain's points, at least two. (list of [x, y, z]s in m)
     radius: Radius of the wire. (number in m; positive)
-    """
-
-@overload
-def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
-    r"""Copies repeated endlessly along the axes; they must not touch.
-
-        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
-
-    of: The field or object to copy. (object)
-    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
-    """
-@overload
-def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
-    r"""Copies repeated endlessly along the axes; they must not touch.
-
-        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
-
-    of: The field or object to copy. (object)
-    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
-    """
-
-def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Expression | Sequence[Field | Expression] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
-    r"""A BlobTree: the skeletons are points, a chain of segments and other fields. Their contributions have compact support, add up, and blend into each other.
-
-        max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
-
-    Section 7.5, 9.2 of the paper.
-
-    radii: Radius of influence of each skeleton: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
-    points: Point skeletons. (list of [x, y, z]s in m; default [])
-    polyline: A chain of segments, which is a single skeleton. (list of [x, y, z]s in m; default [])
-    of: Fields as skeletons: their distance, zero inside. (list of fields; default [])
-    weights: Weights of the skeletons, in the same order; default 1. (number or list of numbers; positive; default [])
-    threshold: Threshold T; a larger one makes the solid smaller. (number; positive; default 0.5)
     """
 
 def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter: float | None = ..., seed: float | None = ...) -> Field:
@@ -1565,12 +1359,13 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
     height: Height of white; black is at z = 0. (number in m; positive)
     """
 
-def mesh(file: str | PathLike[str]) -> Field:
-    r"""The solid inside a closed triangle mesh; exact.
+def mesh(file: str | PathLike[str], rule: str | Expression | None = ...) -> Field:
+    r"""The solid inside a surface of triangles; exact.
 
         ± min over the triangles of |p − nearest point|
 
-    file: Mesh file: OBJ, PLY or STL, in metres. The surface must be closed, must not intersect itself, and must be counter-clockwise seen from outside. Vertices that differ only by rounding are merged; materials, normals and the like are ignored. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    file: Mesh file: OBJ, PLY or STL, in metres. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged; materials, normals and the like are ignored. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. The default is "winding_number". All three are the same for a closed mesh whose parts do not overlap. (text; default "")
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
@@ -1580,103 +1375,6 @@ def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Fi
 
     file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Lengths in it are metres. (name of a file)
     grid: Name of the grid; required if the file has several level sets. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
-    """
-
-@overload
-def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ...) -> Field:
-    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
-
-        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
-
-    Section 7.7 of the paper.
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
-    radius: Radius of the disk of the copies' origins. (number in m; positive)
-    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
-    """
-@overload
-def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
-    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
-
-        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
-
-    Section 7.7 of the paper.
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
-    radius: Radius of the disk of the copies' origins. (number in m; positive)
-    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
-    """
-
-@overload
-def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
-
-        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
-
-    Section 7.7 of the paper.
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
-    radius: Radius of the sphere of the copies' origins. (number in m; positive)
-    """
-@overload
-def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
-
-        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
-
-    Section 7.7 of the paper.
-
-    of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
-    radius: Radius of the sphere of the copies' origins. (number in m; positive)
-    """
-
-@overload
-def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
-
-        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    on: The field whose surface the copies stand on; it must be bounded. (field)
-    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
-    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
-    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
-    """
-@overload
-def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
-
-        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
-
-    of: The field or object to copy. (object)
-    on: The field whose surface the copies stand on; it must be bounded. (field)
-    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
-    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
-    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
-    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
-    """
-
-def extrude(of: Field | Expression, height: float) -> Field:
-    r"""Extrudes a field's cross-section at z = 0 along z; exact where the field is the exact distance to its cross-section.
-
-        a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
-
-    of: The field, for example a circle, a rectangle or a star. (field)
-    height: Whole height, centred at z = 0. (number in m; positive)
-    """
-
-def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
-    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
-
-        f(|pxy| − o, z, 0)
-
-    of: The field; the part of its section beyond the axis is cut off. (field)
-    offset: Distance by which the section is first moved away from the axis. (number in m; default 0)
     """
 
 def circle(radius: float) -> Field:
@@ -1831,6 +1529,309 @@ def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: f
     centres: Centres of the balls, unless they are in a file. (list of [x, y, z]s in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
     file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
+    """
+
+def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""The points that are inside any field.
+
+        min fᵢ
+
+    of: The fields, at least one. (list of fields)
+    """
+
+def intersection(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""The points that are inside all fields.
+
+        max fᵢ
+
+    of: The fields, at least one. (list of fields)
+    """
+
+def difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression]) -> Field:
+    r"""Subtracts fields from a field.
+
+        max(f, −min gᵢ)
+
+    from_: The field to cut. (field)
+    subtract: The fields to cut away, at least one. (list of fields)
+    """
+
+def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""Union with filleted seams; folded from the first field to the last.
+
+        smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
+
+    Section 9.3 of the paper.
+
+    of: The fields, at least one. (list of fields)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
+    """
+
+def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""Intersection with rounded edges; folded from the first field to the last.
+
+        −smin(−a, −b)
+
+    Section 9.3 of the paper.
+
+    of: The fields, at least one. (list of fields)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
+    """
+
+def smooth_difference(from_: Field | Expression, *subtract: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
+    r"""Subtracts fields from a field and rounds the new edges.
+
+        −smin(−f, smin gᵢ)
+
+    Section 9.3 of the paper.
+
+    from_: The field to cut. (field)
+    subtract: The fields to cut away, at least one. (list of fields)
+    radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
+    """
+
+def offset(of: Field | Expression, distance: float) -> Field:
+    r"""Inflates a field by t, or deflates it if t is negative.
+
+        f − t
+
+    Section 4.1 of the paper.
+
+    of: The field. (field)
+    distance: Distance by which the surface moves outwards. (number in m)
+    """
+
+def shell(of: Field | Expression, half_thickness: float) -> Field:
+    r"""A wall of thickness 2t about a field's surface.
+
+        |f| − t
+
+    Section 4.1 of the paper.
+
+    of: The field. (field)
+    half_thickness: Half of the wall, t. (number in m; positive)
+    """
+
+def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
+    r"""Phases of an object as a plain field; it is zero on the interfaces between them.
+
+        min over k of φₖ
+
+    Section 4.2 of the paper.
+
+    of: The object. (object)
+    phases: The phases to merge; by default all. (phase or list of phases; default all)
+    """
+
+def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
+    r"""Displaces the surface of a field by fractal noise.
+
+        min(max((f + a n)/λ, f − a), f + a),  λ = 1 + a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
+
+    of: The field. (field)
+    amplitude: Largest displacement, a. (number in m; zero or more)
+    scale: Size of the largest bumps. (number in m; positive)
+    octaves: Number of octaves of noise, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
+    """
+
+@overload
+def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
+    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
+
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
+    """
+@overload
+def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
+    r"""Copies at the given positions, optionally rotated about the z axis and scaled.
+
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
+    scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
+    """
+
+@overload
+def polar_array(of: Field, count: int, angle: float | None = ...) -> Field:
+    r"""Copies rotated about the z axis by equal angles.
+
+        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 10000)
+    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
+    """
+@overload
+def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
+    r"""Copies rotated about the z axis by equal angles.
+
+        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 10000)
+    angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
+    """
+
+@overload
+def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
+    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
+
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
+    """
+@overload
+def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
+    r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
+
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z. ([x, y, z] in m)
+    count_x: Number of copies along x. (whole number; at least 1 and at most 10000; default 1)
+    count_y: Number of copies along y. (whole number; at least 1 and at most 10000; default 1)
+    count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
+    """
+
+@overload
+def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
+    r"""Copies repeated endlessly along the axes; they must not touch.
+
+        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
+    """
+@overload
+def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
+    r"""Copies repeated endlessly along the axes; they must not touch.
+
+        max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
+
+    of: The field or object to copy. (object)
+    spacing: Distance between copies along x, y and z; 0 for no repetition along that axis. ([x, y, z] in m; zero or more)
+    """
+
+def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.ndarray | None = ..., polyline: Sequence[Sequence[float]] | np.ndarray | None = ..., of: Field | Expression | Sequence[Field | Expression] | None = ..., weights: float | Sequence[float] | None = ..., threshold: float | None = ...) -> Field:
+    r"""A BlobTree: the skeletons are points, a chain of segments and other fields. Their contributions have compact support, add up, and blend into each other.
+
+        max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
+
+    Section 7.5, 9.2 of the paper.
+
+    radii: Radius of influence of each skeleton: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
+    points: Point skeletons. (list of [x, y, z]s in m; default [])
+    polyline: A chain of segments, which is a single skeleton. (list of [x, y, z]s in m; default [])
+    of: Fields as skeletons: their distance, zero inside. (list of fields; default [])
+    weights: Weights of the skeletons, in the same order; default 1. (number or list of numbers; positive; default [])
+    threshold: Threshold T; a larger one makes the solid smaller. (number; positive; default 0.5)
+    """
+
+@overload
+def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ...) -> Field:
+    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Radius of the disk of the copies' origins. (number in m; positive)
+    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+    """
+@overload
+def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
+    r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
+
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Radius of the disk of the copies' origins. (number in m; positive)
+    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+    """
+
+@overload
+def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
+    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Radius of the sphere of the copies' origins. (number in m; positive)
+    """
+@overload
+def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
+    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+
+    Section 7.7 of the paper.
+
+    of: The field or object to copy. (object)
+    count: How many. (whole number; at least 1 and at most 100000)
+    radius: Radius of the sphere of the copies' origins. (number in m; positive)
+    """
+
+@overload
+def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
+    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+
+        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    on: The field whose surface the copies stand on; it must be bounded. (field)
+    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
+    """
+@overload
+def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
+    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+
+        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+
+    of: The field or object to copy. (object)
+    on: The field whose surface the copies stand on; it must be bounded. (field)
+    count: Number of copies; fewer if there is not enough space. (whole number; at least 1 and at most 100000)
+    spacing: Minimum distance between the copies' origins. (number in m; zero or more; default 0)
+    smallest: Minimum size: sizes are random between this factor and 1. (number; at least 0.01 and at most 1; default 1)
+    seed: Seed of the random positions. (whole number; at least 0 and at most 1000000; default 1)
+    """
+
+def extrude(of: Field | Expression, height: float) -> Field:
+    r"""Extrudes a field's cross-section at z = 0 along z; exact where the field is the exact distance to its cross-section.
+
+        a = f(x, y, 0),  b = |z| − h/2;  |(max(a, 0), max(b, 0))| + min(max(a, b), 0)
+
+    of: The field, for example a circle, a rectangle or a star. (field)
+    height: Whole height, centred at z = 0. (number in m; positive)
+    """
+
+def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
+    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
+
+        f(|pxy| − o, z, 0)
+
+    of: The field; the part of its section beyond the axis is cut off. (field)
+    offset: Distance by which the section is first moved away from the axis. (number in m; default 0)
     """
 
 @overload

@@ -12,13 +12,13 @@ from phasetree._values import Value
 _CHECKED_AS = {
     "Materials": ("material", lambda text: text),
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
-    "Numbers": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
+    "Number textures": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
     "Normal maps": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
-    "Voxels": ("material", lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": text}}),
+    "Voxel grids": ("material", lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
     "Cameras": ("camera", lambda text: text),
-    "Image": ("render", lambda text: text["render"]),
+    "Render settings": ("render", lambda text: text["render"]),
 }
 
 
@@ -41,7 +41,7 @@ class Part(Value):
 
     def written(self):
         """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
-        return self.parameters() if self.chapter in ("Normal maps", "Voxels") else json.loads(self._text)
+        return self.parameters() if self.chapter in ("Normal maps", "Voxel grids") else json.loads(self._text)
 
     def parameters(self):
         """What was said of it."""
@@ -91,22 +91,29 @@ def _module(name, doc, kinds):
 
 _chapters = {title: kinds for title, kinds in _reference.chapters() if title in _CHECKED_AS}
 kinds = _chapters
+
+
+def module_name(chapter):
+    """The name of the module that has a chapter's functions."""
+    return {"Number textures": "numbers"}.get(chapter, chapter.lower())
+
+
 materials = _module("materials", "Materials: what phases and meshes are made of.", _chapters["Materials"])
 textures = _module("textures", "Textures: colours that differ from place to place.", _chapters["Textures"])
-numbers = _module("numbers", "Numbers that differ from place to place.", _chapters["Numbers"])
+numbers = _module("numbers", "Numbers that differ from place to place.", _chapters["Number textures"])
 lights = _module("lights", "Lights.", _chapters["Lights"])
 meshes = _module("meshes", "Meshes: what stands beside the object.", _chapters["Meshes"])
 cameras = _module("cameras", "Cameras.", _chapters["Cameras"])
-image = _function(_chapters["Image"][0])
+image = _function(_chapters["Render settings"][0])
 image.__name__ = image.__qualname__ = "image"
 normal_map = _function(_chapters["Normal maps"][0])
-voxels = _function(_chapters["Voxels"][0])
+voxels = _function(_chapters["Voxel grids"][0])
 
 
 def part_of(chapter, value):
     """A part as a scene file says it, which was checked there. A camera of no kind is a thin lens."""
     names = [kind.name for kind in _chapters[chapter]]
-    if chapter == "Image":
+    if chapter == "Render settings":
         value = {"render": value}
     if chapter == "Cameras" and not (len(value) == 1 and next(iter(value)) in names):
         value = {names[0]: value}

@@ -123,7 +123,7 @@ class Scene(Value):
             self.background = tuple(float(c) for c in background)
         if background is not None:
             _phasetree.check_part("lights", json.dumps({"background": self.background}))
-        self.image = None if image is None else _part(image, "Image", "the image's settings")
+        self.image = None if image is None else _part(image, "Render settings", "the image's settings")
         self.name = name
 
     def _arguments(self):
@@ -396,6 +396,6 @@ def _scene_of(parts, path, **shown):
         lights=[_parts.part_of("Lights", light) for light in parts.get("lights", ())],
         meshes=[_parts.part_of("Meshes", mesh) for mesh in parts.get("meshes", ())],
         background=parts.get("background"),
-        image=None if render is None else _parts.part_of("Image", render),
+        image=None if render is None else _parts.part_of("Render settings", render),
         name=path,
     )

@@ -36,13 +36,13 @@ _TYPES = {
 _CLASSES = {
     "Materials": "Material",
     "Textures": "Texture",
-    "Numbers": "Number",
+    "Number textures": "Number",
     "Normal maps": "NormalMap",
-    "Voxels": "Voxels",
+    "Voxel grids": "Voxels",
     "Lights": "Light",
     "Meshes": "Mesh",
     "Cameras": "Camera",
-    "Image": "ImageSettings",
+    "Render settings": "ImageSettings",
 }
 
 
@@ -184,10 +184,10 @@ def text():
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():
-        if title in ("Image", "Normal maps", "Voxels"):
-            out += _function(kinds[0].name if title != "Image" else "image", kinds[0], _CLASSES[title]) + "\n"
+        if title in ("Render settings", "Normal maps", "Voxel grids"):
+            out += _function(kinds[0].name if title != "Render settings" else "image", kinds[0], _CLASSES[title]) + "\n"
             continue
-        out += f"class {title.lower()}:\n"
+        out += f"class {_parts.module_name(title)}:\n"
         for kind in kinds:
             out += "    @staticmethod\n" + _function(kind.name, kind, _CLASSES[title], "    ")
         out += "\n"

@@ -534,14 +534,15 @@ def _function(name, of_field, of_object):
 
 
 def _all_functions():
+    makes = {"Shapes": "field", "Operators on fields": "field", "Objects": "object", "Warps": "warp"}
     by_name = {}
     for title, kinds in _reference.chapters():
-        for kind in kinds if title in ("Fields", "Objects", "Warps") else ():
-            by_name.setdefault(kind.name, {})[title] = kind
+        for kind in kinds if title in makes else ():
+            by_name.setdefault(kind.name, {})[makes[title]] = kind
     made = {}
     for name, of in by_name.items():
-        warp = of.get("Warps")
-        made[name] = _function(name, of.get("Fields") or warp, of.get("Objects") or warp)
+        warp = of.get("warp")
+        made[name] = _function(name, of.get("field") or warp, of.get("object") or warp)
     return made
 
 
