@@ -265,7 +265,7 @@ TEST_CASE("what makes no farm is rejected") {
     refused({"list", "scene.json", "--shares", "2", "--program", "a\nb"}, "must not contain newlines");
     refused({"list", "scene.json", "--shares", "2", "--merge-width", "1"}, "--merge-width");
     refused({"list", "scene.json", "--shares", "2", "--", "--denoise"}, "8 samples");
-    refused({"list", "scene.json", "--shares", "2", "--", "--spp", "9", "--denoise=magic"}, "not \"magic\"");
+    refused({"list", "scene.json", "--shares", "2", "--", "--spp", "9", "--denoise=magic"}, "but is \"magic\"");
     refused({"list", "absent.json", "--shares", "2"}, "absent.json");
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("an output that is an input or another output is refused before any wo
          {{"render", "sky.json", "--quiet"}, "--output sky.exr would overwrite \"sky.exr\", which the scene uses"},
          {{"farm", "list", "a.json", "--shares", "2", "-o", "hard.exr", "-o", "./hard.exr"}, same},
          {{"farm", "list", "sky.json", "--shares", "2"}, "--output sky.exr would overwrite \"sky.exr\""},
-         {{"merge", "there.part", "-o", "sub/../there.part"},
+         {{"merge", "there.part", "other.part", "-o", "sub/../there.part"},
           "--output sub/../there.part would overwrite the part there.part"},
          {{"merge", "there.part", "-o", "b.png", "-o", "b.png"}, "--output b.png and --output b.png" + same}});
 }

@@ -104,7 +104,10 @@ int merge_parts(const MergeOptions& options) {
     std::vector<std::string> images, film_files;
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
-    check_overwrites(named_files_of("the part", options.parts), named_files_of("--output", options.outputs));
+    // A farm's list passes on a part that is left over by merging it with itself.
+    const bool is_one = options.parts.size() == 1;
+    check_overwrites(named_files_of("the part", options.parts),
+                     named_files_of("--output", is_one ? images : options.outputs));
     const Parts parts = opened(options);
     check_outputs(images, layers_of_picture(parts.header().film, parts.header().subjects, options.denoise.has_value()));
     if (!options.quiet && parts.header().build() != build_id())
