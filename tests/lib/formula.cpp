@@ -140,11 +140,11 @@ TEST_CASE("what is rejected, and where") {
     check_refused("x = 3; x", 0, "is already defined");
     check_refused("r = x y", 6, "\";\" is expected here, but there is \"y\"");
     check_refused("2x", 1, "expected an operator or the end, but there is \"x\"");
-    check_refused("", 0, "is expected here, but the text ends");
+    check_refused("", 0, "expected a number, a name or \"(\", but the text ends");
     check_refused("1e400", 0, "cannot be read");
     check_refused("x / 0", 2, "divides by zero");
     check_refused("sqrt(-1)", 0, "the argument of this root is negative");
-    check_refused("x * \xc3\xa4", 4, "is expected here");
+    check_refused("x * \xc3\xa4", 4, "expected a number, a name or \"(\"");
     check_refused(std::string(20'001, ' '), 20'000, "longer than 20000 characters");
     check_refused(std::string(200, '(') + "x" + std::string(200, ')'), 100, "more than 100 levels deep");
     check_refused("smooth_min(x, y, z)", 0, "must be a positive number");

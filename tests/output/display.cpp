@@ -141,8 +141,8 @@ TEST_CASE("exposure is a power of two on scene light") {
         CHECK(shown(exposed, color) == shown(view("Photographic"), color * std::exp2(ev)));
     }
     CHECK(shown(DisplayTransform(std::nullopt, "Raw", 500.0f), glm::vec3(0.0f)) == glm::vec3(0.0f));
-    CHECK(
-        contains(message_of<DisplayError>([] { DisplayTransform(std::nullopt, std::nullopt, std::nanf("")); }), "EV"));
+    CHECK(contains(message_of<DisplayError>([] { DisplayTransform(std::nullopt, std::nullopt, std::nanf("")); }),
+                   "must be a finite number of stops"));
 }
 
 TEST_CASE("each pixel is treated by itself, in any number of threads") {
@@ -175,7 +175,7 @@ TEST_CASE("unknown names list the known ones") {
     const std::string display = message_of<DisplayError>([] { DisplayTransform("sRBG"); });
     CHECK(contains(display, "unknown display \"sRBG\" (did you mean \"sRGB\"?); choose from \"sRGB\""));
     const std::string slip = message_of<DisplayError>([] { view("Standart"); });
-    CHECK(contains(slip, "there is no view of display \"sRGB\" \"Standart\" (did you mean \"Standard\"?)"));
+    CHECK(contains(slip, "unknown view \"Standart\" of display \"sRGB\" (did you mean \"Standard\"?)"));
     CHECK(contains(slip, "choose from \"Photographic\", \"ACES 1.0 SDR\", \"Standard\", \"Raw\""));
     CHECK(contains(message_of<DisplayError>([] { view("aces"); }), "did you mean \"ACES 1.0 SDR\"?"));
     const std::string other = message_of<DisplayError>([] { view("Technicolor"); });

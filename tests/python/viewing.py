@@ -81,7 +81,7 @@ class Viewing(unittest.TestCase):
         # What only the reader of scenes finds: the camera is inside wood.
         wood = pt.phase("wood", pt.diffuse((0.5, 0.3, 0.1)))
         inside = pt.Scene(wood(pt.sphere(2)), camera=pt.camera((0, 0, 0), (1, 0, 0)))
-        with self.assertRaisesRegex(pt.SceneError, 'inside "wood"'):
+        with self.assertRaisesRegex(pt.SceneError, 'inside the phase "wood"'):
             pt.view(inside, open=False)
 
 

@@ -61,10 +61,8 @@ bool interpret(const Steps& steps, T* registers, Distance&& distance, Done&& don
             // The end of the loop calls done() with the first coordinate, `to`.
             const auto set_point = [&](const Vec3<T>& q) {
                 registers[s.to] = q.x;
-                registers[s.to + 1] = q.y;
-                registers[s.to + 2] = q.z;
-                done(registers[s.to + 1]);
-                done(registers[s.to + 2]);
+                done(registers[s.to + 1] = q.y);
+                done(registers[s.to + 2] = q.z);
             };
             const auto primitive = [&]<class P>(const float* floats, const auto& point) {
                 distance.template operator()<P>(i, floats, point, to);

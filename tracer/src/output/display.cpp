@@ -58,7 +58,8 @@ std::string quoted_list(const std::vector<std::string>& names) {
 }
 
 // Finds a display or view, and returns its spelling in the configuration. Case is ignored, as in OpenColorIO.
-std::string choose(const std::string& wanted, const std::vector<std::string>& names, const std::string& what) {
+std::string choose(const std::string& wanted, const std::vector<std::string>& names, const std::string& what,
+                   const std::string& of_what = "") {
     std::string nearest;
     std::size_t best = std::string::npos;
     for (const std::string& name : names) {
@@ -73,7 +74,7 @@ std::string choose(const std::string& wanted, const std::vector<std::string>& na
     }
     // Up to a third of the letters may be wrong in a typing mistake; beyond that, it is another word.
     const bool likely = best != std::string::npos && 3 * best <= std::max<std::size_t>(wanted.size(), 3);
-    throw DisplayError(fmt::format("unknown {} \"{}\"{}; choose from {}", what, wanted,
+    throw DisplayError(fmt::format("unknown {} \"{}\"{}{}; choose from {}", what, wanted, of_what,
                                    likely ? fmt::format(" (did you mean \"{}\"?)", nearest) : "", quoted_list(names)));
 }
 
@@ -178,7 +179,7 @@ DisplayTransform::DisplayTransform(std::optional<std::string> display, std::opti
         display_ = display ? choose(*display, displays, "display") : config->getDefaultDisplay();
         const std::vector<std::string> views = views_of(config, display_);
         if (views.empty()) throw DisplayError(fmt::format("its display \"{}\" has no view", display_));
-        view_ = view ? choose(*view, views, fmt::format("view of display \"{}\"", display_))
+        view_ = view ? choose(*view, views, "view", fmt::format(" of display \"{}\"", display_))
                      : config->getDefaultView(display_.c_str());
 
         const Source source = source_of(config);

@@ -12,7 +12,7 @@ namespace enclosure {
 struct Enclosure;
 }
 
-/// What encloses a long primitive in a box (src/bounding/enclose_primitive.hpp).
+/// How a long primitive is enclosed in a box.
 enum class EnclosedBy : unsigned char {
     value_at_centre,  ///< its value at the centre of the box, and its Lipschitz bound of 1
     equation,         ///< interval arithmetic, with distance() over the number type Enclosure

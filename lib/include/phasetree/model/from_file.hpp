@@ -12,7 +12,7 @@ namespace phasetree {
 ///   - `static Content read(const std::filesystem::path&)`, if this library reads such files. It may throw any
 ///     std::exception whose what() describes the problem.
 ///   - `static constexpr std::string_view no_reader`, if programs read them (FileReaders in io/file_readers.hpp). It is
-///     the error of a program without a reader, such as "this program reads no fonts".
+///     the error of a program without a reader, such as "this program cannot read fonts".
 template <class Content>
 struct FileFormat;
 

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "nodes/mesh_repair/chain_winding.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::mesh {
 
@@ -32,7 +33,7 @@ std::vector<AtAngle> by_angle(const Chain& chain, std::span<const EdgeOfChain> u
                                    : c[1] != e.low && c[1] != e.high ? c[1]
                                                                      : c[2];
         const glm::dvec3 p = chain.points[apex] - a;
-        result.push_back({std::atan2(glm::dot(p, y), glm::dot(p, x)), e});
+        result.push_back({portable::atan2(glm::dot(p, y), glm::dot(p, x)), e});
     }
     std::ranges::stable_sort(result, {}, &AtAngle::angle);
     return result;

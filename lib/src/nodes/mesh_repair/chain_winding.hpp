@@ -8,6 +8,7 @@
 
 #include "nodes/box_tree.hpp"
 #include "nodes/mesh_repair/chain.hpp"
+#include "phasetree/math/portable.hpp"
 
 namespace phasetree::mesh {
 
@@ -104,8 +105,8 @@ class ChainWinding {
             const glm::dvec3 a = chain_.corner(t, 0) - p, b = chain_.corner(t, 1) - p, c = chain_.corner(t, 2) - p;
             const double u = glm::length(a), v = glm::length(b), w = glm::length(c);
             sum += chain_.triangles[t].times *
-                   std::atan2(glm::dot(a, glm::cross(b, c)),
-                              u * v * w + glm::dot(a, b) * w + glm::dot(b, c) * u + glm::dot(c, a) * v);
+                   portable::atan2(glm::dot(a, glm::cross(b, c)),
+                                   u * v * w + glm::dot(a, b) * w + glm::dot(b, c) * u + glm::dot(c, a) * v);
         }
         return sum / (2 * std::numbers::pi);
     }

@@ -18,7 +18,7 @@ struct HeightGrid {
 
 template <>
 struct FileFormat<HeightGrid> {
-    static constexpr std::string_view no_reader = "this program reads no images";
+    static constexpr std::string_view no_reader = "this program cannot read images";
 };
 
 }  // namespace phasetree

@@ -251,7 +251,7 @@ T spline_at(const float* data, const Vec3<T>& p) {
 /// The file of a level set, as the node `volume` reads it.
 template <>
 struct FileFormat<VoxelGrid> {
-    static constexpr std::string_view no_reader = "this program reads no OpenVDB files";
+    static constexpr std::string_view no_reader = "this program cannot read OpenVDB files";
 };
 
 }  // namespace phasetree

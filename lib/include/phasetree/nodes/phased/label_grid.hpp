@@ -25,7 +25,7 @@ struct LabelGrid {
 
 template <>
 struct FileFormat<LabelGrid> {
-    static constexpr std::string_view no_reader = "this program reads neither OpenVDB files nor images";
+    static constexpr std::string_view no_reader = "this program can read neither OpenVDB files nor images";
 };
 
 }  // namespace phasetree

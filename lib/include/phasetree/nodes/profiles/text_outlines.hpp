@@ -40,7 +40,7 @@ struct TextOutlines {
 
 template <>
 struct FileFormat<TextOutlines> {
-    static constexpr std::string_view no_reader = "this program reads no fonts";
+    static constexpr std::string_view no_reader = "this program cannot read fonts";
 };
 
 }  // namespace phasetree
