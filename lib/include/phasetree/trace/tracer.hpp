@@ -33,7 +33,7 @@ class InterfaceTracer {
     ///     resolution;
     ///   - the ray grazes the phase and is nowhere deeper inside than a sixteenth of a resolution.
     ///
-    /// 0 selects 2·10⁻⁶ of the object's diagonal, or the precision of float coordinates far from the origin. Other
+    /// 0 selects 2·10⁻⁶ of the object's diagonal, or 10⁻⁶ of its farthest coordinate if that is more. All
     /// values are clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, at most a hundredth of the
     /// diagonal. resolution() and warning() return what is in use.
     ///

@@ -41,8 +41,8 @@ typedef enum PhasetreeGeometryFlags {
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
     /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
-     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or the precision of 32-bit coordinates
-     * if the tree is far from the origin. Other values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest
+     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or 10⁻⁶ of their largest coordinate if
+     * that is more. All values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest
      * coordinate, at most a hundredth of the diagonal. phasetreeGetGeometryStatistics returns the value in use,
      * phasetreeGetGeometryWarning the reason. */
     float resolution;
@@ -118,8 +118,8 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * may have any length. Rays with numbers that are not finite hit nothing.
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
- * the ray, once each and in order along the ray, until one is accepted. Each call starts in the phase in which the
- * previous one ended. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries
+ * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, each crossing leaves
+ * the phase that the previous one entered. Otherwise, crossings that are not shown may lie between them. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries
  * cannot see a filter function that is passed in the arguments of a query; pass it as PhasetreeRayContext.filter
  * instead.
  *
