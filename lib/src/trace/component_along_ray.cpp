@@ -17,8 +17,9 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(), which calls size() before each step. The list ends after a fold of space that
-// jumps between the values of its point, because an enclosure across a jump would be wrong. has_jumped() reports this.
+// The steps of a routine for interpret(), which calls size() before each step. The list ends at a fold of space that
+// jumps somewhere within the range of its point, because an enclosure across a jump would be wrong. has_jumped()
+// reports this.
 class StepsUpToJump {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers)
@@ -51,9 +52,10 @@ class StepsUpToJump {
 };
 
 // Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
-// lies below the chord through its values at both ends, so it is at most the larger of these. Beyond two of its values,
-// it lies above the line through them. So over the stretch it falls by no more than it fell over an equal length
-// before; seen from the other end, it rises by no more than over an equal length after. This holds even where the
+// lies below the chord through its values at both ends, so it is at most the larger of these. It also lies
+// above the extension of any chord. So with L = 2 half, for t between −half and half:
+//     f(t) ≥ f(−half) − max(f(−half − L) − f(−half), 0),   f(t) ≥ f(half) − max(f(half + L) − f(half), 0).
+// This holds even where the
 // derivatives of the equation are unknown, such as those of a square root at zero.
 template <class P>
 void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
