@@ -2,9 +2,9 @@
 //
 // The surface is a manifold if the points of each phase are well-composed (Latecki, "3D Well-Composed Pictures", 1997):
 // their voxels nowhere touch only along an edge or only at a corner. We require less, because a cube may have several
-// vertices (cube_patches.hpp). In each cube, the edges with exactly one end in a given phase form closed rings: such
-// an edge lies on two sides of the cube, and on each of them it is linked to one other such edge. The two triangles of
-// a grid edge have their vertices in the four cubes around it. So an edge of a triangle joins two cubes with a common
+// vertices (cube_patches.hpp). In each cube, the edges with exactly one end in a given phase form closed rings: such an
+// edge lies on two sides of the cube, and on each of them it is linked to one other such edge. The two triangles of a
+// grid edge have their vertices in the four cubes around it. So an edge of a triangle joins two cubes with a common
 // side or, as the diagonal, two cubes that share only an edge. The surface is therefore a manifold unless one of two
 // problems occurs (cube_patches.hpp defines patches and walls):
 //   - a patch has two rings of a phase, which touch at its vertex;

@@ -74,9 +74,9 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. Take any point within
-/// `reach` of p, and the surface point nearest to it. A ball of radius rolling_radius(p, reach) inside the solid
-/// touches the surface there. The radius is a lower bound, and infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. Take any point within `reach` of p,
+/// and the surface point nearest to it. A ball of radius rolling_radius(p, reach) inside the solid touches the surface
+/// there. The radius is a lower bound, and infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;

@@ -96,8 +96,8 @@ class FixedSum {
 
     /// Only the significant bytes of a sum are written, without the sign bytes above and the zero bytes below them. The
     /// first byte written is (bytes + 1) · z + n, where z is the number of zero bytes below that are omitted, and n the
-    /// number of bytes that follow. A leading byte is omitted if the sign of the next one implies it. A negative
-    /// number always keeps at least one byte, because an empty sequence encodes 0. So equal sums have equal bytes.
+    /// number of bytes that follow. A leading byte is omitted if the sign of the next one implies it. A negative number
+    /// always keeps at least one byte, because an empty sequence encodes 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;

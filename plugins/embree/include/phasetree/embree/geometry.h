@@ -239,8 +239,8 @@ typedef struct PhasetreeGeometryStatistics {
 PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
                                                             PhasetreeGeometryStatistics* statistics);
 
-/* Returns a warning in UTF-8 if the tree is so far from the origin, for its size, that 32-bit coordinates are
- * coarse, or if the resolution in use is not the one requested; otherwise "". The string is valid until
+/* Returns a warning in UTF-8 if the tree is so far from the origin, for its size, that 32-bit coordinates are coarse,
+ * or if the resolution in use is not the one requested; otherwise "". The string is valid until
  * phasetreeSetGeometryTree is called or the geometry is freed. A tree that is too far away to be traced at all is
  * rejected with PHASETREE_ERROR_INVALID_TREE. */
 PHASETREE_API PhasetreeError phasetreeGetGeometryWarning(PhasetreeGeometry geometry, const char** warning);

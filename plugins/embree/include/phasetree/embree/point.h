@@ -96,8 +96,8 @@ typedef struct PhasetreeClosest {
  * tolerance     stops when emptyRadius and distance differ by less than this fraction of distance; 0.001 … 1. Larger
  *               is faster. The search also stops when they are within four resolutions, and after 2^14 subdivisions.
  *
- * Uses branch and bound: subdivides the object's bounds into octants, and discards each octant in which the
- * distances at its centre, which are 1-Lipschitz, leave no room for an interface. */
+ * Uses branch and bound: subdivides the object's bounds into octants, and discards each octant in which the distances
+ * at its centre, which are 1-Lipschitz, leave no room for an interface. */
 PHASETREE_API PhasetreeError phasetreeFindClosestInterface(PhasetreeGeometry geometry, const float point[3], float time,
                                                            float radius, float tolerance, PhasetreeClosest* closest);
 
