@@ -47,9 +47,10 @@ _UFUNCS = {
 class Expression(Value):
     """A formula in x, y and z. Immutable.
 
-    It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is negative.
-    within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas are evaluated
-    in single precision. Making the field determines an upper bound of the slope, by which the formula is divided.
+    It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
+    negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
+    are evaluated in single precision. Making the field determines an upper bound of the slope, by which the formula is
+    divided.
     """
 
     __slots__ = ("_bounds", "_field", "_height", "_of", "_what")
@@ -80,7 +81,7 @@ class Expression(Value):
         return _Writer(self).text()
 
     def within(self, low, high):
-        """The same formula, cut to the box with these corners. A number stands for a corner with three equal coordinates."""
+        """The same formula, cut to a box. Each corner is a point, or a number for three equal coordinates."""
         corners = tuple(tuple(c) if hasattr(c, "__iter__") else (c, c, c) for c in (low, high))
         return Expression(self._what, self._of, corners)
 

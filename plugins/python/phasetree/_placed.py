@@ -46,7 +46,7 @@ class Places:
         self.of, self.transforms = of, transforms
 
     def written(self):
-        """The JSON value. Each transform is twelve numbers: the images of the three axis vectors, then that of the origin."""
+        """The JSON value. Each transform is twelve numbers: the images of the three axes, then of the origin."""
         columns = self.transforms.transpose(0, 2, 1).reshape(-1, 12)
         return {"of": self.of, "transforms": _numbers(columns)}
 
@@ -119,7 +119,7 @@ def _written_map(matrix):
 
 
 def written(objects):
-    """The "shapes" and "objects" of a scene file. Shapes that are used more than once in a tree are named after the object."""
+    """The "shapes" and "objects" of a scene file. Shapes that a tree uses repeatedly are named after the object."""
     shapes, placed = {}, []
     for name, (one, matrix) in objects.items():
         # A phase may be called as the writer calls a shape, so phases have other names until shapes have theirs.

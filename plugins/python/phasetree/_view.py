@@ -31,7 +31,7 @@ def _with_materials(object):
 
 
 def _as_scene(what):
-    """Completes a scene or an object for the view: a camera in front of and slightly above the object, and a plain sky."""
+    """Completes a scene or an object for the view, with a camera in front and a plain sky if they are missing."""
     if isinstance(what, Scene):
         if what.object is not None:
             what = what.with_(object=_with_materials(what.object))
@@ -115,9 +115,9 @@ class View:
 def view(what, *, width=None, samples=None, threads=0, port=0, open=None):
     """Shows an object or a scene in the browser, where it can be turned, cut and edited. Returns a View.
 
-    An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of the
-    picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to open
-    the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error.
+    An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of
+    the picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to
+    open the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error.
     """
     made = View(what, width, samples, threads, port)
     if "ipykernel" not in sys.modules if open is None else open:
