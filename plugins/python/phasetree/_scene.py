@@ -56,7 +56,7 @@ class Image:
         return _phasetree.png(self.pixels, self.exposure if exposure is None else exposure, view or self.view)
 
     def save(self, path, exposure=None, view=None):
-        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name writes one file per plane."""
+        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name: one file per plane."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
             os.fspath(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
