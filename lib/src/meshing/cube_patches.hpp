@@ -51,8 +51,9 @@ struct CubeLabels {
     Phase at(int corner) const { return corners[static_cast<std::size_t>(corner)]; }
 };
 
-/// A wall across a side. It exists if two opposite corners have a phase that neither of the other two has, and that
-/// phase is joined across the side. Each of its two faces cuts the two edges that lead to one of the other corners.
+/// A wall across a side. It exists if two opposite corners have a phase that neither of the other two has. In addition,
+/// the other two have different phases, or the wall's phase is the one that is joined across the side. Each of its two
+/// faces cuts the two edges that lead to one of the other corners.
 struct WallAcross {
     bool is_there = false;
     int first = 0;  ///< the first corner of the side, 0 or 1, outside the wall; the other one is first + 2

@@ -16,7 +16,8 @@
 ///  * phase_mesh.cpp: the triangles between these vertices.
 namespace phasetree::meshing {
 
-/// A grid of equidistant points. Its cubes are identified by their corner with the lowest coordinates.
+/// A grid of equidistant points. Its cubes are identified by their corner with the lowest coordinates. In this folder,
+/// a cube has six sides (its square faces), twelve edges and eight corners; "faces" are those of the object.
 struct Grid {
     glm::dvec3 low{0};
     double spacing = 0;

@@ -22,8 +22,8 @@ struct PlaneInCube {
 
 /// The vertex in a cube of side 1 whose lowest corner is the origin. There must be at least one plane.
 ///
-/// mean      m: the mean of the positions where the phase changes along the cube's edges. Where labels were changed
-///           (well_composed.hpp) there is no plane, but the middle of the edge still counts as a position.
+/// mean      m: the mean of the positions where the phase changes along the cube's edges. An edge whose labels were
+///           changed (well_composed.hpp) has no crossing, hence no plane; its middle counts as the position.
 /// apart     if the vertex is outside the cube, or the cube has other vertices, the vertex is moved back towards the
 ///           mean by this fraction of its distance from it. Otherwise, all cubes around a corner of the object may have
 ///           that corner as their vertex, and triangles between coincident vertices would have no area.

@@ -20,8 +20,8 @@ struct Change {
 };
 
 // A side with a wall across it has two opposite corners of a phase that neither of the other two corners has. If one of
-// those other two has a lower label, the lower of them takes the wall's phase. Otherwise, one of the wall's corners
-// takes the lower of the other two labels.
+// those other two has a lower label than the wall, the one with the lowest takes the wall's phase. Otherwise, one of
+// the wall's corners takes the lower of the other two labels.
 Change change_of_side(const CubeLabels& c, int side) {
     const auto& corners = sides_of_cube[side];
     for (int turn = 0; turn < 2; ++turn) {
@@ -65,10 +65,11 @@ Change change_of_lowest(const CubeLabels& c) {
     return {};
 }
 
-// Finds the change that a cube needs, if any. The outermost points are all vacuum, and stay so. A cube at the border
-// has at least four of them as corners. Each of its sides that has such corners has two adjacent ones, so no phase is
-// only at opposite corners of that side. In such a cube, each patch surrounds corners of the inner side. So in a patch,
-// the vacuum has one ring, and so have all other phases taken together.
+// Finds the change that a cube needs, if any. The outermost points, all vacuum, are never changed. Proof: a cube at the
+// border has at least four of them as corners. Each of its sides that has such corners has two adjacent ones, so no
+// phase is only at opposite corners of that side. In such a cube, each patch surrounds corners of the inner side. So in
+// a patch, the vacuum has one ring, and so have all other phases taken together. Therefore neither rule changes an
+// outermost point.
 Change change_of(const CubeLabels& c) {
     if (std::all_of(c.corners.begin(), c.corners.end(), [&](Phase p) { return p == c.corners[0]; })) return {};
     const CubePatches patches(c);

@@ -2,11 +2,11 @@
 //
 // The surface is a manifold if the points of each phase are well-composed (Latecki, "3D Well-Composed Pictures", 1997):
 // their voxels nowhere touch only along an edge or only at a corner. We require less, because a cube may have several
-// vertices (cube_patches.hpp). In each cube, consider the cube's edges that have exactly one end in a given phase. Each
-// such edge lies on two sides of the cube, and on each of them it is linked to one other such edge. So they form closed
-// rings. The triangles of a grid edge have their vertices in the four cubes around it. So each edge of a triangle
-// either crosses the common side of two cubes, or is the diagonal between two cubes that share only an edge. Two
-// problems remain (cube_patches.hpp defines patches and walls):
+// vertices (cube_patches.hpp). In each cube, the edges with exactly one end in a given phase form closed rings: such an
+// edge lies on two sides of the cube, and on each of them it is linked to one other such edge. The two triangles of a
+// grid edge have their vertices in the four cubes around it. So an edge of a triangle joins two cubes with a common
+// side or, as the diagonal, two cubes that share only an edge. The surface is therefore a manifold unless one of two
+// problems occurs (cube_patches.hpp defines patches and walls):
 //   - a patch has two rings of a phase, which touch at its vertex;
 //   - both faces of a wall across a side (WallAcross in cube_patches.hpp) belong to the same patch, so that they may
 //     share an edge there.

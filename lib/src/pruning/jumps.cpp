@@ -36,9 +36,9 @@ bool may_jump(const WorkingProgram& program) {
 
 // The guard above a fold shows whether the fold may jump in the ball: the guard's first operand (its bound) is at least
 // half of the guard's constant wherever the fold jumps (`guarded` in math/number.hpp). A guard and its fold are matched
-// by their point: endless_grid measures the bound at the very point that it folds. Pruning requires the bound
-// everywhere (resolve_guarded), so only a value that equals it can replace it. If the replacement's operand is another
-// point, no fold matches the guard, and a fold without a guard counts as one that may jump.
+// by their point: endless_grid measures the bound at the very point that it folds. Pruning may replace the bound only
+// by a value that equals it, because a guard requires its bound for all values (resolve_guarded). If that value is
+// computed from another point, no fold matches the guard. A fold without a guard counts as one that may jump.
 std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);

@@ -35,8 +35,8 @@
 /// *A replacement is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components of a
 /// pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first to the
 /// last; operations are those of program.hpp.
-///   - An instruction that is kept has the bound that follows from the bounds of its operands, for all operations
-///     except three. `corner` is no steeper than its steeper operand because its operands vary along orthogonal
+///   - An instruction that is kept has the bound that follows from the bounds of its operands, with three
+///     exceptions. `corner` is no steeper than its steeper operand because its operands vary along orthogonal
 ///     directions; an operand's replacement is made of parts of it, so it varies along the same directions. `guarded`
 ///     is as steep as its first operand, which is required everywhere and hence is not changed. A node that proves its
 ///     own bound (`one_lipschitz` in tree/domain.hpp), as a blob does for its sum of `falloff`s, has a smaller bound
@@ -46,9 +46,11 @@
 ///     steeper than the sum of both bounds.
 ///   - The maximum that replaces `guarded` gets the bound of its steeper operand.
 ///
-/// Three types of the namespace `rewriting` are parameters of the functions here. A WorkingProgram is a program derived
-/// from an object's program for a part of space. ProgramContext holds what all of these share: constants, the error
-/// bound, the opaque phases. Arenas are where results and scratch data are allocated.
+/// Functions here use types of the namespace `rewriting`. A WorkingProgram is a program derived from an object's
+/// program for a part of space. ProgramContext holds what all of these share: constants, the error bound, the opaque
+/// phases. Arenas are where results and scratch data are allocated. RequiredOfLocal is the upper limit up to which a
+/// local primitive is required. The sweep uses LiveSet (the instructions on which outputs depend) and SignedValue (a
+/// value or its negative).
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;

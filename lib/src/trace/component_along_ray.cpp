@@ -48,10 +48,10 @@ class StepsUpToJump : public RoutineSteps {
 };
 
 // Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
-// lies below the chord through its values at both ends, so it is at most the larger of these. Beyond two of its values,
-// it lies above the line through them. So over the stretch it falls by no more than it fell over an equal length
-// before; seen from the other end, it rises by no more than over an equal length after. This holds even where the
-// derivatives of the equation are unknown, such as those of a square root at zero.
+// lies below the chord through its values at both ends, so it is at most the larger of these. It also lies above the
+// extension of any chord. So with L = 2 half, for t between −half and half:
+//     f(t) ≥ f(−half) − max(f(−half − L) − f(−half), 0),   f(t) ≥ f(half) − max(f(half + L) − f(half), 0).
+// This holds even where the derivatives of the equation are unknown, such as those of a square root at zero.
 template <class P>
 void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
     if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;

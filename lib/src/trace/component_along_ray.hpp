@@ -8,8 +8,8 @@
 
 namespace phasetree::trace {
 
-/// The component of a ray's phase as a function of the distance t along the ray, enclosed over stretches of it. The
-/// routine is run with `Enclosure`s of the single variable t.
+/// The component of a ray's phase as a function of the distance t along the ray, bounded over stretches of it. The
+/// routine is run with Enclosures (intervals with derivatives) of the single variable t.
 class ComponentAlongRay {
   public:
     /// For a search that was left unfinished in the phase RayCrossing::from. The visit's routine must outlive this

@@ -1,8 +1,9 @@
 // Rays that creep along an interface.
 //
 // Where a ray runs within a face, an edge or a seam, its distance from the interface is zero up to rounding errors over
-// a long stretch, and a sample proves nothing beyond a resolution around it. After some batches, the kernel leaves such
-// a search unfinished. It is finished here, in two ways.
+// a long stretch, and a sample proves nothing beyond a resolution around it. After some batches, the search kernel
+// (kernel/visit.inl, which samples eight points at a time) leaves such a search unfinished. It is finished here, in two
+// ways.
 //
 // *Enclosed stretches.* Interval arithmetic with derivatives bounds the component φ of the ray's phase over a whole
 // stretch of the ray (ComponentAlongRay). If φ < resolution/16 all along it, no other phase is deeper than the rounding
@@ -15,8 +16,8 @@
 // errors, the kernel takes over, at three resolutions per batch.
 //
 // So the work is bounded by the length of the creep. At the resolution chosen for an object, the longest ray through it
-// has half a million resolutions. Finer resolutions allow more. After most_batches batches of all kinds, each further
-// walk of at most 256 batches doubles the step of the walk before, so that every ray terminates. Once the ray is away
+// has half a million resolutions. Finer resolutions allow more. Once a search has taken more than most_batches batches,
+// the step doubles with each further walk (of at most 256 batches), so that every ray terminates. Once the ray is away
 // from the interface, steps are a resolution again. The kernel searches what follows a walk at the resolution.
 #pragma once
 

@@ -8,9 +8,10 @@
     filled = filled.intersect_shape(pt.plane(offset=0.2), phases=water)
     print(filled.label([(0, 0, 0), (0, 0, 1)]))
 
-Fields (sphere, box, union …) are plain signed distances; objects of phases are made of them. A function for each kind
-of node is made from the library's own list; so are materials, and the modules textures, lights, meshes and cameras.
-A formula of x, y, z = pt.coordinates() is a field, too: glass(pt.sqrt(x**2 + y**2) - 1).
+Fields (sphere, box, union …) are signed distances; objects of several phases are made of them. There is one function
+for each kind of node and material; textures, lights, meshes and cameras have modules of their own. All are generated
+from the library's list of nodes. A formula in x, y, z = pt.coordinates() can be used as a field, too:
+glass(pt.sqrt(x**2 + y**2) - 1).
 """
 
 from phasetree import _formula, _parts, _phasetree, _trees

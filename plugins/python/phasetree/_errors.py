@@ -1,4 +1,4 @@
-"""What is wrong with a tree, a scene or a call, in the words of the C++ library."""
+"""Exceptions for invalid trees, scenes and calls, with the C++ library's messages."""
 
 from phasetree._phasetree import Error, SceneError
 

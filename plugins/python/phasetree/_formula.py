@@ -1,4 +1,4 @@
-"""Formulas of x, y and z: arithmetic that makes a field."""
+"""Formulas in x, y and z: arithmetic whose result is a field."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from phasetree import _registry
 from phasetree._errors import Error
 from phasetree._values import Value
 
-#: The functions of formulas, and how many arguments each takes.
+#: The functions that formulas may call, with the minimum and maximum number of arguments; None for no maximum.
 FUNCTIONS = {
     "sqrt": (1, 1),
     "abs": (1, 1),
@@ -45,11 +45,12 @@ _UFUNCS = {
 
 
 class Expression(Value):
-    """A number for each point: x, y, z and what is computed of them. Immutable.
+    """A formula in x, y and z. Immutable.
 
-    It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
-    within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
-    those of single precision; it is divided by a bound of its slope, which is found when the field is made.
+    It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
+    negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
+    are evaluated in single precision. Making the field determines an upper bound of the slope, by which the formula is
+    divided.
     """
 
     __slots__ = ("_bounds", "_field", "_height", "_of", "_what")
@@ -76,16 +77,16 @@ class Expression(Value):
 
     @property
     def text(self):
-        """The formula as a scene file has it."""
+        """The formula as text for a scene file."""
         return _Writer(self).text()
 
     def within(self, low, high):
-        """The same, cut to the box with these corners; a number stands for the same along each axis."""
+        """The same formula, cut to a box. Each corner is a point, or a number for three equal coordinates."""
         corners = tuple(tuple(c) if hasattr(c, "__iter__") else (c, c, c) for c in (low, high))
         return Expression(self._what, self._of, corners)
 
     def field(self):
-        """The field: Error if the slope has no bound, with the place in the formula."""
+        """The formula as a field. Raises Error, with the place in the formula, if the slope has no bound."""
         if self._field is None:
             self._field = _registry.functions["formula"](self.text, self._bounds)
         return self._field
@@ -175,7 +176,7 @@ class Expression(Value):
 
 
 def expression(value):
-    """A number or an expression as an expression; None for what is neither."""
+    """Converts a number to an expression; returns expressions unchanged, and None for anything else."""
     if isinstance(value, Expression):
         return value
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -188,7 +189,7 @@ def expression(value):
 
 
 class _Writer:
-    """Text of an expression. What is used more than once, or far down, gets a name."""
+    """Writes an expression as text. Subexpressions that are used more than once, or nested deeply, get a name."""
 
     deepest = 20  # levels of brackets before a name
 
@@ -237,7 +238,7 @@ class _Writer:
 
 
 def coordinates():
-    """x, y and z, of which formulas are made: x, y, z = pt.coordinates()."""
+    """The expressions x, y and z, from which formulas are built: x, y, z = pt.coordinates()."""
     return Expression("x"), Expression("y"), Expression("z")
 
 

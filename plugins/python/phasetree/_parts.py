@@ -1,5 +1,5 @@
-"""What a scene has beside its object: materials, textures, numbers, maps of normals, lights, meshes, cameras and the
-image's settings."""
+"""Parts of a scene other than objects: materials, textures, numbers, normal maps, voxels, lights, meshes, cameras and
+image settings."""
 
 from __future__ import annotations
 
@@ -23,8 +23,10 @@ _CHECKED_AS = {
 
 
 class Part(Value):
-    """A material, texture, number, map of normals, grid of voxels, light, mesh, camera, or the image's settings: a kind and its
-    parameters, checked."""
+    """A material, texture, number, normal map, voxel grid, light, mesh or camera, or the image settings.
+
+    Consists of a kind and its parameters, which have been checked.
+    """
 
     __slots__ = ("_text", "chapter", "kind")
 
@@ -40,11 +42,11 @@ class Part(Value):
         return self.chapter, self.kind, json.loads(self._text)
 
     def written(self):
-        """As JSON has it: {kind: parameters}, or the parameters alone where there is one kind only."""
+        """The JSON value: {kind: parameters}, or only the parameters if there is a single kind."""
         return self.parameters() if self.chapter in ("Normal maps", "Voxel grids") else json.loads(self._text)
 
     def parameters(self):
-        """What was said of it."""
+        """The parameters that were passed."""
         return json.loads(self._text)[self.kind]
 
     def __eq__(self, other):
@@ -111,7 +113,10 @@ voxels = _function(_chapters["Voxel grids"][0])
 
 
 def part_of(chapter, value):
-    """A part as a scene file says it, which was checked there. A camera of no kind is a thin lens."""
+    """Makes a part from the JSON of a scene file, which has been checked already.
+
+    A camera without a kind is a thin lens.
+    """
     names = [kind.name for kind in _chapters[chapter]]
     if chapter == "Render settings":
         value = {"render": value}

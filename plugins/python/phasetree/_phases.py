@@ -1,4 +1,4 @@
-"""Phases: the materials of objects, by name."""
+"""Phases: the named materials of objects."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from phasetree._values import Value
 
 
 class Phase(Value):
-    """A phase of an object: its name and its material. Called with fields, it makes an object of them.
+    """A phase of an object: its name and its material.
 
-    Two of the same name and the same material are the same phase. Without a material an object can be measured, but
-    not rendered.
+    phase(field, …) returns an object that has this phase wherever a field is negative. Two phases with the same name
+    and the same material are equal. An object whose phases have no materials can be measured, but not rendered.
     """
 
     __slots__ = ("material", "name")
@@ -34,7 +34,7 @@ class Phase(Value):
         return self.name, self.material
 
     def __call__(self, *fields):
-        """The object of this phase that is where the field is negative; of several fields, their union."""
+        """Returns an object that has this phase wherever a field is negative. Several fields are united."""
         if len(fields) == 1 and not isinstance(fields[0], (list, tuple)):
             return functions["set"](fields[0], self)
         return functions["set"](functions["union"](*fields), self)
@@ -50,7 +50,7 @@ class Phase(Value):
 
 
 def phase(name, material=None):
-    """A phase of this name and material: pt.phase("glass", pt.clear(ior=1.5))."""
+    """Returns the phase with this name and material: pt.phase("glass", pt.clear(ior=1.5))."""
     if name == "vacuum":
         raise Error('"vacuum" is always there and cannot be a phase of one\'s own')
     return Phase(name, material)
@@ -63,7 +63,7 @@ most = 64  # the vacuum among them
 
 
 def merged(*several):
-    """Lists of phases as one, in the order in which they first appear; vacuum is the first."""
+    """Merges lists of phases. The vacuum comes first, then the phases in the order in which they first appear."""
     found = {"vacuum": vacuum}
     for phases in several:
         for one in phases:

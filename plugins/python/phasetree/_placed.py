@@ -1,4 +1,4 @@
-"""Scenes of many objects: what there is by name, and where it stands, as arrays of affine maps."""
+"""Scenes of many objects: named objects, and their transforms as arrays of affine maps."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _IDENTITY = np.hstack([np.eye(3), np.zeros((3, 1))]).astype(np.float32)
 
 
 def _maps(transforms, what):
-    """float32 (N, 3, 4) from maps of any of the shapes that `places` takes."""
+    """Converts transforms of any shape that `places` accepts to a float32 array of shape (N, 3, 4)."""
     _reference.check_still(transforms, what)
     array = np.asarray(transforms, dtype=np.float32)
     if array.shape[-1:] == (3,) and array.ndim <= 2:
@@ -35,8 +35,10 @@ def _maps(transforms, what):
 
 
 class Places:
-    """Places of an object or of a group of a scene: its name, and float32 (N, 3, 4), each the matrix [M v] of an
-    affine map, p to M p + v."""
+    """The places of an object or a group in a scene.
+
+    of: its name. transforms: float32 (N, 3, 4), one matrix [M v] per place, for the affine map from p to M p + v.
+    """
 
     __slots__ = ("of", "transforms")
 
@@ -44,7 +46,7 @@ class Places:
         self.of, self.transforms = of, transforms
 
     def written(self):
-        """As JSON has them: twelve numbers each, where the axes and the origin go."""
+        """The JSON value. Each transform is twelve numbers: the images of the three axes, then of the origin."""
         columns = self.transforms.transpose(0, 2, 1).reshape(-1, 12)
         return {"of": self.of, "transforms": _numbers(columns)}
 
@@ -61,9 +63,10 @@ class Places:
 
 
 def places(of, transforms):
-    """Where an object or a group of a scene stands, once or many times: Places.
+    """Places an object or a group of a scene, once or many times. Returns Places.
 
-    of: its name. transforms: a position, (3,) or (N, 3), or a 3x4 or 4x4 matrix of an affine map, one or N of them.
+    of: the name of the object or group. transforms: one position or N, of shape (3,) or (N, 3); or one matrix or N of
+    an affine map, 3x4 or 4x4.
     """
     if not isinstance(of, str) or not of:
         raise Error(f"places are those of an object or a group by its name, but this is {of!r}")
@@ -71,7 +74,7 @@ def places(of, transforms):
 
 
 def named_objects(objects):
-    """{name: (object, its own map)} of what a scene is given."""
+    """Converts a scene's `objects` to {name: (object, its own map)}."""
     result = {}
     for name, value in dict(objects).items():
         placed, transform = value if isinstance(value, tuple) and len(value) == 2 else (value, _IDENTITY)
@@ -85,7 +88,7 @@ def named_objects(objects):
 
 
 def place_lists(value, what):
-    """A tuple of Places."""
+    """Converts one Places or several to a tuple."""
     lists = (value,) if isinstance(value, Places) else tuple(value)
     for one in lists:
         if not isinstance(one, Places):
@@ -94,7 +97,7 @@ def place_lists(value, what):
 
 
 def phases_of(objects):
-    """All phases of the objects, the vacuum first. Phases of one name must have one material."""
+    """All phases of the objects, the vacuum first. Phases with the same name must have the same material."""
     known = {}
     for placed, _ in objects.values():
         for p in placed.phases[1:]:
@@ -104,7 +107,7 @@ def phases_of(objects):
 
 
 def _numbers(array):
-    """Lists of numbers in the few digits that say a float32."""
+    """Lists of numbers with as few digits as identify each float32."""
     if array.ndim > 1:
         return [_numbers(row) for row in array]
     return [float(str(value)) for value in array]
@@ -116,7 +119,7 @@ def _written_map(matrix):
 
 
 def written(objects):
-    """The "shapes" and "objects" of a scene file. Shapes that several places of a tree share have the object's name."""
+    """The "shapes" and "objects" of a scene file. Shapes that a tree uses repeatedly are named after the object."""
     shapes, placed = {}, []
     for name, (one, matrix) in objects.items():
         # A phase may be called as the writer calls a shape, so phases have other names until shapes have theirs.
@@ -140,7 +143,7 @@ def written(objects):
 
 
 def without_places_alone(objects, groups, places):
-    """The same places without those that an object has because nothing names it."""
+    """Removes the places of objects that stand in the scene only because nothing names them."""
     named = [one.of for listed in (*groups.values(), places) for one in listed]
     return [
         one

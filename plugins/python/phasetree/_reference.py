@@ -1,4 +1,4 @@
-"""Kinds of things as the library lists them: how they are called, documented and written as text."""
+"""The kinds of nodes, materials and other parts that the library lists: how to call, document and write them."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ _HANDLES = ("field", "object", "list of fields", "list of objects")
 
 
 def python_name(name):
-    """A parameter's name as Python can have it."""
+    """A parameter's name in Python: with a trailing underscore if it is a keyword."""
     return name + "_" if keyword.iskeyword(name) else name
 
 
 def _american(name):
-    """A name in American spelling."""
+    """The name in American spelling."""
     return name.replace("colour", "color").replace("centre", "center")
 
 
 class Parameter:
-    """A parameter of a kind: its description from the list, and how it is passed."""
+    """A parameter of a kind: its description in the library's list, and how it is passed."""
 
     def __init__(self, page):
         self.name = page["name"]
@@ -44,7 +44,7 @@ class Parameter:
 
     @property
     def default(self):
-        """As a value of Python; None for what a word says, such as "all"."""
+        """The default as a Python value; None for a default that is described by a word, such as "all"."""
         try:
             value = json.loads(self.written_default)
         except ValueError:
@@ -60,7 +60,7 @@ class Parameter:
 
 
 class Kind:
-    """A kind of thing, and the order in which Python takes its parameters: what it is made of comes first."""
+    """A kind of node or part. In Python, parameters that are fields or objects come first."""
 
     def __init__(self, chapter, page):
         self.chapter = chapter
@@ -96,12 +96,12 @@ class Kind:
         return inspect.Signature(arguments)
 
     def _unnamed(self, arguments):
-        """The parameters that these arguments are, up to what there may be any number of."""
+        """Pairs positional arguments with their parameters, up to the parameter that takes any number of arguments."""
         first = self.parameters[: self.parameters.index(self.many)] if self.many else self.parameters
         return zip(first, arguments)
 
     def _in_known_spelling(self, named, known):
-        """The same arguments, with British spellings of American names, such as colour, and vice versa, replaced."""
+        """The same arguments, with names in the other spelling, British or American, replaced by the known ones."""
         names = {_american(name): name for name in known}
         result = {}
         for name, value in named.items():
@@ -112,7 +112,7 @@ class Kind:
         return result
 
     def bound(self, signature, arguments, named):
-        """What was passed, by the names of the list."""
+        """The arguments of a call as {parameter: value}. Raises TypeError or Error if they do not fit."""
         if self.many and self.many.python_name in named:
             raise Error(f'{self.name}: what it is made of comes first and unnamed: {self.name}(a, b, …)')
         known = {p.python_name: p for p in self.parameters}
@@ -144,12 +144,12 @@ class Kind:
 
 
 def chapters():
-    """The chapters of the reference: (title, list of kinds)."""
+    """The chapters of the reference, as a list of (title, list of kinds)."""
     return [(c["title"], [Kind(c["title"], page) for page in c["kinds"]]) for c in _phasetree.chapters()]
 
 
 def written(value, what):
-    """A value as JSON has it. Arrays of NumPy become lists."""
+    """Converts a value to JSON. NumPy arrays become lists."""
     if isinstance(value, (str, bool)) or value is None:
         return value
     if hasattr(value, "text") and hasattr(value, "within"):
@@ -176,14 +176,17 @@ def written(value, what):
 
 
 def moves(value):
-    """Whether something changes with time in what JSON has: {"keys": [[seconds, value], …]}."""
+    """Whether a JSON value changes with time, that is, contains {"keys": [[seconds, value], …]}."""
     if isinstance(value, dict):
         return isinstance(value.get("keys"), list) or any(moves(v) for v in value.values())
     return isinstance(value, list) and any(moves(v) for v in value)
 
 
 def check_still(value, what):
-    """Refuses keys where they would be lost: trees are of nodes that the library has read at one time."""
+    """Rejects keys where they would be lost.
+
+    The library reads a tree at one time, so its nodes cannot keep keys.
+    """
     if moves(value):
         raise Error(
             f"{what} has keys, and what is made in Python stands still. Make one scene for each time, or write the scene "
@@ -192,7 +195,7 @@ def check_still(value, what):
 
 
 def file_name(value):
-    """A file as it is found from any folder."""
+    """The absolute name of a file. Raises Error if it is not UTF-8."""
     name = os.path.abspath(path_text(value))
     try:
         name.encode()

@@ -1,10 +1,10 @@
-"""What _trees defines and the modules below it use: formulas and phases make fields and objects.
+"""Functions and classes that _trees defines, and that lower modules use to make fields and objects.
 
-_trees fills both dictionaries when the package is imported, so that modules only import what is below them.
+_trees fills both dictionaries when the package is imported, so no module imports one that is above it.
 """
 
-#: The function for each kind of node, by its name: functions["sphere"](1).
+#: The function of each kind of node, by name: functions["sphere"](1).
 functions = {}
 
-#: The classes "Field" and "Object".
+#: The classes Field and Object, by name.
 classes = {}

@@ -1,4 +1,4 @@
-"""Whole scenes: an object, what is beside it, a camera; their files and their pictures."""
+"""Scenes: objects, meshes, lights and a camera. Reads and writes scene files, and renders pictures."""
 
 from __future__ import annotations
 
@@ -32,11 +32,12 @@ def _several(values, chapter, what):
 
 
 class Image:
-    """A picture: linear Rec.709 radiance, and further planes beside it.
+    """A picture: linear Rec.709 radiance, and optional planes.
 
-    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by the names of their channels in
-    EXR files, such as "depth.Z", "normal.X". crop: (x0, y0, width, height), where the pixels lie in a whole picture of that
-    size, or None. attributes: what EXR files say beside it, such as the names in a Cryptomatte.
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) each, by the names of their
+    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the offset of the pixels in
+    the whole picture and the size of that picture; None if not cropped. attributes: further EXR attributes, such as the
+    names in a Cryptomatte.
     """
 
     def __init__(
@@ -53,11 +54,11 @@ class Image:
         return np.array(self.pixels, dtype=dtype) if copy else np.asarray(self.pixels, dtype=dtype)
 
     def png(self, exposure=None, view=None):
-        """The picture as a PNG file's bytes, through the display transform; exposure in stops."""
+        """The bytes of a PNG file of the picture, after the display transform. exposure: in stops."""
         return _phasetree.png(self.pixels, self.exposure if exposure is None else exposure, view or self.view)
 
     def save(self, path, exposure=None, view=None):
-        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
+        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name: one file per plane."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
             path_text(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
@@ -68,7 +69,7 @@ class Image:
         return self.png()
 
     def __eq__(self, other):
-        """Whether all is the same but the seconds that it took."""
+        """Whether everything except the render time is equal."""
         if not isinstance(other, Image) or self.planes.keys() != other.planes.keys():
             return False
         described = ("exposure", "view", "samples", "scene", "seed", "crop", "attributes")
@@ -86,14 +87,15 @@ class Image:
 
 
 class Scene(Value):
-    """An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
-    A scene of meshes alone has neither object nor objects.
+    """One or several objects, with everything that a picture of them needs. Immutable; `with_` replaces parts.
 
-    object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
-    a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
-    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera:
-    pt.camera(…) or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera sees in place
-    of the lights at infinity. image: pt.image(…).
+    object: to be rendered, its phases need materials. A scene has either this object, or `objects`, or only meshes.
+    objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix. Objects may
+    touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
+    An object that is placed does not also stand where its own map puts it. groups: {name: places}.
+
+    camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
+    sees instead of the lights at infinity. image: pt.image(…).
     """
 
     def __init__(
@@ -127,7 +129,7 @@ class Scene(Value):
         self.name = name
 
     def _arguments(self):
-        """The arguments that make an equal scene."""
+        """The arguments with which Scene makes an equal scene."""
         shown = ("objects", "groups", "instances") if self.objects else ("object",)
         own = ("camera", "lights", "meshes", "background", "image", "name")
         return {name: getattr(self, name) for name in (*shown, *own)}
@@ -147,7 +149,7 @@ class Scene(Value):
         return Scene(**{**own, **parts})
 
     def _shown(self):
-        """The file's text but for what is beside the objects, and without its last bracket."""
+        """The part of the file's text that describes the objects, without the last bracket."""
         if self.object is not None:
             materials = [_material(p) for p in self.phases[1:]]
             return self.object._handle.text(self.object._materials, materials).rstrip()[:-1].rstrip()
@@ -180,7 +182,7 @@ class Scene(Value):
         return rest
 
     def to_json(self, **image):
-        """The scene as a file says it; image: settings that are replaced."""
+        """The scene as the text of a scene file. image: settings that replace the scene's own."""
         text = self._shown()
         rest = self._rest(image)
         if not rest:
@@ -189,7 +191,10 @@ class Scene(Value):
         return text + "," + more[1:] + "\n"
 
     def save(self, path):
-        """Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
+        """Writes a scene file, from which load() makes an equal scene.
+
+        Files within the folder of the scene file are named relative to it.
+        """
         path = path_text(path)
         folder = os.path.dirname(os.path.abspath(path))
 
@@ -212,14 +217,17 @@ class Scene(Value):
         self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, planes=(), denoise=False,
         time_limit=None, at=0.0, **image,
     ):  # fmt: skip
-        """Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
+        """Path-traces the scene. Returns an Image, which does not depend on the number of threads. Ctrl-C ends it.
 
-        image: settings instead of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
-        progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
-        planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
-        "regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
-        "noisy.R", "noisy.G" and "noisy.B". time_limit: seconds within which the last whole pass ends; without samples=… no
-        number of samples ends it. at: the time in seconds of what has keys.
+        image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
+        progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
+
+        planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
+        command. denoise: True, "regression" (the same bits everywhere) or "oidn". Image.planes then has the picture
+        before denoising as "noisy.R", "noisy.G" and "noisy.B".
+
+        time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is given too, only the time
+        ends the render. at: the time in seconds at which keys are read.
         """
         if self.camera is None:
             raise Error("the scene has no camera: Scene(…, camera=pt.camera(position, look_at))")
@@ -244,7 +252,7 @@ class Scene(Value):
         return Image(**parts, exposure=exposure, view=view, scene=self.name, seed=seed)
 
     def _repr_png_(self):
-        """A small and quick picture, for notebooks."""
+        """A small picture that renders quickly, for notebooks."""
         if self.camera is None or any(p.material is None for p in self.phases[1:]):
             return None
         own = self.image.parameters() if self.image else {}
@@ -265,7 +273,7 @@ class Scene(Value):
 
 
 def _render_request(quality, denoise, time_limit, planes):
-    """What render() is asked for, as the extension module has it."""
+    """The arguments of render() as a RenderRequest of the extension module."""
     if quality not in ("low", "medium"):
         raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
     if not isinstance(denoise, (bool, str)) and denoise is not None:
@@ -296,7 +304,7 @@ def _line(stage, share):
 
 
 def _with_nodes(parts, phases):
-    """The same with handles replaced by their nodes."""
+    """The same parts, with handles replaced by the JSON of their nodes."""
     if isinstance(parts, _phasetree.FieldHandle):
         return node_of(parts, phases or ["phase"])
     if isinstance(parts, dict):
@@ -313,7 +321,7 @@ def _phases_of(parts):
 
 
 def _object_with_names(entry, raw, path):
-    """An object of a scene of several: its tree, with the phases that the reader of scenes gives it."""
+    """One object of a scene with "objects": its tree, with the phase names that the C++ reader gives it."""
     name = entry["name"]
     if "file" in entry:
         taken = load(os.path.join(os.path.dirname(os.path.abspath(path)), entry["file"]))
@@ -331,7 +339,7 @@ def _object_with_names(entry, raw, path):
 
 
 def _fields_of_materials(value):
-    """What textures follow, and densities, which become handles when they are read."""
+    """The fields of textures and densities, which become handles when they are read."""
     if isinstance(value, dict):
         field = "of" if "ramp" in value else "density" if "density_depth" in value else None
         own = [value[field]] if field in value else []
@@ -368,8 +376,8 @@ def _load_objects(path):
 def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
 
-    What an object takes from another scene file is read from there, and is the scene's own from then on. Trees, and
-    where objects stand, are as at the time 0, with a warning if they move; all else keeps its keys.
+    Objects taken from another scene file are read from there and become part of this scene. Trees and transforms are
+    read at time 0, with a warning if they have keys; everything else keeps its keys.
     """
     path = path_text(path)
     text = _phasetree.text_of_file(path)

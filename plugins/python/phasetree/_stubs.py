@@ -1,7 +1,7 @@
 """Writes the type stubs with which editors complete and check calls: python3 -m phasetree._stubs > __init__.pyi.
 
-They are made from the lists that the functions are made from. What is written by hand in the package is described by
-what it says itself: its annotations would be the same lines again.
+Stubs of generated functions come from the same lists as the functions. Functions written by hand keep their own
+signatures, without types.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _type(name):
 
 
 def _arguments(kind, first=None):
-    """The parameters as a stub has them; `first` is the type of the first one where it is `self`."""
+    """The parameters in a stub. For a method, `first` is the type of the first parameter, which is `self`."""
     parts = ["self"] if first else []
     for p, argument in zip(kind.parameters, kind.signature().parameters.values()):
         if first and p is kind.parameters[0]:
@@ -85,7 +85,7 @@ def _function(name, kind, result, indent="", first=None, doc=True):
 
 
 def _overloads(name, function, indent="", method_of=None):
-    """A function, or two where a field gives a field and an object an object."""
+    """The stub of a function, or two overloads if it maps fields to fields and objects to objects."""
     results = [t for t in function.makes if method_of is None or len(function.makes) == 1 or t is method_of]
     text = ""
     for result in results:
@@ -100,7 +100,7 @@ def _overloads(name, function, indent="", method_of=None):
 
 
 def _plain(member, indent="    "):
-    """A function that is written by hand: its signature as it is, and its documentation."""
+    """The stub of a function written by hand: its signature and its documentation."""
     is_property = isinstance(member, property)
     function = member.fget if is_property else member
     doc = inspect.getdoc(function)
@@ -110,7 +110,7 @@ def _plain(member, indent="    "):
 
 
 def _untyped(signature):
-    """Defaults as a stub has them."""
+    """The signature with its defaults replaced by `...`."""
     parameters = [
         p if p.default is inspect.Parameter.empty else p.replace(default=...) for p in signature.parameters.values()
     ]
@@ -145,7 +145,7 @@ def _methods(cls):
 
 
 def text():
-    """The stub file."""
+    """The text of the stub file."""
     out = '"""Written by python3 -m phasetree._stubs from the library\'s lists; see plugins/python/README.md."""\n\n'
     out += "from os import PathLike\nfrom typing import Any, Literal, NamedTuple, Sequence, overload\n\n"
     out += "import numpy as np\n\n__version__: str\nbuild_id: str\n\n"

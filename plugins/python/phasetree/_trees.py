@@ -1,4 +1,4 @@
-"""Fields and objects of phases, and the functions and methods that make them, from the list of nodes."""
+"""Fields, objects of phases, and the functions and methods generated from the list of nodes that make them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from phasetree._values import Value
 
 
 def _points(values, what="the points"):
-    """(N, 3) floats, contiguous, and the shape in front: the array itself where it is that already."""
+    """The points as a contiguous float array (N, 3), without a copy if possible, and the leading shape."""
     array = np.ascontiguousarray(values, dtype=np.float32)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise Error(f"{what} must have the shape (…, 3), but have {array.shape}")
@@ -24,18 +24,18 @@ def _points(values, what="the points"):
 
 
 class Crossings(NamedTuple):
-    """Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1]."""
+    """Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1] − 1."""
 
     start: np.ndarray  #: uint8 (N): the phase at each ray's origin
     offsets: np.ndarray  #: int64 (N + 1)
-    t: np.ndarray  #: float32 (M): a crossing is at origin + t·direction
-    before: np.ndarray  #: uint8 (M): the phase that ends
-    after: np.ndarray  #: uint8 (M): the phase that begins
-    normal: np.ndarray  #: float32 (M, 3): unit, from `before` into `after`
+    t: np.ndarray  #: float32 (M): the crossing is at origin + t·direction
+    before: np.ndarray  #: uint8 (M): the phase that the ray leaves
+    after: np.ndarray  #: uint8 (M): the phase that the ray enters
+    normal: np.ndarray  #: float32 (M, 3): the unit normal, from `before` into `after`
 
     @property
     def ray(self):
-        """The number of each crossing's ray."""
+        """The index of the ray of each crossing."""
         return np.repeat(np.arange(len(self.start)), np.diff(self.offsets))
 
     def of_ray(self, i):
@@ -50,7 +50,7 @@ class Crossings(NamedTuple):
 
 
 class Hits(NamedTuple):
-    """The first crossing along each ray; where there is none, t is infinite and `after` is the phase at the origin."""
+    """The first crossing along each ray. If there is none, t is infinite and `after` is the phase at the origin."""
 
     t: np.ndarray
     before: np.ndarray
@@ -59,31 +59,31 @@ class Hits(NamedTuple):
 
 
 class Closest(NamedTuple):
-    """The closest interface to each point; where there is none, the distance is infinite and the place NaN."""
+    """The closest interface to each point. If there is none, the distance is infinite and the point NaN."""
 
     distance: np.ndarray
     point: np.ndarray
-    here: np.ndarray  #: the phase on the point's side
-    there: np.ndarray  #: the phase beyond
+    here: np.ndarray  #: the phase on the side of the query point
+    there: np.ndarray  #: the phase on the other side
 
 
 class PhaseMesh(NamedTuple):
-    """The interfaces of an object as triangles, which share their vertices: see Object.mesh."""
+    """The interfaces of an object as triangles with shared vertices; see Object.mesh."""
 
     vertices: np.ndarray  #: float32 (N, 3)
     triangles: np.ndarray  #: uint32 (M, 3): counterclockwise as seen from the phase in front
-    behind: np.ndarray  #: uint8 (M): the phase behind, of the higher number
+    behind: np.ndarray  #: uint8 (M): the phase behind, which has the higher number
     front: np.ndarray  #: uint8 (M): the phase in front
-    names: tuple  #: of the phases
-    spacing: float  #: of the grid's points
-    crossings: int  #: along the lines of the grid
-    passed_over: int  #: how many of these are not shown: at edges, and where a phase is thinner than the spacing
+    names: tuple  #: the names of the phases
+    spacing: float  #: the distance between grid points
+    crossings: int  #: the number of crossings along the lines of the grid
+    passed_over: int  #: how many are missing: at edges, and where a phase is thinner than the spacing
 
     def surface(self, *phases):
-        """What bounds some phases together, each given by itself or by its name: (vertices, triangles).
+        """The surface around some phases together, each given as a Phase or by name. Returns (vertices, triangles).
 
-        The surface is closed, and its triangles are counterclockwise as seen from outside. That of one phase, or of
-        all but the vacuum, is a manifold.
+        The surface is closed, and its triangles are counterclockwise as seen from outside. The surface of a single
+        phase, or of all phases except the vacuum, is a manifold.
         """
         wanted = np.zeros(len(self.names), dtype=bool)
         for phase in phases:
@@ -100,7 +100,7 @@ class PhaseMesh(NamedTuple):
 
 
 def node_of(handle, phases):
-    """A field's node as JSON, with its shapes expanded."""
+    """The JSON of a field's node, with references to shapes expanded."""
     scene = _phasetree.value_of(handle.text(phases))
     shapes = scene.get("shapes", {})
 
@@ -115,10 +115,10 @@ def node_of(handle, phases):
 
 
 class Field(Value):
-    """A plain signed distance, negative inside. Immutable.
+    """A signed distance, negative inside. Immutable.
 
-    a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
-    radius r. Nodes that are made of a field are its methods: a.translate((0, 0, 1)).
+    a | b is the union, a & b the intersection, a - b the difference. a.smooth(r) | b, and likewise & and -, rounds the
+    seam with the radius r. Nodes whose first parameter is a field are also methods: a.translate((0, 0, 1)).
     """
 
     __slots__ = ("_evaluator_", "_handle_", "_joined", "_phases_", "_radius")
@@ -156,7 +156,7 @@ class Field(Value):
         return self._handle.text([p.name for p in self._phases[1:]] or ["phase"])
 
     def written(self):
-        """The node as JSON has it."""
+        """The node as JSON."""
         return node_of(self._handle, [p.name for p in self._phases[1:]] or ["phase"])
 
     @property
@@ -166,7 +166,7 @@ class Field(Value):
         return self._evaluator_
 
     def smooth(self, radius):
-        """The same field, whose next |, & or - rounds the seam with this radius."""
+        """The same field, but the next |, & or - with it rounds the seam with this radius."""
         radius = float(radius)
         if not 0 < radius < float("inf"):
             raise Error(f"the radius of a smooth seam must be positive, but is {radius}")
@@ -199,7 +199,7 @@ class Field(Value):
         return self._with(other, "-", "difference", "smooth_difference")
 
     def distance(self, points):
-        """The signed distance at points of the shape (…, 3): float32, negative inside."""
+        """The signed distance at points given as an array of shape (…, 3): float32, negative inside."""
         array, shape = _points(points)
         return self._evaluator.component(array, 1).reshape(shape)[()]
 
@@ -210,7 +210,7 @@ class Field(Value):
 
     @property
     def bounds(self):
-        """A box around the points that are not outside: (low, high); infinite where there is none, None if empty."""
+        """A box around the points that are not outside: (low, high). Infinite where unbounded; None if empty."""
         return self._handle.bounds
 
     @property
@@ -219,7 +219,7 @@ class Field(Value):
         return self._handle.nodes
 
     def to_json(self):
-        """The field as a scene file says it, with the shapes that it shares."""
+        """The field as text for a scene file, with its shared shapes."""
         tree = json.loads(self._text)
         node = tree["tree"]["set"]["of"]
         return json.dumps({"shapes": tree["shapes"], "of": node} if "shapes" in tree else node)
@@ -237,10 +237,10 @@ class Field(Value):
 
 
 class Object(Value):
-    """An object of phases, of which exactly one is at any point. Immutable.
+    """An object of several phases. Every point is in exactly one of them. Immutable.
 
-    Objects are joined by methods, because order matters: a.over(b), a.under(b), a.contact(b, …). Numbers of phases in
-    arrays are indices into `phases`.
+    Methods join objects, because the order matters: a.over(b), a.under(b), a.contact(b, …). Arrays identify phases by
+    their index in `phases`.
     """
 
     __slots__ = ("_evaluator_", "_handle", "_prepared_", "phases")
@@ -299,9 +299,10 @@ class Object(Value):
         return self._refuse(other, "-")
 
     def with_phases(self, *phases):
-        """The same object with its phases in this order, which decides between phases at equal distances.
+        """The same object with its phases in this order. Where two phases are equally far, the order decides.
 
-        All that the object has must be there; further ones may be. A phase given here with a material has that one.
+        The list must contain all phases of the object, and may contain others. A material given here replaces the
+        phase's own.
         """
         wanted = (vacuum, *(p for p in phases if p != vacuum))
         numbers = {}
@@ -328,38 +329,39 @@ class Object(Value):
         return self._evaluator_
 
     def label(self, points):
-        """The phase at points of the shape (…, 3): uint8, an index into `phases`.
+        """The phase at points given as an array of shape (…, 3): uint8, an index into `phases`.
 
-        The array of points is used in place if it is contiguous float32. Where a coordinate is not finite, the vacuum.
+        A contiguous float32 array is not copied. A point with a coordinate that is not finite is in the vacuum.
         """
         array, shape = _points(points)
         return self._evaluator.label(array).reshape(shape)[()]
 
     def phi(self, points):
-        """Φ at points: float32 (…, phases), the signed distance to each phase, negative in it.
+        """Φ at points: float32 (…, phases), the signed distance to each phase, negative in the phase.
 
-        Column i is that of phases[i]; infinite if the object never has it.
+        Column i is for phases[i]. It is infinite if the object does not have that phase anywhere.
         """
         array, shape = _points(points)
         return self._evaluator.phi(array, len(self.phases)).reshape(*shape, len(self.phases))
 
     def gradient(self, points, phase=None):
-        """The gradient at points of the distance to a phase; without one, to the phase that is at the point."""
+        """The gradient at points of the distance to a phase; by default, to the phase in which each point is."""
         array, shape = _points(points)
         return self._evaluator.gradient(array, self.index(phase) if phase is not None else -1).reshape(*shape, 3)
 
     def index(self, phase):
-        """The number that a phase, or one of this name, has in arrays."""
+        """The index of a phase in arrays. The phase is given as a Phase or by name."""
         name = phase.name if isinstance(phase, Phase) else phase
         if name not in self.names:
             raise Error(f'the object has no phase {name!r}; it has {", ".join(self.names)}')
         return self.names.index(name)
 
     def prepare(self, quality="medium", resolution=0, progress=None):
-        """Builds the cells in which rays are traced, which happens by itself at the first ray.
+        """Builds the cells in which rays are traced. Otherwise, the first ray builds them.
 
         quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
-        certain to be found; 0 takes 2·10⁻⁶ of the object's size. progress: called with "preparing" and a share of 1.
+        certain to be found. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
+        progress: called with "preparing" and the fraction done, up to 1.
         """
         if quality not in ("low", "medium"):
             raise Error(f'the quality must be "low" or "medium", but is {quality!r}')
@@ -378,30 +380,30 @@ class Object(Value):
         return self._prepared.resolution
 
     def trace(self, origins, directions):
-        """Every crossing along rays, given as arrays of the shape (…, 3): see Crossings."""
+        """Every crossing along rays, which are given as arrays of shape (…, 3). Returns Crossings."""
         origins, directions, _ = _rays(origins, directions)
         return Crossings(*self._prepared.trace(origins, directions))
 
     def intersect(self, origins, directions):
-        """The first crossing along each ray, given as arrays of the shape (…, 3): see Hits."""
+        """The first crossing along each ray; the rays are given as arrays of shape (…, 3). Returns Hits."""
         origins, directions, shape = _rays(origins, directions)
         t, before, after, normal = self._prepared.intersect(origins, directions)
         return Hits(t.reshape(shape), before.reshape(shape), after.reshape(shape), normal.reshape(*shape, 3))
 
     def closest(self, points, radius=float("inf"), tolerance=0.01):
-        """The closest interface to each point, within a radius: see Closest.
+        """The closest interface to each point, within a radius. Returns Closest.
 
-        tolerance: by which share the distance may be more than the least.
+        tolerance: the accepted relative error of the distance.
         """
         array, shape = _points(points)
         distance, point, here, there = self._prepared.closest(array, radius, tolerance)
         return Closest(distance.reshape(shape), point.reshape(*shape, 3), here.reshape(shape), there.reshape(shape))
 
     def mesh(self, spacing=0, progress=None):
-        """The interfaces of the phases as triangles: see PhaseMesh.
+        """The interfaces of the phases as triangles. Returns a PhaseMesh.
 
-        spacing: the distance of the grid's points, about the size of the smallest that is kept; 0 takes a 256th of the
-        object's longest side. progress: called with "meshing" and a share of 1.
+        spacing: the distance between grid points, about the size of the smallest detail that is kept; 0 selects 1/256
+        of the object's longest side. progress: called with "meshing" and the fraction done, up to 1.
         """
         spacing = float(spacing)
         if not (0 <= spacing < 3.4e38) or (spacing > 0 and np.float32(spacing) == 0):
@@ -411,7 +413,7 @@ class Object(Value):
 
     @property
     def bounds(self):
-        """A box around all that is not vacuum: (low, high); infinite where there is none, None if empty."""
+        """A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
         return self._handle.bounds
 
     @property
@@ -420,7 +422,7 @@ class Object(Value):
         return self._handle.nodes
 
     def to_json(self):
-        """The object as a scene file without camera says it."""
+        """The object as the text of a scene file without a camera."""
         return self._handle.text(self._materials, [_material(p) for p in self.phases[1:]])
 
     def __eq__(self, other):
@@ -458,7 +460,7 @@ _A = {"field": "a field", "object": "an object of phases", "list of fields": "fi
 
 
 def _node_text(kind, values):
-    """A node's text, the handles that it names, and its phases with the handles' numbers among them."""
+    """A node's text, all its phases, and the handles that the text names, renumbered to these phases."""
     handles, phases = [], []
     for p, value in values.items():
         several = value if p.is_handle and p.is_list else [value]
@@ -504,7 +506,7 @@ def _text_of(value, what):
 
 
 def _function(name, of_field, of_object):
-    """The function of a node, or of both nodes of a name: what it is made of decides."""
+    """The function of a node. If a field node and an object node share the name, the first argument selects one."""
     kind = of_object or of_field
     signature = kind.signature()
 
@@ -547,7 +549,7 @@ def _all_functions():
 
 
 def _add_methods():
-    """Each node that is made of a field, or of an object, is a method of it."""
+    """Makes each function whose first parameter is a field or an object a method of that class."""
     for name, function in functions.items():
         first = function.kind.parameters[0] if function.kind.parameters else None
         if first is None or not first.is_handle or first.optional:

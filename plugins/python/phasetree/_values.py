@@ -1,13 +1,13 @@
-"""Values that are immutable: a copy is the value itself, and a pickle is the call that makes an equal one."""
+"""Immutable values: copying returns the value itself, and pickling stores the call that makes an equal one."""
 
 
 class Value:
-    """A base class for immutable values. What is built on demand, such as an object's cells, is not pickled."""
+    """Base class of immutable values. Pickles do not contain what is built on demand, such as an object's cells."""
 
     __slots__ = ()
 
     def _pickled(self):
-        """The arguments from which _unpickled makes an equal value."""
+        """The arguments with which _unpickled makes an equal value."""
         raise NotImplementedError
 
     @classmethod

@@ -1,4 +1,4 @@
-"""The live view: a page on this machine that shows a scene, and follows what is made of it."""
+"""The live view: a page, served on this machine, that shows a scene and its changes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COLOURS = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#
 
 
 def _with_materials(object):
-    """The same object, with a plain colour for each phase that has no material."""
+    """The same object, with a plain diffuse material for each phase that has none."""
     phases = [
         p if p.material else Phase(p.name, _parts.materials.diffuse(_COLOURS[i % len(_COLOURS)]))
         for i, p in enumerate(object.phases[1:])
@@ -31,7 +31,7 @@ def _with_materials(object):
 
 
 def _as_scene(what):
-    """A scene of its own for an object: seen from the front, a little from above, under a plain sky."""
+    """Completes a scene or an object for the view, with a camera in front and a plain sky if they are missing."""
     if isinstance(what, Scene):
         if what.object is not None:
             what = what.with_(object=_with_materials(what.object))
@@ -58,10 +58,10 @@ def _as_scene(what):
 
 
 class View:
-    """A live view that is served until close(), or until the program ends.
+    """A live view, served until close() is called or the program ends.
 
-    url: the page's address, for browsers of this machine; whoever has it may look. file: the scene's file, which the page
-    can write a camera and numbers into.
+    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, into which
+    the page can write a camera and numbers.
     """
 
     def __init__(self, what, width=None, samples=None, threads=0, port=0):
@@ -83,12 +83,14 @@ class View:
         shutil.rmtree(folder, ignore_errors=True)
 
     def show(self, what):
-        """Shows another object or scene on the same page. The camera stays where it was turned to, unless the new scene
-        has another one than the last."""
+        """Shows another object or scene on the same page.
+
+        The camera stays as the user turned it, unless the camera of the new scene differs from that of the last one.
+        """
         _as_scene(what).save(self.file)
 
     def close(self):
-        """Ends the view. The page then says that nobody answers."""
+        """Ends the view. The page then shows that it has lost the connection."""
         self._end()
 
     def __enter__(self):
@@ -111,11 +113,11 @@ class View:
 
 
 def view(what, *, width=None, samples=None, threads=0, port=0, open=None):
-    """Shows an object or a scene in the browser, to be turned, cut and edited while it is refined: a View.
+    """Shows an object or a scene in the browser, where it can be turned, cut and edited. Returns a View.
 
-    An object alone is seen under a plain sky, and a phase without a material has a plain colour. width: of the picture
-    in pixels. samples: a pixel's, in the end. port: of 127.0.0.1, 0 for any that is free. open: whether the browser is
-    asked to show the page; by default it is, but not in notebooks, which show it within them. Raises pt.Error.
+    An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of
+    the picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to
+    open the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error.
     """
     made = View(what, width, samples, threads, port)
     if "ipykernel" not in sys.modules if open is None else open:

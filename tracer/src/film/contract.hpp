@@ -55,7 +55,7 @@ struct PlaneSubjects {
 ///   samples were divided among sums, nor on the order in which samples were added and sums were joined.
 /// * read() restores the sum written by write(), and equal sums write equal bytes. read() accepts any bytes. It uses at
 ///   most a small multiple of their size in memory, and throws BytesError if write() cannot have written them. It need
-///   not detect this where a wrong value does no harm.
+///   not reject invalid values that do no harm.
 template <class S>
 concept SumKind = std::regular<S> && requires(S& sum, const S& other, ByteWriter& out, ByteReader& in) {
     { sum += other } -> std::same_as<S&>;

@@ -8,7 +8,7 @@
 //     default planes: three sums of 16 bytes,
 //     and the number of samples                     52    (431 MB for 3840×2160 pixels)
 //     each further mean of a chosen plane           16
-//     most that fits into 2 GB at 3840×2160        241
+//     maximum for 2 GB at 3840×2160                241
 #pragma once
 
 #include <cstdint>

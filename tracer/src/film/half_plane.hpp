@@ -2,7 +2,7 @@
 // them from the mean of all samples gives the other half. The difference of the halves measures the noise of both, and
 // each can be filtered with weights that are independent of its own noise.
 //
-// Samples are divided in blocks of four, because each aligned block of Sobol' samples is spread evenly over the pixel
+// Samples are divided into blocks of four, because each aligned block of Sobol' samples is spread evenly over the pixel
 // (sampling/sobol.hpp), and so both halves are, too. Alternating samples would not work: consecutive samples complement
 // one another, so the halves would differ by more than their noise.
 #pragma once

@@ -23,8 +23,8 @@ struct RecordedSurface {
     glm::vec3 position;  ///< in the scene
     glm::vec3 normal;    ///< unit length, on the side from which it was met
     float distance;      ///< length of the path up to here
-    /// The weight of the path's next direction, f |cos θ| / pdf, without the factor (η/η')² of radiance from
-    /// refraction. Its mean over paths is the share of light that is scattered: the colour of a diffuse surface, and 1
+    /// The weight of the path's next direction, f |cos θ| / pdf, without the factor (η/η')² by which refraction scales
+    /// radiance. Its mean over paths is the share of light that is scattered: the colour of a diffuse surface, and 1
     /// for smooth glass.
     glm::vec3 albedo;
     std::uint32_t object;          ///< the objects of phases first, then the meshes
@@ -41,12 +41,12 @@ struct PathRecord {
     glm::vec3 indirect{0};
     /// The part of each group of lights (Lights::groups). They add up to the radiance, up to rounding.
     std::vector<glm::vec3> groups;
-    /// Whether the camera ray left the scene and saw the infinite lights, or the background instead.
+    /// Whether the camera ray left the scene. It then saw the lights at infinity, or the background that replaces them.
     bool shows_background = false;
     /// The probability of the path's choices according to Fresnel's equations, divided by the probability with which
     /// they were actually made (integrator/interface_choice.hpp), up to the first surface that is not perfectly smooth.
-    /// It is at most weight_limit, up to rounding. `behind->albedo` already includes it; no other member does. Roulette
-    /// is not included.
+    /// It is at most weight_limit, up to rounding. `behind->albedo` already includes it; no other member does. Russian
+    /// roulette is not included.
     float weight = 1;
     static constexpr float weight_limit = 16;
     /// The first surface.

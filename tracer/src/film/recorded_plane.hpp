@@ -1,5 +1,5 @@
-// Planes of the data in a PathRecord (path_record.hpp), by how a pixel's samples become one value. `What` has a name,
-// channels, and of(sample), which returns nullopt if the sample has no value.
+// Planes of the data in a PathRecord (path_record.hpp): one template for each way of making one value of a pixel's
+// samples. `What` has a name, channels, and of(sample), which returns nullopt if the sample has no value.
 #pragma once
 
 #include <array>
@@ -43,7 +43,8 @@ struct MeanPlane : RecordedPlane<What> {
     }
 };
 
-/// The mean over the samples with a value, weighted by What::weight(sample); What::otherwise if there are none.
+/// The mean over the samples with a value (those that met something), weighted by What::weight(sample); What::otherwise
+/// if there are none.
 template <class What>
 struct MeanOfMetPlane : RecordedPlane<What> {
     using Sum = WeightedMean<What::channels.size()>;

@@ -26,8 +26,8 @@ class EmissionCone {
     /// A cone that contains both; not always the smallest.
     friend EmissionCone merged(const EmissionCone& a, const EmissionCone& b);
 
-    /// The greatest cosine between a surface normal and a direction of emission, over all directions in a cone. That
-    /// cone is around the unit vector `towards`; its half-angle has this cosine and sine. The result is 0 only if no
+    /// The greatest cosine between a surface normal and a direction of emission within another cone. That cone has the
+    /// axis `towards` (a unit vector) and a half-angle given by its `cosine` and `sine`. The result is 0 only if no
     /// light is emitted into it.
     double greatest_cosine(const glm::dvec3& towards, double cosine, double sine) const;
 

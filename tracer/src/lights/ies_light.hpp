@@ -1,9 +1,9 @@
 // A luminaire as a point light: a photometric file describes its distribution (ies_profile.hpp), and its greatest
 // radiant intensity is I.
 //
-// The file's straight down points towards the target. For a luminaire that points straight down, the file's 0° plane is
-// towards +x, and angles around the vertical increase anticlockwise as seen from above. For other directions, the
-// luminaire is rotated from there around y first.
+// The direction that the file calls straight down points towards the target. For a luminaire that points straight down,
+// the file's 0° plane is towards +x, and angles around the vertical increase anticlockwise as seen from above. For
+// other directions, the luminaire is rotated from there around y first.
 #pragma once
 
 #include <filesystem>

@@ -1,9 +1,9 @@
 // The distribution of a luminaire from an IES photometric file (ANSI/IES LM-63: 1986, 1991, 1995, 2002, 2019).
 //
 // Reads files of type C, which nearly all luminaires use: candelas by the angle from straight down and by planes around
-// the vertical. A file may omit planes that follow by symmetry: one plane is for all, planes to 90° are for each
-// quadrant, and planes to 180° for each half. Candelas are interpolated linearly in both angles, and are 0 beyond the
-// file's vertical angles.
+// the vertical. A file may omit planes that follow by symmetry: a single plane stands for all, planes from 0° to 90°
+// for every quadrant, and planes from 0° to 180° for both halves. Candelas are interpolated linearly in both angles,
+// and are 0 beyond the file's vertical angles.
 #pragma once
 
 #include <filesystem>

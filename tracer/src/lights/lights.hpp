@@ -11,10 +11,10 @@
 //
 // cᵢ(x) is proportional to the luminance of the light at x from all directions without occlusion. That is its fluence,
 // the mean luminance times the solid angle (approximate for rectangles); at a surface it is the irradiance, which
-// includes the cosine. An environment counts with the share by which it is uneven, at least a tenth (unevenness(), in
-// diffuse_irradiance.hpp), unless there are portals. Unlike emitted power, this measure can compare an environment with
-// a lamp without knowing the extent of the scene, and lamps that are far away, turned away or below the surface take
-// few samples or none.
+// includes the cosine. The weight of an environment is multiplied by its unevenness (diffuse_irradiance.hpp), which is
+// at least a tenth, unless there are portals. Unlike emitted power, this measure can compare an environment with a lamp
+// without knowing the extent of the scene, and lamps that are far away, turned away or below the surface take few
+// samples or none.
 //
 // Many lamps, which are area lights, point lights and parts of emissive surfaces and media, are grouped into clusters
 // (light_tree.hpp). A lamp's cᵢ is then that of the root above it times the probability of the path to the lamp. Σ cᵢ
@@ -131,9 +131,9 @@ class Lights {
     /// The names of the groups, default_group first.
     const std::vector<std::string>& groups() const { return groups_; }
     /// Converts light that a path found in `direction` to a colour and adds it to the group of its light. `found` is in
-    /// wavelengths, or in red, green and blue. Light of infinite lights in several groups is divided by their radiance
-    /// in that direction; up to rounding, the shares add up to the colour of the whole. `groups` is as long as
-    /// groups().
+    /// wavelengths, or in red, green and blue. Light from infinite lights of several groups is split in proportion to
+    /// their radiances in that direction; up to rounding, the shares add up to the colour of the whole. `groups` is as
+    /// long as groups().
     void add_to_groups(const glm::vec3& found, const Wavelengths* wavelengths, const LightSource& source,
                        const glm::vec3& direction, std::span<glm::vec3> groups) const;
 

@@ -21,10 +21,10 @@ struct FilmLayer {
 std::vector<FilmLayer> layers_of_film(const PlaneSubjects& subjects);
 
 /// The appearance of a layer of the image, in [0, 1]. Colours are displayed like the picture. Normals are mapped from
-/// [−1, 1] to [0, 1], and positions from the bounding box of the ball around `centre`. IDs (of phases, objects,
-/// instances and Cryptomatte) become distinct colours. Depths range from dark grey for the farthest to white for the
-/// nearest. Everything else is grey, from 0 to the image's maximum. Where nothing is hit, or if the layer does not
-/// exist, the result is black.
+/// [−1, 1] to [0, 1], and positions so that the bounding box of the ball around `centre` becomes [0, 1]³. IDs (of
+/// phases, objects, instances and Cryptomatte) become distinct colours. Depths range from dark grey for the farthest to
+/// white for the nearest. Everything else is grey, from 0 to the image's maximum. Where nothing is hit, or if the layer
+/// does not exist, the result is black.
 std::vector<glm::vec3> layer_on_display(const Image& image, const std::string& layer, const DisplayTransform& display,
                                         const glm::vec3& centre, float radius);
 

@@ -24,11 +24,11 @@ struct ServeOptions {
     int port = 0;  ///< 0 selects any free port
     /// Whether pages of other servers on this machine, such as a notebook's, may embed the page.
     bool may_be_framed = false;
-    std::function<bool()> is_over;
+    std::function<bool()> is_over;                        ///< polled every 20 ms; returns true to stop the server
     std::function<void(const std::string& url)> serving;  ///< receives the address once requests are answered
 };
 
-/// Answers requests until the server is stopped, then stops the session. Throws std::runtime_error if the port is
+/// Answers requests until is_over() returns true, then stops the session. Throws std::runtime_error if the port is
 /// unavailable.
 void serve(Session& session, const ServeOptions& options);
 

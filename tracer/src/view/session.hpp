@@ -2,7 +2,7 @@
 // (Shown).
 //
 // The thread reads the scene, builds its cells, and renders pictures, coarse ones first. It abandons a step as soon as
-// a later change makes it useless, which also ends work on a scene that would take forever. Errors are shown
+// a later change makes it useless. So a change also stops work on a scene that would never finish. Errors are shown
 // over the last available picture, and the thread waits for the next change.
 #pragma once
 
@@ -87,7 +87,8 @@ class Session {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // What the page requests. Each number increases with every change of its kind.
+    // What the page requests. The numbers count requests: to read the files, and to change the text, the object and the
+    // view. They only increase.
     struct DesiredState {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0;
         Edits edits;

@@ -55,7 +55,8 @@ bool Session::draw(const DesiredState& desired) {
     for (const int scale : ladder_.scales(file.film.resolution()))
         if (scale > 1 && !draw_coarser(desired, scale)) return false;
     if (prepared_->is_first_look()) {
-        // A fast picture has no coarser ones. Show something before better cells are built.
+        // If the scene is fast, the ladder had no coarser pictures, and nothing has been shown yet. Show something
+        // before better cells are built.
         if (is_first_of(desired) && !draw_whole(desired, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
         surfaces_->begin_scene();

@@ -55,7 +55,7 @@ struct Shown {
     std::string layer;              ///< as requested; empty for the picture itself
     std::vector<FilmLayer> layers;  ///< the available layers
     NumberEdits numbers;            ///< as requested, instead of those in the file
-    /// The numbers in the file, and how often the file had been read when they were found.
+    /// The numbers in the file, and the version of the file (counted by its readings) that they come from.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;
     double seconds = 0;            ///< as requested: the time that is shown

@@ -28,14 +28,15 @@ class InterfaceCells {
 
     /// The number of cells.
     std::size_t size() const;
-    /// A cell's box. It extends beyond the cell's share of space by reach(), so that no ray passes between two cells.
+    /// A cell's box: the part of space that the cell stands for (these parts do not overlap), enlarged by reach() so
+    /// that no ray passes between two cells.
     Bounds bounds(std::size_t cell) const;
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;
 
     /// Find the first change of phase along a ray within one cell, like InterfaceTracer::first_crossing(). For a ray
-    /// that starts at a crossing of this cell, the hint usually makes a search unnecessary. It must come from this
-    /// cell.
+    /// that starts at a crossing found in this cell, a hint made from that crossing usually makes the search
+    /// unnecessary. A hint from another cell's crossing must not be passed.
     std::optional<Crossing> first_crossing(std::size_t cell, const TracedRay&, float t_min, float t_max,
                                            std::optional<Phase> carried, const std::optional<LeavingHint>&,
                                            TraceCounters&) const;

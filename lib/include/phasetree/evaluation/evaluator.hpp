@@ -48,9 +48,8 @@ class Evaluator {
     /// The phase at one point.
     Phase label(const glm::vec3& p, Workspace&) const;
 
-    /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. Its
-    /// length may be less than 1, because a warp divides distances by λ, a bound of the norm of the Jacobian of its
-    /// map.
+    /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. It may
+    /// be shorter than 1, because a warp divides distances by an upper bound of how much its map stretches space.
     glm::vec3 gradient(const glm::vec3& p, Phase) const;
 
     const Program& program() const { return program_; }

@@ -61,8 +61,8 @@ struct PhaseMesh {
     float spacing = 0;  ///< in use
     /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. Each edge of
     /// the grid whose ends have different labels shows one of its crossings. All others are missing: further crossings
-    /// of that edge, and those of edges whose ends have the same label, possibly after labels were changed (see
-    /// mesh_of).
+    /// of such an edge, and all crossings of edges whose ends have the same label, whether they had it at first or only
+    /// after mesh_of changed labels.
     std::size_t crossings = 0, passed_over = 0;
 
     /// The phases that have triangles.

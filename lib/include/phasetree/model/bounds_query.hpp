@@ -24,9 +24,9 @@ class Phased;
 /// root's box are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
 /// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
-/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. A map
-/// that folds space may send two opposite directions to the same one, so that a low side exceeds the high one. Such a
-/// box is not empty: only Bounds{} is.
+/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. A map that
+/// folds space may map two opposite directions to one. The support stored as a low side may then exceed that of the
+/// high side. Such a box does not count as empty; only Bounds{} does.
 class BoundsQuery {
   public:
     /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node
@@ -49,7 +49,8 @@ class BoundsQuery {
     Bounds own_box(const Field&, float level);
     Bounds own_box(const Phased&, float level);
 
-    /// Returns the answer of a node that knows a box in its own space, by whichever method is in use.
+    /// Returns the answer of a node that knows a box in its own space: the box, or its supports along the directions,
+    /// depending on the method in use.
     Bounds placed(const Bounds& box) const;
     /// The same for a node that also knows its support(d) along any direction d, which may be tighter.
     template <class Support>

@@ -70,14 +70,14 @@ concept CheckedData = DataPrimitive<N> && requires(std::span<const float> floats
 /// A long primitive that simplifies in a small box. N::Specialised, a primitive with data, has the same values there,
 /// to the last bit. specialise() appends its floats for the points of `range`; if there is nothing to gain, it appends
 /// nothing and returns false. If the primitive was already specialised for an enclosing box, `of` holds the floats of
-/// that; otherwise it is empty.
+/// that specialisation; otherwise it is empty.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
     requires CheckedData<typename N::Specialised>;
     { n.specialise(range, of, floats) } -> std::same_as<bool>;
     { N::Specialised::floats(floats.data()) } -> std::same_as<std::size_t>;  // the number of floats
-    // The cost, in halves of that of a simple instruction.
+    // The cost in half instructions: 2 stands for one simple instruction.
     { N::Specialised::half_instructions(floats.data()) } -> std::same_as<unsigned>;
 };
 
@@ -88,9 +88,9 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. At each surface point that is nearest
-/// to a point within `reach` of p, a ball of radius rolling_radius(p, reach) fits inside the solid and touches the
-/// surface. The radius is a lower bound, and infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. Take any point within `reach` of p,
+/// and the surface point nearest to it. A ball of radius rolling_radius(p, reach) inside the solid touches the surface
+/// there. The radius is a lower bound, and infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;

@@ -16,8 +16,9 @@ namespace phasetree {
 /// The bracket is no longer than the resolution, with one exception: where solids abut, rounding can leave a sliver of
 /// a third phase between them. A bracket may span such a sliver, and is then up to 2.75 resolutions long.
 ///
-/// If the carried phase occurs nowhere near the start of the ray, a crossing is reported right there. It has zero
-/// length: p_in and p_out are the point where the search begins, which is in `to`, and `from` is the carried phase.
+/// If the phase that the caller says the ray is in (`carried` in first_crossing()) occurs nowhere near the start of the
+/// ray, a crossing is reported right there. It has zero length: p_in and p_out are the point where the search begins,
+/// which is in `to`, and `from` is the carried phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out
@@ -36,8 +37,8 @@ struct Crossing {
 /// that of one of the faces, or that of the distance to the edge, which lies between them.
 struct CrossingNormal {
     glm::vec3 unit{0};  ///< of unit length
-    /// The gradient of the component of `from` at p_in, along `unit` and at most 1 long, from which a LeavingHint is
-    /// made for a ray that leaves the crossing. Zero if the normal was not taken from it.
+    /// The gradient of the component of `from` at p_in. It points along `unit`, and its length is at most 1. A
+    /// LeavingHint for a ray that leaves the crossing is made from it. Zero if the normal was not taken from it.
     glm::vec3 gradient{0};
 };
 

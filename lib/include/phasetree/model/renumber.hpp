@@ -14,8 +14,8 @@ using NodeCopied = std::function<void(const void* of, const std::variant<Field, 
 /// Renumber the phases of an object: phase i becomes numbers[i]. The vacuum stays 0. Shared subtrees stay shared, and
 /// subtrees without phases are not copied.
 ///
-/// Throws ModelError if a phase of the tree has no number, if two phases would get the same number, or if a number is
-/// not a valid phase other than the vacuum.
+/// Throws ModelError if a phase of the tree has no number, if two phases would get the same number, or if a number is 0
+/// (the vacuum) or not less than Phase::capacity.
 Phased renumbered(const Phased&, std::span<const Phase> numbers, const NodeCopied& = {});
 /// The same for a field, which may be made of objects.
 Field renumbered(const Field&, std::span<const Phase> numbers, const NodeCopied& = {});

@@ -23,7 +23,7 @@ enum class Op : std::uint16_t {
     constant_minus,     ///< c − a
     multiply_constant,  ///< a · c
     smooth_minimum,     ///< smin(a, b, r = c)
-    guarded,            ///< max(a, min(b, c − a)): a field b that may jump, kept 1-Lipschitz by its bound a
+    guarded,            ///< max(a, min(b, c − a)): a field b that may jump between copies, kept 1-Lipschitz by a
     falloff,            ///< (1 − (a/c)²)³, zero for a > c
     corner,  ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
     nearer,  ///< max((a − b)/2, a): the part of solid a where no solid b is nearer

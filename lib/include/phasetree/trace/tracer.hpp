@@ -14,7 +14,8 @@ namespace phasetree {
 struct TraceableObject {
     Bounds bounds;         ///< of the object, with a margin of vacuum of a few resolutions
     float resolution = 0;  ///< in the scene's unit of length
-    /// A message for the user, usually empty: coordinates leave few digits, or the resolution is not the one requested.
+    /// A message for the user, usually empty: float coordinates are coarse so far from the origin, or the resolution is
+    /// not the one requested.
     std::string warning{};
 };
 /// Find the bounds of an object and the resolution with which it is traced. See InterfaceTracer for the parameter
@@ -29,12 +30,12 @@ class InterfaceTracer {
     ///
     /// `resolution`, in the scene's unit of length, is the thickness of a phase along a ray that is guaranteed to be
     /// found. Thinner phases may be missed. A thicker phase may be missed in two cases:
-    ///   - the ray is in it for at most 2.75 resolutions, of which at most one is deeper inside than a sixteenth of a
-    ///     resolution;
+    ///   - the ray is in the phase for at most 2.75 resolutions, and deeper inside than a sixteenth of a resolution for
+    ///     at most one of them;
     ///   - the ray grazes the phase and is nowhere deeper inside than a sixteenth of a resolution.
     ///
-    /// 0 selects 2·10⁻⁶ of the object's diagonal, or the precision of float coordinates far from the origin. Other
-    /// values are clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, at most a hundredth of the
+    /// 0 selects 2·10⁻⁶ of the object's diagonal, or 10⁻⁶ of its farthest coordinate if that is more. All values are
+    /// clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, otherwise at most a hundredth of the
     /// diagonal. resolution() and warning() return what is in use.
     ///
     /// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size.
@@ -47,9 +48,9 @@ class InterfaceTracer {
     ///
     /// direction     of unit length.
     /// t_min, t_max  the range of distances from the origin.
-    /// carried       the phase that the ray is in; by default, the phase at the start (its label, see label() in
-    ///               model/handle.hpp). If that differs from the carried phase by more than rounding explains, there is
-    ///               a crossing at the start.
+    /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
+    ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
+    ///               by more than rounding explains, there is a crossing at the start.
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,

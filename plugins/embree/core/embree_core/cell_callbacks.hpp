@@ -24,9 +24,9 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
 void intersect_cell_for_query(const InterfaceCells&, const RTCIntersectFunctionNArguments*) noexcept;
 void occluded_cell_for_query(const InterfaceCells&, const RTCOccludedFunctionNArguments*) noexcept;
 
-/// For any packet and any context. Calls carried(i) for the phase that lane i carries, if any, and hit(i, crossing, ray
-/// as seen) for each lane whose ray crosses an interface in the cell. If memory runs out, the remaining lanes are
-/// skipped, because there is no way to report it.
+/// For any packet and any context. Calls carried(i) for the phase that lane i carries, if any, and hit(i, crossing,
+/// seen), with the lane's SeenRay, for each lane whose ray crosses an interface in the cell. If memory runs out, the
+/// remaining lanes are skipped, because there is no way to report it.
 template <class Arguments, class Carried, class Hit>
 void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCRayN* rays, Carried&& carried,
                    Hit&& hit) noexcept try {

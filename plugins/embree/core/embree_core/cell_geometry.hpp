@@ -10,9 +10,9 @@ namespace phasetree::embree {
 /// ray:
 ///
 ///     tfar         the end of the old phase, in units of the ray's direction as usual in Embree
-///     Ng           the normal on the side the ray came from; of unit length in object space. For rays that carry
-///                  phases, minus the direction instead: the host calls InterfaceCells::normal() for the one hit
-///                  that it keeps
+///     Ng           the unit normal in object space, on the side the ray came from. With Options::rays_carry_phases,
+///                  the reversed direction of the ray: the host calls InterfaceCells::normal() for the one hit that it
+///                  keeps
 ///     u, v         the index of the phase left and of the phase entered
 ///     primID       the cell
 ///

@@ -17,8 +17,8 @@ struct Closest {
     Phase here, there;       ///< on the side of the query point, and on the other side
 };
 
-/// Find the closest interface to a point in the object's space. Distances are measured after applying a linear map,
-/// that of an instance or a placement.
+/// Find the closest interface to a point in the object's space. Distances are measured in world space: `to_world` is
+/// the linear part of the transform of an instance or a placement.
 ///
 /// Stops when the empty radius is within the fraction `tolerance` of the distance or within four resolutions of it, or
 /// after 2¹⁴ subdivisions of boxes, each of which may also trace a ray.

@@ -23,8 +23,8 @@ class RayPhases {
     /// A ray that carries nothing. Every object uses the phase at the ray's start, which costs an evaluation and is
     /// uncertain within a resolution of an interface.
     RayPhases() = default;
-    /// A ray that is in this phase of all objects for which set() was not called; for example in the vacuum, if it
-    /// starts outside all objects.
+    /// A ray that is in this phase in each object for which set() is not called. For a ray that starts outside all
+    /// objects, pass the vacuum.
     explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
 
     /// The phase for an object; nullopt for the phase at the ray's start.

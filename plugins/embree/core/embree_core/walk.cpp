@@ -15,7 +15,7 @@ std::optional<CellScene::Hit> Walk::next() {
     base_ = t_out;
     carried_ = c.to;
     // Where phases flicker within rounding, crossings may follow each other without end. After 32 within a resolution
-    // of `anchor_`, the walk advances by a resolution. If the phase is another one there, the next search reports a
+    // of `anchor_`, the walk advances by a resolution. If the phase is different there, the next search reports a
     // crossing of zero length at its start.
     const double resolution = static_cast<double>(scene_.cells().resolution());
     if (base_ - anchor_ > resolution) {

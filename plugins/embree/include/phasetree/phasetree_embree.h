@@ -29,8 +29,8 @@
  *
  * Threads. Any thread may call any function at any time, with one exception: an "exclusive" call must not run while
  * another thread uses the same geometry in any way, including tracing a scene it is attached to. (Embree has the same
- * rule for calls that modify a geometry.) Trees are immutable, so all calls on one tree may run concurrently. A handle
- * must hold a reference for as long as a call that uses it runs.
+ * rule for calls that modify a geometry.) Trees are immutable, so all calls on one tree may run concurrently. Keep a
+ * reference to a handle for as long as a call that uses it runs.
  *
  * Arithmetic. The library flushes subnormal numbers to zero on every thread, and restores the calling thread's
  * floating-point mode before it returns.

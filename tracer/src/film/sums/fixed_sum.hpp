@@ -1,7 +1,7 @@
 // Exact sums of real numbers, which therefore do not depend on the order: integers of 64, 128 or 192 bits that count a
 // fixed unit, 2^−Fraction. Integer addition is associative; floating-point addition is not (Goldberg: What Every
-// Computer Scientist Should Know About Floating-Point Arithmetic, ACM Computing Surveys 23(1), 1991). However the
-// samples of a pixel are divided among threads, machines and runs, their sum is the same to the last bit.
+// Computer Scientist Should Know About Floating-Point Arithmetic, ACM Computing Surveys 23(1), 1991). The sum of a
+// pixel's samples is the same to the last bit, no matter how they are divided among threads, machines and runs.
 //
 // Error. A value is rounded to the nearest multiple of the unit, ties to even, before it is added; after that, nothing
 // is lost. So the error of the mean of any number of samples is at most half a unit. Rounding depends only on the
@@ -96,8 +96,8 @@ class FixedSum {
 
     /// Only the significant bytes of a sum are written, without the sign bytes above and the zero bytes below them. The
     /// first byte written is (bytes + 1) · z + n, where z is the number of zero bytes below that are omitted, and n the
-    /// number of bytes that follow. A byte above is omitted if the one below it implies the same sign. A negative
-    /// number always keeps one byte, because no bytes mean 0. So equal sums have equal bytes.
+    /// number of bytes that follow. A leading byte is omitted if the sign of the next one implies it. A negative number
+    /// always keeps at least one byte, because an empty sequence encodes 0. So equal sums have equal bytes.
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;

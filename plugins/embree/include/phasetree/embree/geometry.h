@@ -41,14 +41,15 @@ typedef enum PhasetreeGeometryFlags {
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
     /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
-     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or the precision of 32-bit coordinates
-     * if the tree is far from the origin. Other values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest
-     * coordinate, at most a hundredth of the diagonal. phasetreeGetGeometryStatistics returns the value in use,
+     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or 10⁻⁶ of their largest coordinate if
+     * that is more. All values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, otherwise
+     * at most a hundredth of the diagonal. phasetreeGetGeometryStatistics returns the value in use,
      * phasetreeGetGeometryWarning the reason. */
     float resolution;
-    /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. LOW
-     * takes a quarter to three quarters of the build time and usually makes rays slower; use it for objects under edit.
-     * MEDIUM and HIGH are equal. Hits do not depend on the quality. */
+    /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
+     * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
+     * quarters of the build time and usually makes rays slower; use it for objects under edit. MEDIUM and HIGH are
+     * equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* maximum depth of division, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
@@ -109,7 +110,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * Clears Embree's error code of the calling thread (rtcGetDeviceError).
  *
  * A hit is a change of phase along a ray:
- *     tfar         the end of the phase that the ray is in
+ *     tfar         where the ray leaves the phase that it is in
  *     Ng           the interface's unit normal, on the side the ray comes from, in geometry space
  *     u, v         the index of the phase left and of the phase entered
  *     primID       the cell
@@ -118,10 +119,10 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * may have any length. Rays with numbers that are not finite hit nothing.
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
- * the ray, once each and in order along the ray, until one is accepted. Each call starts in the phase in which the
- * previous one ended. geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries
- * cannot see a filter function that is passed in the arguments of a query; pass it as PhasetreeRayContext.filter
- * instead.
+ * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, each crossing leaves
+ * the phase that the previous one entered. Otherwise, crossings that are not shown may lie between them.
+ * geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries cannot see a filter
+ * function that is passed in the arguments of a query; pass it as PhasetreeRayContext.filter instead.
  *
  * OWNERSHIP. Embree does not notify anyone when it destroys a geometry. Therefore *the handle must live as long as any
  * scene that contains the RTCGeometry is committed or traced*; release it after the scene. If it is freed earlier, the
@@ -238,8 +239,8 @@ typedef struct PhasetreeGeometryStatistics {
 PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
                                                             PhasetreeGeometryStatistics* statistics);
 
-/* Returns a warning in UTF-8 if the tree is so far from the origin, for its size, that 32-bit coordinates leave few
- * digits, or if the resolution in use is not the one requested; otherwise "". The string is valid until
+/* Returns a warning in UTF-8 if the tree is so far from the origin, for its size, that 32-bit coordinates are coarse,
+ * or if the resolution in use is not the one requested; otherwise "". The string is valid until
  * phasetreeSetGeometryTree is called or the geometry is freed. A tree that is too far away to be traced at all is
  * rejected with PHASETREE_ERROR_INVALID_TREE. */
 PHASETREE_API PhasetreeError phasetreeGetGeometryWarning(PhasetreeGeometry geometry, const char** warning);

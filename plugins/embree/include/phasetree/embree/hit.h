@@ -12,7 +12,7 @@ extern "C" {
  *
  * The bracket is at most one resolution long, or up to 2.75 where rounding puts a third phase between abutting solids.
  * A reflected ray continues from pointIn in phaseLeft, a transmitted ray from pointOut in phaseEntered. Do not offset
- * the point along a normal: a ray that carries its phase does not hit this crossing again. */
+ * the point along a normal: a ray that carries its phase (PhasetreeRay) does not hit this crossing again. */
 typedef struct PhasetreeHit {
     unsigned int phaseLeft, phaseEntered;
     unsigned int cell;
@@ -20,8 +20,8 @@ typedef struct PhasetreeHit {
     float pointIn[3], pointOut[3]; /* in geometry space */
 } PhasetreeHit;
 
-/* Returns the phase that the ray leaves, or enters, at hit i of N. Works in filter functions, without Embree's C++-only
- * accessors, and anywhere else. Valid only for hits of a phasetree geometry. */
+/* Returns the phase that the ray leaves, or enters, at hit i of N. Needs none of Embree's accessors, which are C++
+ * only, so it also works in C filter functions. Valid only for hits of a phasetree geometry. */
 static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[3 * N + i];
 }
@@ -41,10 +41,12 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
  *
  * The bracket is recomputed from a few samples along the ray around tfar, using the short program of the hit's cell.
  * This takes no longer than tracing the ray. If primID does not name that cell, the whole object is evaluated, which
- * can take many times as long. tOut and pointOut are moved forward, by less than two resolutions, to where the phase is
- * certain despite the rounding of a new ray: the same ray with tnear = tOut starts in phaseEntered. So an application
- * that does not carry phases neither hits this crossing again nor skips the next one, if phases are thicker along the
- * ray than about five resolutions. */
+ * can take many times as long.
+ *
+ * tOut and pointOut are moved forward by less than two resolutions, so that the same ray with tnear = tOut is certain
+ * to start in phaseEntered, despite rounding. An application that does not carry phases can therefore continue from
+ * tOut. It does not hit this crossing again, and does not skip the next one if phases are thicker along the ray than
+ * about five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
 
@@ -65,9 +67,10 @@ typedef struct PhasetreeMedium {
 /* Per-ray input and output of a query with a PhasetreeRayContext. */
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
-     * phase at the ray's start, as with an ordinary context. If the start is in another phase than the one carried,
-     * beyond what rounding explains, a crossing is reported where this is noticed: at the start if an interface is
-     * close, otherwise where the ray next approaches one. Owned by the application; not modified. */
+     * phase at the ray's start, as with an ordinary context. If the ray starts in a phase other than the one it
+     * carries, and rounding does not explain the difference, a crossing is reported where the search notices it: at the
+     * start if an interface is close, otherwise where the ray next approaches one. Owned by the application; not
+     * modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
     /* Out: the crossing of the last hit that a phasetree geometry reported for the ray. If the ray's final hit is on a

@@ -69,7 +69,7 @@ PHASETREE_API PhasetreeError phasetreeGetPhaseN(PhasetreeGeometry geometry, cons
  * distances    the distance of phase k at point i is written pointStride·i + phaseStride·k bytes after this address.
  *              Both strides are multiples of 4. If the distances of one point are adjacent: pointStride = 4·phaseCount,
  *              phaseStride = 4. If the distances of one phase are adjacent: pointStride = 4, phaseStride = 4·count.
- *              Elements must not overlap: one stride must be at least the other one times its count.
+ *              Elements must not overlap: pointStride ≥ phaseCount · phaseStride, or phaseStride ≥ count · pointStride.
  *
  * Errors are those of phasetreeGetPhaseN, and PHASETREE_ERROR_INVALID_ARGUMENT for strides that overlap. */
 PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, const PhasetreePoints* points,
@@ -96,8 +96,8 @@ typedef struct PhasetreeClosest {
  * tolerance     stops when emptyRadius and distance differ by less than this fraction of distance; 0.001 … 1. Larger
  *               is faster. The search also stops when they are within four resolutions, and after 2^14 subdivisions.
  *
- * Uses branch and bound: subdivides the object's bounds into octants, and discards those whose centre's 1-Lipschitz
- * distances leave no room for an interface. */
+ * Uses branch and bound: subdivides the object's bounds into octants, and discards each octant in which the distances
+ * at its centre, which are 1-Lipschitz, leave no room for an interface. */
 PHASETREE_API PhasetreeError phasetreeFindClosestInterface(PhasetreeGeometry geometry, const float point[3], float time,
                                                            float radius, float tolerance, PhasetreeClosest* closest);
 
