@@ -223,7 +223,7 @@ TEST_CASE("hits that are none, or another geometry's") {
     expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "u is 0.3");
     other = good;
     other.hit.v = std::numeric_limits<float>::quiet_NaN();
-    expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "no phase");
+    expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "is not a phase");
     other = good;
     other.hit.primID = 1u << 30;
     expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "primID");
@@ -232,7 +232,7 @@ TEST_CASE("hits that are none, or another geometry's") {
     expect(phasetreeDecodeHit(g, &other, nullptr, &hit), PHASETREE_ERROR_INVALID_ARGUMENT, "objectToWorld");
     other = good;
     other.ray.tfar = infinity;
-    expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "no ray");
+    expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "is not a valid ray");
     CHECK(phasetreeDecodeHit(g, &good, nullptr, &hit) == PHASETREE_ERROR_NONE);
     CHECK(hit.phaseEntered == static_cast<unsigned>(good.hit.v));
 }

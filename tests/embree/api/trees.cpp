@@ -82,7 +82,7 @@ TEST_CASE("edits that are wrong say where") {
         return message_of([&] { tree.edited(path, value); });
     };
     CHECK(edit("/shapes/bulb/sphere/radius", "-1").find("bulb.json:4:44:") != std::string::npos);
-    CHECK(edit("/shapes/bulb/sphere/raduis", "1").find("there is no \"raduis\"") != std::string::npos);
+    CHECK(edit("/shapes/bulb/sphere/raduis", "1").find("\"raduis\" does not exist") != std::string::npos);
     CHECK(edit("/tree/under/2", "1").find("has no item \"2\"") != std::string::npos);
     CHECK(edit("/tree/under/-", "1").find("has no item") != std::string::npos);
     CHECK(edit("tree", "1").find("must start with") != std::string::npos);
