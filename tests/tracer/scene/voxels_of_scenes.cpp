@@ -157,7 +157,7 @@ TEST_CASE("what does not go together is said at its place") {
         CHECK(said.find(what) != std::string::npos);
     };
     const std::string absorbs = R"("absorption": [1, 1, 1], )";
-    is_said(absorbs + R"("density_grid": {"file": "a.pgm"})", "give \"spacing\"");
+    is_said(absorbs + R"("density_grid": {"file": "a.pgm"})", "needs \"spacing\"");
     is_said(absorbs + R"("density_grid": {"file": "a.vdb", "spacing": [1, 1, 1]})",
             "81: OpenVDB grids have their own spacing; remove \"spacing\"");
     is_said(absorbs + R"("density_grid": {IMAGE, "grid": "smoke"})", "images have no named grids; remove \"grid\"");

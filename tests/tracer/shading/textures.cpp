@@ -103,7 +103,7 @@ TEST_CASE("textures by the tree: roughness and films, and what is wrong with a r
     CHECK(says(ramp("[[0, 0.1], [2, 1.5]]"), "1.5"));
     CHECK(says(ramp("[[2, 0.1], [0, 0.5]]"), "must increase, but 0 follows 2"));
     CHECK(says(ramp("[]"), "must be a list of stops"));
-    CHECK(says(ramp("[[1]]"), "must be a list of two"));
+    CHECK(says(ramp("[[1]]"), "must be [value of the field, result]"));
     CHECK(says(R"({"diffuse": {"color": {"field": {"of": "pond", "ramp": [[0, [1, 1, 1]]]}}}})",
                "unknown shape \"pond\""));
     const Scene film = sand_of(R"({"clear": {"ior": 1.5, "film_thickness": {"field": {"of": {"plane": {}},
