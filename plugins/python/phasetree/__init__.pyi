@@ -63,10 +63,10 @@ vacuum: Phase
 def phase(name: str, material: Material | None = ...) -> Phase: ...
 
 class Crossings(NamedTuple):
-    r"""Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1]."""
+    r"""Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1] − 1."""
     @property
     def ray(self):
-        r"""The number of each crossing's ray."""
+        r"""The index of the ray of each crossing."""
     def of_ray(self, i):
         r"""The crossings along one ray."""
     start: np.ndarray
@@ -77,26 +77,26 @@ class Crossings(NamedTuple):
     normal: np.ndarray
 
 class Hits(NamedTuple):
-    r"""The first crossing along each ray; where there is none, t is infinite and `after` is the phase at the origin."""
+    r"""The first crossing along each ray. If there is none, t is infinite and `after` is the phase at the origin."""
     t: np.ndarray
     before: np.ndarray
     after: np.ndarray
     normal: np.ndarray
 
 class Closest(NamedTuple):
-    r"""The closest interface to each point; where there is none, the distance is infinite and the place NaN."""
+    r"""The closest interface to each point. If there is none, the distance is infinite and the point NaN."""
     distance: np.ndarray
     point: np.ndarray
     here: np.ndarray
     there: np.ndarray
 
 class PhaseMesh(NamedTuple):
-    r"""The interfaces of an object as triangles, which share their vertices: see Object.mesh."""
+    r"""The interfaces of an object as triangles with shared vertices; see Object.mesh."""
     def surface(self, *phases):
-        r"""What bounds some phases together, each given by itself or by its name: (vertices, triangles).
+        r"""The surface around some phases together, each given as a Phase or by name. Returns (vertices, triangles).
 
-The surface is closed, and its triangles are counterclockwise as seen from outside. That of one phase, or of
-all but the vacuum, is a manifold."""
+The surface is closed, and its triangles are counterclockwise as seen from outside. The surface of a single
+phase, or of all phases except the vacuum, is a manifold."""
     vertices: np.ndarray
     triangles: np.ndarray
     behind: np.ndarray
@@ -107,26 +107,26 @@ all but the vacuum, is a manifold."""
     passed_over: np.ndarray
 
 class Field:
-    r"""A plain signed distance, negative inside. Immutable.
+    r"""A signed distance, negative inside. Immutable.
 
-    a | b is the union, a & b the intersection, a - b the difference; a.smooth(r) | b and so on round the seam with the
-    radius r. Nodes that are made of a field are its methods: a.translate((0, 0, 1))."""
+    a | b is the union, a & b the intersection, a - b the difference. a.smooth(r) | b, and likewise & and -, rounds the
+    seam with the radius r. Nodes whose first parameter is a field are also methods: a.translate((0, 0, 1))."""
     def written(self):
-        r"""The node as JSON has it."""
+        r"""The node as JSON."""
     def smooth(self, radius):
-        r"""The same field, whose next |, & or - rounds the seam with this radius."""
+        r"""The same field, but the next |, & or - with it rounds the seam with this radius."""
     def distance(self, points):
-        r"""The signed distance at points of the shape (…, 3): float32, negative inside."""
+        r"""The signed distance at points given as an array of shape (…, 3): float32, negative inside."""
     def gradient(self, points):
         r"""The gradient of the distance at points: float32 (…, 3)."""
     @property
     def bounds(self):
-        r"""A box around the points that are not outside: (low, high); infinite where there is none, None if empty."""
+        r"""A box around the points that are not outside: (low, high). Infinite where unbounded; None if empty."""
     @property
     def nodes(self):
         r"""The number of nodes; those that are shared count once."""
     def to_json(self):
-        r"""The field as a scene file says it, with the shapes that it shares."""
+        r"""The field as text for a scene file, with its shared shapes."""
     def __or__(self, other: Field | Expression) -> Field: ...
     def __and__(self, other: Field | Expression) -> Field: ...
     def __sub__(self, other: Field | Expression) -> Field: ...
@@ -489,53 +489,55 @@ class Field:
 
 class Object:
     phases: tuple[Phase, ...]
-    r"""An object of phases, of which exactly one is at any point. Immutable.
+    r"""An object of several phases. Every point is in exactly one of them. Immutable.
 
-    Objects are joined by methods, because order matters: a.over(b), a.under(b), a.contact(b, …). Numbers of phases in
-    arrays are indices into `phases`."""
+    Methods join objects, because the order matters: a.over(b), a.under(b), a.contact(b, …). Arrays identify phases by
+    their index in `phases`."""
     @property
     def names(self):
         r"""The names of the phases, the vacuum first."""
     def with_phases(self, *phases):
-        r"""The same object with its phases in this order, which decides between phases at equal distances.
+        r"""The same object with its phases in this order. Where two phases are equally far, the order decides.
 
-All that the object has must be there; further ones may be. A phase given here with a material has that one."""
+The list must contain all phases of the object, and may contain others. A material given here replaces the
+phase's own."""
     def label(self, points):
-        r"""The phase at points of the shape (…, 3): uint8, an index into `phases`.
+        r"""The phase at points given as an array of shape (…, 3): uint8, an index into `phases`.
 
-The array of points is used in place if it is contiguous float32. Where a coordinate is not finite, the vacuum."""
+A contiguous float32 array is not copied. A point with a coordinate that is not finite is in the vacuum."""
     def phi(self, points):
-        r"""Φ at points: float32 (…, phases), the signed distance to each phase, negative in it.
+        r"""Φ at points: float32 (…, phases), the signed distance to each phase, negative in the phase.
 
-Column i is that of phases[i]; infinite if the object never has it."""
+Column i is for phases[i]. It is infinite if the object does not have that phase anywhere."""
     def gradient(self, points, phase=...):
-        r"""The gradient at points of the distance to a phase; without one, to the phase that is at the point."""
+        r"""The gradient at points of the distance to a phase; by default, to the phase in which each point is."""
     def index(self, phase):
-        r"""The number that a phase, or one of this name, has in arrays."""
+        r"""The index of a phase in arrays. The phase is given as a Phase or by name."""
     def prepare(self, quality=..., resolution=..., progress=...):
-        r"""Builds the cells in which rays are traced, which happens by itself at the first ray.
+        r"""Builds the cells in which rays are traced. Otherwise, the first ray builds them.
 
 quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
-certain to be found; 0 takes 2·10⁻⁶ of the object's size. progress: called with "preparing" and a share of 1."""
+certain to be found. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
+progress: called with "preparing" and the fraction done, up to 1."""
     @property
     def resolution(self):
         r"""The thickness of a phase along a ray that is certain to be found."""
     def trace(self, origins, directions):
-        r"""Every crossing along rays, given as arrays of the shape (…, 3): see Crossings."""
+        r"""Every crossing along rays, which are given as arrays of shape (…, 3). Returns Crossings."""
     def intersect(self, origins, directions):
-        r"""The first crossing along each ray, given as arrays of the shape (…, 3): see Hits."""
+        r"""The first crossing along each ray; the rays are given as arrays of shape (…, 3). Returns Hits."""
     def closest(self, points, radius=..., tolerance=...):
-        r"""The closest interface to each point, within a radius: see Closest.
+        r"""The closest interface to each point, within a radius. Returns Closest.
 
-tolerance: by which share the distance may be more than the least."""
+tolerance: the accepted relative error of the distance."""
     @property
     def bounds(self):
-        r"""A box around all that is not vacuum: (low, high); infinite where there is none, None if empty."""
+        r"""A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
     @property
     def nodes(self):
         r"""The number of nodes; those that are shared count once."""
     def to_json(self):
-        r"""The object as a scene file without camera says it."""
+        r"""The object as the text of a scene file without a camera."""
     def merge(self, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Phases of an object as a plain field; it is zero on the interfaces between them.
 
@@ -986,44 +988,51 @@ tolerance: by which share the distance may be more than the least."""
         """
 
 class Image:
-    r"""A picture: linear Rec.709 radiance, and further planes beside it.
+    r"""A picture: linear Rec.709 radiance, and optional planes.
 
-    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) by the names of their channels in
-    EXR files, such as "depth.Z", "normal.X". crop: (x0, y0, width, height), where the pixels lie in a whole picture of that
-    size, or None. attributes: what EXR files say beside it, such as the names in a Cryptomatte."""
+    pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) each, by the names of their
+    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the offset of the pixels in
+    the whole picture and the size of that picture; None if not cropped. attributes: further EXR attributes, such as the
+    names in a Cryptomatte."""
     def __init__(self, pixels, planes=..., exposure=..., view=..., samples=..., seconds=..., scene=..., seed=..., crop=..., attributes=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def png(self, exposure=..., view=...):
-        r"""The picture as a PNG file's bytes, through the display transform; exposure in stops."""
+        r"""The bytes of a PNG file of the picture, after the display transform. exposure: in stops."""
     def save(self, path, exposure=..., view=...):
-        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in the name of a .exr makes a file for each."""
+        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name: one file per plane."""
 
 class Scene:
-    r"""An object or several, and what a picture of them needs. Immutable; `with_` makes another one with some parts replaced.
-    A scene of meshes alone has neither object nor objects.
+    r"""One or several objects, with everything that a picture of them needs. Immutable; `with_` replaces parts.
 
-    object: its phases need materials to be rendered. Or objects: {name: object}, or {name: (object, map)} with a position or
-    a 3x4 or 4x4 matrix where it stands; instances: pt.places(name, transforms), one or several, the places of objects, which
-    then stand there alone, and of groups; groups: {name: places}. Objects may touch and must not overlap. camera:
-    pt.camera(…) or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera sees in place
-    of the lights at infinity. image: pt.image(…)."""
+    object: to be rendered, its phases need materials. A scene has either this object, or `objects`, or only meshes.
+    objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix. Objects may
+    touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
+    An object that is placed does not also stand where its own map puts it. groups: {name: places}.
+
+    camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
+    sees instead of the lights at infinity. image: pt.image(…)."""
     def __init__(self, object=..., camera=..., lights=..., meshes=..., background=..., image=..., name=..., *, objects=..., groups=..., instances=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def with_(self, **parts):
         r"""The same scene with some parts replaced: scene.with_(camera=…)."""
     def to_json(self, **image):
-        r"""The scene as a file says it; image: settings that are replaced."""
+        r"""The scene as the text of a scene file. image: settings that replace the scene's own."""
     def save(self, path):
-        r"""Writes a scene file, from which load() makes an equal scene. Files beside it are named relative to it."""
-    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
-        r"""Path-traces the scene: an Image. The same scene gives the same image, whatever the number of threads.
+        r"""Writes a scene file, from which load() makes an equal scene.
 
-image: settings instead of the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
-progress: True for a line on standard error, or a function of a stage and a share in [0, 1]. Ctrl-C ends it.
-planes: names such as ["depth", "normal"], or "all": what Image.planes has, as --planes of the command. denoise: True,
-"regression", which gives the same bits everywhere, or "oidn"; Image.planes then has the picture as it was as
-"noisy.R", "noisy.G" and "noisy.B". time_limit: seconds within which the last whole pass ends; without samples=… no
-number of samples ends it. at: the time in seconds of what has keys."""
+Files within the folder of the scene file are named relative to it."""
+    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
+        r"""Path-traces the scene. Returns an Image, which does not depend on the number of threads. Ctrl-C ends it.
+
+image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
+progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
+
+planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
+command. denoise: True, "regression" (the same bits everywhere) or "oidn". Image.planes then has the picture
+before denoising as "noisy.R", "noisy.G" and "noisy.B".
+
+time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is given too, only the time
+ends the render. at: the time in seconds at which keys are read."""
 
 class Places:
     of: str
@@ -1031,44 +1040,47 @@ class Places:
     def __len__(self) -> int: ...
 
 def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:
-    r"""Where an object or a group of a scene stands, once or many times: Places.
+    r"""Places an object or a group of a scene, once or many times. Returns Places.
 
-    of: its name. transforms: a position, (3,) or (N, 3), or a 3x4 or 4x4 matrix of an affine map, one or N of them."""
+    of: the name of the object or group. transforms: one position or N, of shape (3,) or (N, 3); or one matrix or N of
+    an affine map, 3x4 or 4x4."""
 
 class View:
-    r"""A live view that is served until close(), or until the program ends.
+    r"""A live view, served until close() is called or the program ends.
 
-    url: the page's address, for browsers of this machine; whoever has it may look. file: the scene's file, which the page
-    can write a camera and numbers into."""
+    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, into which
+    the page can write a camera and numbers."""
     def __init__(self, what, width=..., samples=..., threads=..., port=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def show(self, what):
-        r"""Shows another object or scene on the same page. The camera stays where it was turned to, unless the new scene
-has another one than the last."""
+        r"""Shows another object or scene on the same page.
+
+The camera stays as the user turned it, unless the camera of the new scene differs from that of the last one."""
     def close(self):
-        r"""Ends the view. The page then says that nobody answers."""
+        r"""Ends the view. The page then shows that it has lost the connection."""
     url: str
     file: str
     def __enter__(self) -> View: ...
     def __exit__(self, *_: object) -> None: ...
 
 def view(what: Object | Scene, *, width: int | None = ..., samples: int | None = ..., threads: int = ..., port: int = ..., open: bool | None = ...) -> View:
-    r"""Shows an object or a scene in the browser, to be turned, cut and edited while it is refined: a View.
+    r"""Shows an object or a scene in the browser, where it can be turned, cut and edited. Returns a View.
 
-    An object alone is seen under a plain sky, and a phase without a material has a plain colour. width: of the picture
-    in pixels. samples: a pixel's, in the end. port: of 127.0.0.1, 0 for any that is free. open: whether the browser is
-    asked to show the page; by default it is, but not in notebooks, which show it within them. Raises pt.Error."""
+    An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of
+    the picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to
+    open the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error."""
 
 class Expression:
-    r"""A number for each point: x, y, z and what is computed of them. Immutable.
+    r"""A formula in x, y and z. Immutable.
 
-    It stands for a field wherever one is needed, glass(x**2 + y**2 - 1), and is the solid where it is negative.
-    within(low, high) cuts that to a box, which formulas need whose slope grows without bound. Floats of the formula are
-    those of single precision; it is divided by a bound of its slope, which is found when the field is made."""
+    It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
+    negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
+    are evaluated in single precision. Making the field determines an upper bound of the slope, by which the formula is
+    divided."""
     def within(self, low, high):
-        r"""The same, cut to the box with these corners; a number stands for the same along each axis."""
+        r"""The same formula, cut to a box. Each corner is a point, or a number for three equal coordinates."""
     def field(self):
-        r"""The field: Error if the slope has no bound, with the place in the formula."""
+        r"""The formula as a field. Raises Error, with the place in the formula, if the slope has no bound."""
     def __add__(self, other: Expression | float) -> Expression: ...
     def __radd__(self, other: Expression | float) -> Expression: ...
     def __sub__(self, other: Expression | float) -> Expression: ...
