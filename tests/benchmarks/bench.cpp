@@ -89,7 +89,7 @@ TEST_CASE("phasetree-bench: what is wrong with the command line is said, and not
         std::vector<std::string> arguments;
         std::string message;
     };
-    for (const Case& c : std::vector<Case>{{{"tablel"}, "unknown subcommand \"tablel\"; did you mean \"table1\"?"},
+    for (const Case& c : std::vector<Case>{{{"tablel"}, "unknown subcommand \"tablel\" (did you mean \"table1\"?)"},
                                            {{"nothing"}, "unknown subcommand \"nothing\" (choose from table1, "},
                                            {{"phases", "--size", "32"}, "--size"},
                                            {{"phases", "--size", "0x5"}, "--size"},
