@@ -82,7 +82,8 @@ void add(Fingerprint& found, const std::optional<Crossing>& crossing) {
 }
 
 // Through Embree and the cells, a path from phase to phase of at most eight crossings with their normals for each ray;
-// rays that leave a crossing state their phase, as those of a path tracer do. Half of the rays start inside, half at the camera.
+// rays that leave a crossing state their phase, as those of a path tracer do. Half of the rays start inside, half at
+// the camera.
 Fingerprint crossings(const FieldScene& scene, Rays rays) {
     Fingerprint found;
     for (Ray ray : rays) {

@@ -202,11 +202,13 @@ A lamp.
     torch.snippet = R"({"torch": {}})";
     const Chapter both{"Lamps", "Two of them.", {page, torch}};
     const std::string text = reference_markdown(both);
-    CHECK(text.starts_with("# Lamps\n\nTwo of them.\n\n| | |\n|---|---|\n| [`lamp`](#lamp) | A lamp. |\n"
-                           "| [`torch`](#torch) | Burns. |\n\n## lamp\n"));
-    CHECK(text.ends_with("\n## torch\n\nBurns. It needs air.\n\n"
-                         "[![An example of torch](lamps/torch.jpg)](lamps/torch.json)\n\n"
-                         "```json\n{\"torch\": {}}\n```\n\nIt has no parameters.\n"));
+    CHECK(
+        text.starts_with("# Lamps\n\nTwo of them.\n\n| | |\n|---|---|\n| [`lamp`](#lamp) | A lamp. |\n"
+                         "| [`torch`](#torch) | Burns. |\n\n## lamp\n"));
+    CHECK(
+        text.ends_with("\n## torch\n\nBurns. It needs air.\n\n"
+                       "[![An example of torch](lamps/torch.jpg)](lamps/torch.json)\n\n"
+                       "```json\n{\"torch\": {}}\n```\n\nIt has no parameters.\n"));
     const Document schema = Document::from_text(schema_of(page));
     const Value properties = *schema.root().find("properties");
     CHECK(schema.root().find("required")->size() == 1);

@@ -54,7 +54,8 @@ TEST_CASE("materials that are asked for wrongly") {
     const embree::Tree tree = object_tree();
     const char* json = "as before";
     expect_error(phasetreeGetTreePhaseMaterial(nullptr, 1, &json), PHASETREE_ERROR_INVALID_HANDLE, "tree is NULL");
-    expect_error(phasetreeGetTreePhaseMaterial(tree.get(), 5, &json), PHASETREE_ERROR_INVALID_ARGUMENT, "phase 5 does not exist");
+    expect_error(phasetreeGetTreePhaseMaterial(tree.get(), 5, &json), PHASETREE_ERROR_INVALID_ARGUMENT,
+                 "phase 5 does not exist");
     expect_error(phasetreeGetTreePhaseMaterial(tree.get(), 1, nullptr), PHASETREE_ERROR_INVALID_ARGUMENT, "json");
     PhasetreeTree freed = nullptr;
     REQUIRE(phasetreeNewTreeFromText(PHASETREE_API_VERSION, object_text, std::strlen(object_text), nullptr, nullptr,
