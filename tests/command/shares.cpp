@@ -94,7 +94,10 @@ TEST_CASE("--samples, the old name of --sample-range, still works and prints one
     CHECK(before.err == "phasetree: warning: --samples is deprecated; use --sample-range instead\n");
     const bool same = bytes_of(shell.directory / "now.part") == bytes_of(shell.directory / "before.part");
     CHECK(same);
-    CHECK(shell.run({"render", "scene.json", "--samples", "1:3", "--sample-range", "1:3", "-o", "a.part"}).code == 2);
+    const Outcome both =
+        shell.run({"render", "scene.json", "--samples", "1:3", "--sample-range", "1:3", "-o", "a.part"});
+    CHECK(both.code == 2);
+    CHECK(both.err.find("--samples is the old name of --sample-range; give only one of them") == 0);
     CHECK(shell.run({"render", "--help"}).out.find("--samples") == std::string::npos);
 }
 

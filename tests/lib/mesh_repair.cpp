@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/mesh.hpp"
+#include "phasetree/phasetree.hpp"
 #include "support/random_mesh.hpp"
 #include "support/set_algebra/meshes.hpp"
 
@@ -246,6 +248,40 @@ TEST_CASE("the repaired mesh does not depend on the order of vertices and triang
         other.triangles.push_back({last - t->y, last - t->z, last - t->x});
     }
     CHECK(Prepared(mesh).node.table == Prepared(other).node.table);
+}
+
+TEST_CASE("rays through a repaired mesh meet its surface, and no triangle within the solid") {
+    Random rng(334);
+    TriangleMesh mesh = cube(glm::vec3(-1), glm::vec3(1));
+    add(mesh, cube({0.25f, -0.5f, -2}, {1.5f, 0.75f, 0.5f}), glm::vec3(0));
+    add(mesh, cube(glm::vec3(-0.5f), glm::vec3(0)), glm::vec3(-0.25f, 0.25f, 0.125f));  // within the first
+    const Phased object = Set{.phase = Phase{1}, .of = Mesh{.file = held(TriangleMesh(mesh))}};
+    const InterfaceTracer tracer(object);
+    Evaluator::Workspace workspace;
+    int crossings = 0, points = 0, wrong = 0;
+    for (int ray = 0; ray < 500; ++ray) {
+        const glm::vec3 origin = 4.0f * rng.direction();
+        const glm::vec3 direction = glm::normalize(rng.uniform(0, 1) * rng.direction() - origin);
+        std::optional<Phase> phase;
+        float t = 0;
+        while (true) {
+            const auto crossing = tracer.first_crossing(origin, direction, t, 12, phase, workspace);
+            const float end = crossing ? crossing->t_in : 12;
+            const Phase before = crossing ? crossing->from : phase.value_or(Phase{0});
+            for (int k = 0; k < 4; ++k, ++points) {
+                const glm::dvec3 p(origin + glm::mix(t, end, rng.uniform(0, 1)) * direction);
+                const bool is_in = oracle::winding_number(mesh, p) > 0.5;
+                wrong += is_in != (before.index == 1) && to_triangles(mesh, p) > 1e-4;
+            }
+            if (!crossing) break;
+            ++crossings;
+            phase = crossing->to;
+            t = crossing->t_out;
+        }
+    }
+    CHECK(crossings > 500);
+    CHECK(points > 4000);
+    CHECK(wrong == 0);
 }
 
 }  // namespace test_mesh_repair

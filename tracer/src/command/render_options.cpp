@@ -145,13 +145,14 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         "Render only these samples of each pixel, numbered from 0, with LAST excluded: a share of the work. Write it "
         "to a .part and join the parts with merge");
     range->option_text("FIRST:LAST");
+    // CLI11 runs these functions in the order of the options, so the new name's has run.
     const auto use_old_name = [&share = o.share](const std::string& text) {
+        if (share) throw CLI::ValidationError("--samples is the old name of --sample-range; give only one of them");
         say("phasetree: warning: --samples is deprecated; use --sample-range instead\n");
         share = text;
     };
     command.add_option_function<std::string>("--samples", use_old_name, "Old name of --sample-range")
-        ->group("")  // not listed
-        ->excludes(range);
+        ->group("");  // not listed
     // Keep the pointer: looking an option up by name may throw where CLI11 allows no exception.
     CLI::Option* const frames = command.add_option(
         "--frames", o.frames,
