@@ -6,6 +6,8 @@
 
 #include "command/command.hpp"
 
+const phasetree::tests::CommandMain phasetree::tests::command_main = nullptr;
+
 namespace test_bench {
 
 using namespace phasetree::tests;

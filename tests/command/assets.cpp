@@ -75,7 +75,8 @@ const std::string weights =
 }  // namespace
 
 TEST_CASE("an image that claims more than it holds is rejected before it costs memory") {
-    const Shell shell;
+    Shell shell;
+    shell.executes_program = true;
     write_text(shell.directory / "good.hdr", hdr(16, 8));
     write_text(shell.directory / "scene.json", with_images("good.hdr", 1).text());
     const Outcome good = shell.run({"check", "scene.json"});
@@ -100,7 +101,8 @@ TEST_CASE("an image that claims more than it holds is rejected before it costs m
 }
 
 TEST_CASE("an image of a kind that opening decodes is rejected, whatever it is called") {
-    const Shell shell;
+    Shell shell;
+    shell.executes_program = true;
     // A WebP image without loss of 16383×16383 pixels, of one colour; and the beginnings of the others.
     const std::string webp(
         "RIFF\x1e\0\0\0WEBPVP8L\x11\0\0\0\x2f\xfe\xbf\xff\x0f\x07\x10\x11\xff\xff\xff\xff\x0f\0\0\0\0\0", 38);
@@ -123,7 +125,8 @@ TEST_CASE("an image of a kind that opening decodes is rejected, whatever it is c
 }
 
 TEST_CASE("an image is in memory once, however many lights it makes" * doctest::skip(under_sanitizer)) {
-    const Shell shell;
+    Shell shell;
+    shell.executes_program = true;
     write_text(shell.directory / "sky.hdr", short_hdr(2048, 1024, 1024));
     fs::create_directory(shell.directory / "folder");
     // 24 MB of texels, and what is built to sample them.

@@ -1,4 +1,4 @@
-// Runs the built `phasetree` as a user does: in a directory of its own, with arguments and standard input.
+// Runs `phasetree` as a user does: in a directory of its own, with arguments and standard input.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -9,7 +9,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
+#include <iostream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -72,6 +76,25 @@ inline std::string without_lines(const std::string& text, std::string_view begin
     return rest;
 }
 
+// Starting `phasetree` takes a quarter of a second of processor time, nearly all of it in the dynamic loader, because
+// Debian's OpenImageIO depends on 200 libraries. In test-command, a forked child therefore calls this function, which
+// is all that main() does, instead of executing the program. nullptr in other executables.
+using CommandMain = int (*)(int argc, char** argv);
+extern const CommandMain command_main;
+
+inline std::ptrdiff_t thread_count() {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return std::distance(begin(tasks), end(tasks));
+}
+
+// Some libraries start threads when they are loaded, which then wait. A forked child does without them.
+inline const std::ptrdiff_t threads_of_libraries = thread_count();
+
+// Gives all signals their default effect again, as executing a program does: doctest handles some of them.
+inline void reset_signals() {
+    for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
+}
+
 // A directory for scenes and images, and the command run there.
 class Shell {
   public:
@@ -88,11 +111,16 @@ class Shell {
         for (std::string& word : words) argv.push_back(word.data());
         argv.push_back(nullptr);
 
+        // If the test itself has used threads, a forked child could wait for them.
+        const bool executes =
+            executes_program || in_child || under_sanitizer || !command_main || thread_count() != threads_of_libraries;
         const auto start = std::chrono::steady_clock::now();
+        std::cout.flush();
+        std::fflush(nullptr);
         const pid_t child = ::fork();
         REQUIRE(child >= 0);
         if (child == 0) {
-            std::signal(SIGINT, SIG_DFL);
+            reset_signals();
             const bool ready = ::chdir(directory.path().c_str()) == 0 &&
                                ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO) >= 0 &&
                                ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO) >= 0 &&
@@ -101,7 +129,11 @@ class Shell {
                 for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
                 if (environment.empty()) ::unsetenv("OCIO");
                 if (in_child) in_child();
-                ::execv(argv[0], argv.data());
+                if (executes) ::execv(argv[0], argv.data());
+                const int code = command_main(static_cast<int>(words.size()), argv.data());
+                std::cout.flush();
+                std::fflush(nullptr);
+                ::_exit(code);  // without destructors of libraries, which join their threads
             }
             ::_exit(127);
         }
@@ -133,7 +165,8 @@ class Shell {
     TemporaryDirectory directory;
     std::vector<std::pair<std::string, std::string>> environment;
     std::chrono::seconds patience = give_up_after;
-    std::function<void()> in_child;  // called last of all before the command takes the process's place
+    bool executes_program = false;   // always executes the program, for tests that measure memory
+    std::function<void()> in_child;  // called just before the program is executed
 };
 
 // A scene that renders quickly; the parts may be replaced.

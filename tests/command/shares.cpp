@@ -168,7 +168,8 @@ TEST_CASE("what does not belong together is rejected by name") {
 }
 
 TEST_CASE("the memory of a merge does not grow with the number of the parts" * doctest::skip(under_sanitizer)) {
-    const Shell shell;
+    Shell shell;
+    shell.executes_program = true;
     SceneText scene;
     scene.rest = R"("render": {"width": 640, "height": 480, "samples": 10, "max_depth": 1})";
     write_text(shell.directory / "scene.json", scene.text());
