@@ -181,7 +181,8 @@ TEST_CASE("light that passes between two balls of glass does not count as found 
                                  R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}],
            "lights": [{"sun": {"direction": [0.2, 0.3, 1], "irradiance": [4, 4, 4], "diameter": 20}}],
            "render": {"width": 64, "height": 64, "photons": 3, "photon_radius": 2})");
-    check_against_paths(scene, passes, 1e-4);
+    // A few photons are bright. In fewer passes they are often missed, and the standard error is then too small.
+    check_against_paths(scene, 2 * passes, 1e-4);
 }
 
 TEST_CASE("what glows before the sun, through a ball of glass, hides it from photons and sends its own") {

@@ -36,7 +36,7 @@ TEST_CASE("behind a ball of ground glass it is as bright as by paths alone") {
     struct Case {
         std::string light;
         double roughness, photons;
-        int times;  // the passes, by which a planted error of 10 % is found
+        int times;  // how many times `passes` find the planted error
     };
     std::vector<Case> cases{{sun, 0.3, 0.04, 10}, {rectangle, 0.1, 0.04, 12}};
     if (long_form) cases.insert(cases.end(), {{sun, 0.8, 0.04, 12}, {point, 0.8, 0.4, 40}});

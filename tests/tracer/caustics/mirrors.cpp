@@ -91,7 +91,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                        "camera": {"position": [0, -0.1, 5], "look_at": [0, 0, 0], "fov": 30},
                        "render": {"width": 24, "height": 24})");
                 // Photons are gathered from near, so that none are gathered from beyond the wall of the tube.
-                return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{96, 6, 0.3f});
+                return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{48, 6, 0.3f});
             },
             planted, sidak(1e-4, 2 * 7));
     }
