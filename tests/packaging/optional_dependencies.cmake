@@ -21,8 +21,12 @@ endforeach()
 file(WRITE "${prefix}/include/draco/core/varint_decoding.h" "")
 file(WRITE "${prefix}/include/meshoptimizer.h" "void meshopt_decodeFilterOct(void*, unsigned, unsigned);\n")
 foreach(module harfbuzz cpp-httplib draco)
+    set(folders "-I${prefix}/include")
+    if(module STREQUAL draco)
+        set(folders "-Iinclude ${folders}")  # like draco.pc in Debian 13: CMake rejects relative and missing folders
+    endif()
     file(WRITE "${prefix}/lib/pkgconfig/${module}.pc"
-        "Name: ${module}\nDescription: a broken package\nVersion: 9.0\nCflags: -I${prefix}/include\n")
+        "Name: ${module}\nDescription: a broken package\nVersion: 9.0\nCflags: ${folders}\n")
 endforeach()
 # Compiles, but the library is not installed.
 file(WRITE "${prefix}/include/OpenImageDenoise/oidn.hpp" "namespace oidn {
@@ -39,7 +43,7 @@ foreach(package "OpenImageDenoise;OpenImageDenoise;${prefix}/lib/libnowhere.so" 
     list(POP_FRONT package name target library)
     file(WRITE "${prefix}/lib/cmake/${name}/${name}Config.cmake" "
         add_library(${target} INTERFACE IMPORTED)
-        target_include_directories(${target} INTERFACE \"${prefix}/include\")
+        target_include_directories(${target} INTERFACE \"${prefix}/include\" \"${prefix}/missing\")
         target_link_libraries(${target} INTERFACE ${library})")
     file(WRITE "${prefix}/lib/cmake/${name}/${name}ConfigVersion.cmake" "
         set(PACKAGE_VERSION 9.0)
