@@ -312,4 +312,26 @@ TEST_CASE("trace: every interface along each ray, in order") {
     }
 }
 
+TEST_CASE("nodes prints the parts of the reference that are named") {
+    const Shell shell;
+    const std::string all = shell.run({"nodes"}).out;
+    const Outcome sphere = shell.run({"nodes", "sphere"});
+    CHECK(sphere.code == 0);
+    // The shape and the light.
+    CHECK(sphere.out.find("Shapes") == 0);
+    CHECK(sphere.out.find("\nLights") != std::string::npos);
+    CHECK(sphere.out.find("radius") != std::string::npos);
+    CHECK(sphere.out.find("  box") == std::string::npos);
+    // A chapter is as in the whole reference.
+    const std::string cameras = shell.run({"nodes", "cameras"}).out;
+    CHECK(cameras.find("Cameras") == 0);
+    CHECK(all.find(cameras) != std::string::npos);
+    const Outcome cube = shell.run({"nodes", "sphere", "cube"});
+    CHECK(cube.code == 2);
+    CHECK(cube.out == "");
+    CHECK(cube.err == "phasetree: nodes: the reference has no entry \"cube\" (did you mean \"box\"?)\n");
+    CHECK(shell.run({"nodes", "qwertyuiop"}).err.find("\"phasetree nodes\" prints all of it") != std::string::npos);
+    CHECK(shell.run({"nodes", "sphere", "--json-schema"}).code == 2);
+}
+
 }  // namespace test_queries

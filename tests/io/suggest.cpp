@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "phasetree/io/meant_kind.hpp"
+
 namespace test_suggest {
 
-using phasetree::closest;
+using phasetree::closest, phasetree::meant_kind;
 
 TEST_CASE("a misspelt word finds the one that was meant") {
     const std::vector<std::string> keys = {"radius", "center", "height", "material", "from", "to", "r"};
@@ -54,6 +56,15 @@ TEST_CASE("any range of strings will do") {
     CHECK(closest("glas", phases) == "glass");
     const std::array<std::string_view, 2> views = {"sand", "wood"};
     CHECK(closest("snad", views) == "sand");
+}
+
+TEST_CASE("an unknown kind is what other programs call so, or the nearest by spelling") {
+    const std::vector<std::string> shapes = {"tube", "box", "sphere", "boxes"};
+    CHECK(meant_kind("cube", shapes) == "box");
+    CHECK(meant_kind("pipe", shapes) == "tube");
+    CHECK(meant_kind("shpere", shapes) == "sphere");
+    CHECK(meant_kind("cube", std::vector<std::string>{"tube"}) == "tube");  // where there is no box
+    CHECK_FALSE(meant_kind("teapot", shapes));
 }
 
 }  // namespace test_suggest

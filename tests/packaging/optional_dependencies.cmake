@@ -45,9 +45,13 @@ foreach(package "OpenImageDenoise;OpenImageDenoise;${prefix}/lib/libnowhere.so" 
         add_library(${target} INTERFACE IMPORTED)
         target_include_directories(${target} INTERFACE \"${prefix}/include\" \"${prefix}/missing\")
         target_link_libraries(${target} INTERFACE ${library})")
+    set(compatible TRUE)
+    if(name STREQUAL meshoptimizer)
+        set(compatible FALSE)  # like the package itself, which is compatible with no other version
+    endif()
     file(WRITE "${prefix}/lib/cmake/${name}/${name}ConfigVersion.cmake" "
         set(PACKAGE_VERSION 9.0)
-        set(PACKAGE_VERSION_COMPATIBLE TRUE)")
+        set(PACKAGE_VERSION_COMPATIBLE ${compatible})")
 endforeach()
 
 # configure(): stores the lines about libraries that are left out in `left_out`, and the names of compiled files in

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "phasetree/io/meant_kind.hpp"
 #include "phasetree/io/suggest.hpp"
 
 namespace phasetree {
@@ -27,7 +28,7 @@ Value member_of_kind(const Document& document, Value value, std::string_view wha
         if (is_kind(member, kind)) return member;
     throw document.error(member.key_offset(),
                          fmt::format("{} cannot be of the kind \"{}\"; choose from {}", what, member.key(), list),
-                         closest(member.key(), kinds));
+                         meant_kind(member.key(), kinds));
 }
 
 SceneError located(ObjectReader& reader, const ParameterError& e) {

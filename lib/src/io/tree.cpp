@@ -8,6 +8,7 @@
 #include "io/string_offset.hpp"
 #include "model/text_error.hpp"
 #include "phasetree/io/keys.hpp"
+#include "phasetree/io/meant_kind.hpp"
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
@@ -300,7 +301,7 @@ class Reader {
     }
     SceneError unknown_node(Value member, const std::vector<std::string>& known) const {
         return document_.error(member.key_offset(), fmt::format("unknown node \"{}\"", member.key()),
-                               closest(member.key(), known));
+                               meant_kind(member.key(), known));
     }
     template <class... Lists>
     static std::vector<std::string> names_of(Lists... lists) {

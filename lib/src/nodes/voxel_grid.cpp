@@ -73,10 +73,10 @@ ModelError too_many_values(std::string_view who) {
 }
 
 ModelError too_many_blocks(std::string_view who, const std::array<int, 3>& size, std::size_t count, std::size_t most) {
-    return ModelError(
-        fmt::format("{}: the grid spans {} × {} × {} voxels, or {} blocks of 8 × 8 × 8, and at most {} can be, empty "
-                    "ones included; crop it, split it, or resample it to larger voxels",
-                    who, size[0], size[1], size[2], count, most));
+    return ModelError(fmt::format(
+        "{}: the grid spans {} × {} × {} voxels, or {} blocks of 8 × 8 × 8 including empty ones, but the limit "
+        "is {} blocks; crop it, split it, or resample it to larger voxels",
+        who, size[0], size[1], size[2], count, most));
 }
 
 // The range of a block's values for the directory, and whether a value is invalid.

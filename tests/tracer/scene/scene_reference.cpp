@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "phasetree/io/meant_kind.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/read_parts.hpp"
@@ -446,6 +447,22 @@ TEST_CASE("an image has the size and the settings that the page promises, with o
         CHECK(static_cast<double>(read.settings.photons) == number("photons"));
         CHECK(static_cast<double>(read.settings.photon_radius) == number("photon_radius"));
         CHECK(!read.settings.view);
+    }
+}
+
+TEST_CASE("names from other programs stand for kinds that exist, and are not kinds of the same chapter themselves") {
+    const std::vector<Chapter> chapters = tracer::scene_chapters();
+    for (const auto& [elsewhere, here] : names_elsewhere()) {
+        CAPTURE(elsewhere);
+        bool exists = false;
+        for (const Chapter& chapter : chapters) {
+            const auto has = [&](std::string_view name) {
+                return std::ranges::find(chapter.pages, name, &KindPage::name) != chapter.pages.end();
+            };
+            exists = exists || has(here);
+            CHECK_FALSE((has(here) && has(elsewhere)));
+        }
+        CHECK(exists);
     }
 }
 

@@ -237,7 +237,7 @@ void check_memory(const OIIO::ImageSpec& spec, const Window& held) {
     const double megabytes = rows * static_cast<double>(held.width()) * spec.nchannels * sizeof(float) / megabyte;
     if (megabytes > most_megabytes)
         throw std::runtime_error(fmt::format(
-            "{} of its data window of {} × {} pixels takes {:.0f} MB, and at most {:.0f} MB can be; crop it{}",
+            "{} of its data window of {} × {} pixels takes {:.0f} MB, but the limit is {:.0f} MB; crop it{}",
             rows > 1 ? "a block of rows" : "a row", held.width(), held.height(), megabytes, most_megabytes,
             spec.tile_width != 0 ? ", or use smaller tiles" : ""));
 }
