@@ -756,6 +756,15 @@ tolerance: the accepted relative error of the distance."""
         phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
         phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
         """
+    def close_gaps(self, phases: Sequence[Phase | str], gap: float) -> Object:
+        r"""Fills thin gaps between phases, such as those between a glass and a liquid that was modelled a little too small. Vacuum becomes part of a phase where its distances to two phases add up to less than the gap. Combine the phases with over or under first, so that they no longer overlap.
+
+            dₖ = (aₖ + min over l after k of aₗ − g)/2;  for each k in order, φₖ ← max(min(φₖ, dₖ), −min over j ≠ 0, k of φⱼ),  φ₀ ← max(φ₀, −dₖ)
+
+        of: The object. (object)
+        phases: The phases between which gaps are closed, at least two. A gap becomes part of the phase listed first. (list of phases)
+        gap: Gaps narrower than this are closed. Make it at least twice as wide as the gaps, because those in corners are wider. (number in m; positive)
+        """
     def layered_sequence(self, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:
         r"""Embeds an object in layers, the innermost first.
 
@@ -2057,6 +2066,16 @@ def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequenc
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
     phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
     phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
+    """
+
+def close_gaps(of: Object, phases: Sequence[Phase | str], gap: float) -> Object:
+    r"""Fills thin gaps between phases, such as those between a glass and a liquid that was modelled a little too small. Vacuum becomes part of a phase where its distances to two phases add up to less than the gap. Combine the phases with over or under first, so that they no longer overlap.
+
+        dₖ = (aₖ + min over l after k of aₗ − g)/2;  for each k in order, φₖ ← max(min(φₖ, dₖ), −min over j ≠ 0, k of φⱼ),  φ₀ ← max(φ₀, −dₖ)
+
+    of: The object. (object)
+    phases: The phases between which gaps are closed, at least two. A gap becomes part of the phase listed first. (list of phases)
+    gap: Gaps narrower than this are closed. Make it at least twice as wide as the gaps, because those in corners are wider. (number in m; positive)
     """
 
 def layered_sequence(of: Object, phases: Sequence[Phase | str], thicknesses: Sequence[float] | np.ndarray) -> Object:

@@ -102,6 +102,22 @@ inline Components components(const Contacts& n, const dvec3& p) {
     const Components a = values(n.a, p), b = values(n.b, p);
     return in_contact(a, b, n.phases_b, n.alpha * depth(a, n.phases_a) - (1.0 - n.alpha) * depth(b, n.phases_b));
 }
+/// Each phase but the last fills its gaps below the rest.
+inline Components components(const CloseGaps& n, const dvec3& p) {
+    const Components a = values(n.of, p);
+    Components r = a;
+    if (!(a[0] < absent)) return a;
+    for (std::size_t i = 0; i + 1 < n.of_phases.size(); ++i) {
+        double sum = absent;
+        for (std::size_t j = i + 1; j < n.of_phases.size(); ++j)
+            sum = std::min(sum, a[n.of_phases[i].index] + a[n.of_phases[j].index]);
+        Components filling;
+        filling[n.of_phases[i].index] = (sum - n.gap) / 2;
+        filling[0] = -filling[n.of_phases[i].index];
+        r = replaced(filling, r);
+    }
+    return r;
+}
 inline Components components(const LayeredSequence& n, const dvec3& p) {
     Components a = values(n.of, p);
     if (!(a[0] < absent)) return a;

@@ -74,6 +74,16 @@ inline Phase region(const Contacts& n, const dvec3& p) {
     const double weighted_a = n.alpha * depth(values(n.a, p), n.phases_a);
     return weighted_a < (1 - n.alpha) * depth(values(n.b, p), n.phases_b) ? a : b;
 }
+/// In the vacuum, the first phase of a pair whose distances add up to less than the gap.
+inline Phase region(const CloseGaps& n, const dvec3& p) {
+    const Phase l = label(n.of, p);
+    if (l != vacuum) return l;
+    const Components a = values(n.of, p);
+    for (std::size_t i = 0; i < n.of_phases.size(); ++i)
+        for (std::size_t j = i + 1; j < n.of_phases.size(); ++j)
+            if (a[n.of_phases[i].index] + a[n.of_phases[j].index] < n.gap) return n.of_phases[i];
+    return vacuum;
+}
 /// Outside, the layer within whose reach the point is.
 inline Phase region(const LayeredSequence& n, const dvec3& p) {
     const Phase l = label(n.of, p);

@@ -64,6 +64,7 @@
 #include "phasetree/nodes/fields/wedge.hpp"
 #include "phasetree/nodes/phased/change.hpp"
 #include "phasetree/nodes/phased/checker.hpp"
+#include "phasetree/nodes/phased/close_gaps.hpp"
 #include "phasetree/nodes/phased/contact.hpp"
 #include "phasetree/nodes/phased/contacts.hpp"
 #include "phasetree/nodes/phased/interface.hpp"
@@ -126,7 +127,7 @@ using PlainFields =
 
 using Objects =
     TypeList<Set, ThinShell, Under, Over, Layered, IntersectShape, SubtractShape, Change, Remove, Contact, Contacts,
-             LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
+             CloseGaps, LayeredSequence, SmoothLayered, UniteShapeBelow, SmoothUniteShape, SmoothUniteShapeBelow,
              SmoothIntersectShape, SmoothSubtractShape, Interface, Interfaces, Checker, Layers, Strata, PhasedInstances,
              PhasedPolarArray, PhasedGrid, PhasedEndlessGrid, Voronoi, Labels, PhasedFibonacciDisk,
              PhasedFibonacciSphere, PhasedScatter, Particles, PhasedBoundingVolume, PhasedProxy, PhasedLevelOfDetail>;

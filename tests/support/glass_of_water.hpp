@@ -1,0 +1,50 @@
+#pragma once
+
+/// A glass of water whose water is modelled exactly, or too large, or too small.
+
+#include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/difference.hpp"
+#include "phasetree/nodes/phased/close_gaps.hpp"
+#include "phasetree/nodes/phased/over.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+
+namespace phasetree::tests::glass_of_water {
+
+inline constexpr Phase glass{1}, water{2};
+/// The cavity of the glass is a cylinder about the z axis that begins at z = 0.
+inline constexpr float radius = 0.3f, wall = 0.06f, rim = 0.8f, level = 0.5f;
+/// How much the water is too large or too small, and the gap that is closed.
+inline constexpr float excess = 0.008f, gap = 0.02f;
+
+inline Field cylinder(float r, float low, float high) {
+    return warped(Translate{{0, 0, 0.5f * (low + high)}}, Field(Cylinder{.radius = r, .height = high - low}));
+}
+inline Field hollow() {
+    return Difference{.from = cylinder(radius + wall, -wall, rim), .subtract = {cylinder(radius, 0, rim + 1)}};
+}
+/// The glass, and in front of nothing but the vacuum, the water.
+inline Phased filled(const Field& vessel, const Field& liquid) {
+    return Over{.of = {Set{.phase = glass, .of = vessel}, Set{.phase = water, .of = liquid}}};
+}
+/// The walls of the water are those of the cavity, to the last bit.
+inline Phased exact() {
+    return filled(hollow(), cylinder(radius, 0, level));
+}
+/// Water that is larger than the cavity on all sides but its surface, by a positive or negative length. It is turned,
+/// so that its walls have other roundings than those of the glass.
+inline Field water_larger_by(float length) {
+    return warped(Rotate{.axis = {0, 0, 1}, .angle = 33}, cylinder(radius + length, -length, level));
+}
+inline Phased closed(Phased object) {
+    return CloseGaps{.of = std::move(object), .of_phases = {water, glass}, .gap = gap};
+}
+/// How far a point is from the circle where glass, water and vacuum meet.
+inline float distance_to_rim_of_water(const glm::vec3& p) {
+    return std::hypot(std::hypot(p.x, p.y) - radius, p.z - level);
+}
+
+}  // namespace phasetree::tests::glass_of_water
