@@ -117,6 +117,11 @@ bool is_name(std::string_view text) {
            std::ranges::all_of(text, [](unsigned char c) { return (c < 0x80 && std::isalnum(c) != 0) || c == '_'; });
 }
 
+bool is_of_materials(std::string_view name) {
+    const auto has = [&](std::string_view part) { return name.find(part) != std::string_view::npos; };
+    return has("_materials_") || has("_texture_") || has("lightmap");
+}
+
 [[noreturn]] void refuse_without(std::string_view name, std::string_view library, std::string_view package,
                                  std::string_view compression) {
     throw GltfError(
@@ -126,11 +131,6 @@ bool is_name(std::string_view text) {
 }
 
 }  // namespace
-
-bool is_of_materials(std::string_view name) {
-    const auto has = [&](std::string_view part) { return name.find(part) != std::string_view::npos; };
-    return has("_materials_") || has("_texture_") || has("lightmap");
-}
 
 std::string loss_without(std::string_view name) {
     const Extension* const extension = find(name);

@@ -16,9 +16,6 @@ namespace phasetree::tracer::gltf {
 /// `has_phases` clear materials become phases, so that their extensions are read.
 void check_required_extensions(const Document&, bool has_materials, bool has_phases = false);
 
-/// Whether the name is that of an extension of materials or images.
-bool is_of_materials(std::string_view name);
-
 /// What a material loses with an extension that is not read, as a predicate such as "loses sheen of cloth"; empty if it
 /// loses nothing, or if the name is none that a message may quote.
 std::string loss_without(std::string_view name);

@@ -139,7 +139,9 @@ class Reader {
     bool is_lost(const std::string& extension) const {
         if (clear_ == ReadClear::warn) return true;
         // Opaque materials report their own, and clear ones are phases.
-        return extension != "KHR_lights_punctual" && !is_of_materials(extension);
+        const bool is_of_one_material =
+            extension.find("_materials_") != std::string::npos && extension != "KHR_materials_variants";
+        return extension != "KHR_lights_punctual" && !is_of_one_material;
     }
 
     void say_which_extensions_are_not_read() {
