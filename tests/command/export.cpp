@@ -177,7 +177,7 @@ TEST_CASE("what was exported can stand beside another object, as a mesh of each 
         // Only .glb says that the glass is clear.
         CHECK(o.err == (format == "glb"
                             ? "warning: a.glb: \"glass\" is clear and therefore ignored, because meshes must be "
-                              "opaque; model it as a clear phase in \"tree\"\nwarning: a.glb: uses unsupported "
+                              "opaque; use \"phasetree import\" to make it a phase\nwarning: a.glb: uses unsupported "
                               "extensions: KHR_materials_volume (missing: absorption inside clear materials)\n"
                             : ""));
     }

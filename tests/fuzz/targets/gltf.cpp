@@ -6,21 +6,44 @@
 
 namespace phasetree::fuzz {
 
+namespace {
+
+void check_solids(const tracer::gltf::GltfFile& file) {
+    for (const tracer::gltf::ClearSolid& solid : file.solids) {
+        promised(!solid.name.empty() && solid.material < file.clear_materials.size(), "a solid has name and material");
+        promised(!solid.mesh.triangles.empty(), "a solid has triangles");
+        for (const glm::uvec3& triangle : solid.mesh.triangles)
+            for (int i = 0; i < 3; ++i) promised(triangle[i] < solid.mesh.vertices.size(), "a solid's corners exist");
+    }
+    for (const tracer::gltf::NamedClearMaterial& named : file.clear_materials)
+        promised(named.material.ior >= 1 && named.material.ior <= 4 && named.material.roughness >= 0 &&
+                     named.material.roughness <= 1 && named.material.dispersion >= 0,
+                 "clear materials are those of clear substances");
+    for (const tracer::gltf::PunctualLight& light : file.lights)
+        promised(light.intensity > 0 && light.outer_cone >= light.inner_cone, "lights emit");
+}
+
+}  // namespace
+
 void run_gltf(Bytes input) {
     constexpr std::size_t most_triangles = 100'000;
     const tracer::gltf::Limits limits{
         .triangles = most_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000, .moves = 1'000'000};
     const std::string_view content = text_of(input);
-    // The last bit of a file is of its images, or of no meaning.
-    const auto materials = !content.empty() && content.back() % 2 != 0 ? tracer::gltf::ReadMaterials::none
-                                                                       : tracer::gltf::ReadMaterials::all;
+    // The last bits of a file are of its images, or of no meaning.
+    const unsigned last = content.empty() ? 0 : static_cast<unsigned char>(content.back());
+    const auto materials = last % 2 != 0 ? tracer::gltf::ReadMaterials::none : tracer::gltf::ReadMaterials::all;
+    const auto clear = last % 4 >= 2 ? tracer::gltf::ReadClear::as_solids : tracer::gltf::ReadClear::warn;
     const auto files = [](const std::string& path) {
         promised(("/" + path + "/").find("/../") == std::string::npos && !path.starts_with('/'),
                  "files are in the document's folder");
         return std::string(64, '\0');
     };
     try {
-        for (const tracer::gltf::Part& part : tracer::gltf::read_gltf(content, materials, limits, files).parts) {
+        const tracer::gltf::GltfFile file =
+            tracer::gltf::read_gltf(content, {.materials = materials, .clear = clear, .limits = limits}, files);
+        check_solids(file);
+        for (const tracer::gltf::Part& part : file.parts) {
             promised(!part.mesh.triangles.empty() && part.mesh.triangles.size() <= most_triangles,
                      "there are triangles, and no more than are wanted");
             const std::size_t vertices = part.mesh.vertices.size();

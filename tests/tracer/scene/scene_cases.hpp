@@ -41,8 +41,8 @@ inline const support::TemporaryDirectory& folder() {
         GlbBytes bytes;
         const std::string view = bytes.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
         support::write_text(made / "mesh.glb",
-                            glb(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [
-                                {"attributes": {"POSITION": 0}}]}], "accessors": [{"bufferView": 0, "componentType": 5126,
+                            glb(R"("extensionsUsed": ["KHR_lights_punctual"], "scenes": [{"nodes": [0]}],
+                                "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors": [{"bufferView": 0, "componentType": 5126,
                                 "count": 3, "type": "VEC3"}], "bufferViews": [)" +
                                     view + "]",
                                 bytes.bytes()));
@@ -213,7 +213,9 @@ inline void tell_lights(const Document& document, std::vector<float>& told) {
 }
 
 inline void tell_meshes(const Document& document, std::vector<float>& told) {
-    for (const tracer::Mesh& mesh : tracer::read_meshes(document, document.root()).meshes) {
+    const auto group = tracer::read_meshes(document, document.root());
+    told.push_back(static_cast<float>(group.not_shown.size()));
+    for (const tracer::Mesh& mesh : group.meshes) {
         for (const glm::vec3& v : mesh.vertices) tell(told, v);
         for (const glm::vec3& v : mesh.normals.values) tell(told, v);
         for (const glm::uvec3& t : mesh.triangles) tell(told, glm::vec3(t));

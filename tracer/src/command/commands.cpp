@@ -15,6 +15,7 @@ void add_commands(CLI::App& app, Run& run) {
     add_trace(app, run);
     add_nodes(app, run);
     add_export(app, run);
+    add_import(app, run);
 }
 
 }  // namespace phasetree::tracer

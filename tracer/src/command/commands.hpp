@@ -22,6 +22,7 @@ void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
+void add_import(CLI::App& app, Run& run);
 
 // Adds all subcommands, in the order of the help.
 void add_commands(CLI::App& app, Run& run);

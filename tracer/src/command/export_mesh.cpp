@@ -14,6 +14,7 @@
 #include "command/streams.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
+#include "mesh_file/file_name.hpp"
 #include "mesh_file/glb.hpp"
 #include "mesh_file/obj.hpp"
 #include "mesh_file/ply.hpp"
@@ -65,17 +66,6 @@ bool has_colors(const MeshExport& wanted) {
 
 bool is_file_for_each_phase(const MeshExport& wanted) {
     return wanted.output.find(phase_in_name) != std::string::npos;
-}
-
-// Phase names become part of file names, so ASCII characters with a special meaning there are replaced by _.
-std::string in_file_name(std::string name) {
-    // Names that consist only of dots are folders.
-    for (std::size_t i = 0; i < name.size() && name[i] == '.'; ++i) name[i] = '_';
-    for (char& c : name) {
-        const auto code = static_cast<unsigned char>(c);
-        if (code < 128 && !std::isalnum(code) && c != '-' && c != '_' && c != '.') c = '_';
-    }
-    return name;
 }
 
 path file_of_phase(const std::string& pattern, const std::string& phase) {

@@ -101,6 +101,10 @@ constexpr std::array known_extensions{
     Extension{"VRMC_materials_mtoon", Use::refused, "toon shading"},
 };
 
+// Read where clear materials become phases.
+constexpr std::array<std::string_view, 3> extensions_of_phases{"KHR_materials_dispersion", "KHR_materials_iridescence",
+                                                               "KHR_materials_volume"};
+
 const Extension* find(std::string_view name) {
     const auto* const found = std::ranges::find(known_extensions, name, &Extension::name);
     return found == known_extensions.end() ? nullptr : found;
@@ -128,7 +132,13 @@ bool is_of_materials(std::string_view name) {
 
 }  // namespace
 
-void check_required_extensions(const Document& document, bool has_materials) {
+std::string loss_without(std::string_view name) {
+    const Extension* const extension = find(name);
+    if (!extension) return is_name(name) ? "has an unknown extension" : "";
+    return extension->missing.empty() ? "" : fmt::format("loses {}", extension->missing);
+}
+
+void check_required_extensions(const Document& document, bool has_materials, bool has_phases) {
     for (const std::string& name : document.root().texts("extensionsRequired")) {
         if (name == "KHR_draco_mesh_compression" && !has_draco())
             refuse_without(name, "Draco's library", "libdraco-dev", "Draco");
@@ -136,6 +146,7 @@ void check_required_extensions(const Document& document, bool has_materials) {
             refuse_without(name, "meshoptimizer's library", "libmeshoptimizer-dev", "meshopt");
         const Extension* const extension = find(name);
         if (extension && extension->use != Use::refused) continue;
+        if (has_phases && std::ranges::find(extensions_of_phases, name) != extensions_of_phases.end()) continue;
         const bool is_material = is_of_materials(name);
         if (is_material && !has_materials) continue;
         throw GltfError(fmt::format("it requires {}, which phasetree cannot read; {}{}",

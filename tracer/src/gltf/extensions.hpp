@@ -5,14 +5,20 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "gltf/document.hpp"
 
 namespace phasetree::tracer::gltf {
 
 /// Throws GltfError, which names the extension and says what to do, if the file requires an extension without which it
-/// is not what its author meant. Without `has_materials` extensions of materials and images do not count.
-void check_required_extensions(const Document&, bool has_materials);
+/// is not what its author meant. Without `has_materials` extensions of materials and images do not count. With
+/// `has_phases` clear materials become phases, so that their extensions are read.
+void check_required_extensions(const Document&, bool has_materials, bool has_phases = false);
+
+/// What a material loses with an extension that is not read, as a predicate such as "loses sheen of cloth"; empty if it
+/// loses nothing, or if the name is none that a message may quote.
+std::string loss_without(std::string_view name);
 
 /// One sentence that lists the extensions that are not read and may change the picture, and what is missing; empty if
 /// there are none. `used` are names from the file, which is not trusted: only what looks like a name is quoted.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gltf/names.hpp"
 #include "shading/bsdf/coating_albedo.hpp"
 #include "shading/fresnel.hpp"
 
@@ -15,25 +16,10 @@ namespace phasetree::tracer::gltf {
 
 namespace {
 
-constexpr std::size_t longest_name = 60;
-
-// A name for people, of one line.
+// A name for people.
 std::string name_of(const Item& material, std::size_t index) {
-    std::string name = material.text("name");
-    if (name.size() > longest_name) {
-        std::size_t end = longest_name;
-        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;  // within a character of UTF-8
-        name.resize(end);
-    }
-    std::string clean;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const auto c = static_cast<unsigned char>(name[i]);
-        // Control characters, of one byte or of two.
-        const bool is_two = c == 0xC2 && i + 1 < name.size() && static_cast<unsigned char>(name[i + 1]) < 0xA0;
-        if (is_two) ++i;
-        clean += c < 0x20 || c == 0x7F || is_two ? '_' : name[i];
-    }
-    return clean.empty() ? fmt::format("material {}", index) : clean;
+    const std::string name = clean_name(material.text("name"));
+    return name.empty() ? fmt::format("material {}", index) : name;
 }
 
 glm::vec3 fraction(const glm::vec3& v) {
@@ -55,7 +41,8 @@ constexpr float nearly_all = 0.99f;
 // Makes one material.
 class Materials::Maker {
   public:
-    Maker(Images& images, const Item& item, NamedMaterial& made) : images_(images), item_(item), made_(made) {}
+    Maker(Images& images, const Item& item, bool wants_clear, NamedMaterial& made)
+        : images_(images), item_(item), wants_clear_(wants_clear), made_(made) {}
 
     void make(bool by_vertices) {
         const auto given = item_.item("pbrMetallicRoughness");
@@ -63,6 +50,7 @@ class Materials::Maker {
         const Item pbr = given.value_or(Item(none, "the default material"));
         if (is_clear()) {
             made_.is_clear = true;
+            if (wants_clear_) made_.clear = clear_material(item_, images_, made_.not_shown);
             return;
         }
         if (const auto extensions = item_.item("extensions")) made_.extensions = extensions->keys();
@@ -242,6 +230,7 @@ class Materials::Maker {
 
     Images& images_;
     const Item& item_;
+    bool wants_clear_;
     NamedMaterial& made_;
     TintedMeshImage color_;
     Number metallic_ = 1.0f;
@@ -253,7 +242,7 @@ NamedMaterial Materials::make(const std::optional<std::size_t>& index, bool by_v
     NamedMaterial made;
     const Item item = index ? document_.element("materials", *index, from) : Item(none, "the default material");
     made.name = index ? name_of(item, *index) : "without material";
-    Maker(images_, item, made).make(by_vertices);
+    Maker(images_, item, wants_clear_, made).make(by_vertices);
     return made;
 }
 

@@ -10,8 +10,8 @@
 //     most of it emits none, as of lamps on a machine, it is a surface like others, and dark.
 //   * Where the alpha of its colour counts, meshes have holes, or let the part 1 − alpha of the light through
 //   (shading/opacity.hpp).
-// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. Their
-// triangles are left out, to be modelled as a clear phase of the tree.
+// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. They
+// become phases of a tree instead (clear_material.hpp).
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/clear_material.hpp"
 #include "gltf/document.hpp"
 #include "gltf/images.hpp"
 #include "shading/material.hpp"
@@ -29,7 +30,8 @@ namespace phasetree::tracer::gltf {
 
 struct NamedMaterial {
     std::string name;
-    bool is_clear = false;  ///< then only the name and not_shown are set
+    bool is_clear = false;                 ///< then only the name, `clear` and not_shown are set
+    std::optional<ClearMaterial> clear{};  ///< of a clear material, if these are wanted
     Material material{};
     std::optional<Opacity> opacity{};          ///< none is opaque everywhere
     std::optional<Coordinates> coordinates{};  ///< there are none without images
@@ -41,9 +43,10 @@ struct NamedMaterial {
 
 class Materials {
   public:
-    /// Refers to the document. `most_pixels` is how many all images may have.
-    Materials(const Document& document, std::size_t most_pixels)
-        : document_(document), images_(document, most_pixels) {}
+    /// Refers to the document. `most_pixels` is how many all images may have. `wants_clear` says whether to read clear
+    /// materials; otherwise they are only recognised.
+    Materials(const Document& document, std::size_t most_pixels, bool wants_clear = false)
+        : document_(document), images_(document, most_pixels), wants_clear_(wants_clear) {}
 
     /// The material of that number, or glTF's own if there is none. `by_vertices` says whether the mesh has colours of
     /// vertices; then there is an opacity wherever alpha counts, even if it is 1 but for the vertices' alpha. Throws
@@ -55,6 +58,7 @@ class Materials {
 
     const Document& document_;
     Images images_;
+    bool wants_clear_;
 };
 
 }  // namespace phasetree::tracer::gltf

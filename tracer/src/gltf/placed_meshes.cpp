@@ -71,6 +71,8 @@ class Instances {
     std::optional<std::size_t> count_;
 };
 
+constexpr std::size_t most_lights = 1000;
+
 class Scene {
   public:
     Scene(Accessors& accessors, std::size_t most)
@@ -89,7 +91,11 @@ class Scene {
             const auto visibility = n.node.extension("KHR_node_visibility");
             const bool is_visible = n.is_visible && (!visibility || visibility->flag("visible", true));
             const auto mesh = n.node.index("mesh");
-            if (mesh && is_visible) add_mesh(*mesh, n.node, placement);
+            if (mesh && is_visible) add_mesh(*mesh, n.number, n.node, placement);
+            if (const auto camera = n.node.index("camera")) placed_.cameras.push_back({*camera, placement});
+            const auto light = n.node.extension("KHR_lights_punctual");
+            if (light && is_visible && placed_.lights.size() < most_lights)
+                placed_.lights.push_back({light->needed_index("light"), placement});
             placed_.has_hidden = placed_.has_hidden || (mesh && !is_visible);
             add_nodes(n.node, "children", placement, is_visible);
         }
@@ -118,14 +124,14 @@ class Scene {
         }
     }
 
-    void add_mesh(std::size_t mesh, const Item& node, const glm::dmat4& placement) {
+    void add_mesh(std::size_t mesh, std::size_t number, const Item& node, const glm::dmat4& placement) {
         const Item item = document_.element("meshes", mesh, node);
         const auto weights = weights_of(node.has("weights") ? node : item);
         const Instances instances(accessors_, node);
         for (std::size_t i = 0; i < instances.count(); ++i) {
             if (placed_.meshes.size() == most_) throw GltfError("it has too many meshes");
             if (node.has("skin")) with_skins_.emplace_back(placed_.meshes.size(), node);
-            placed_.meshes.push_back({mesh, placement * instances.placement(i), nullptr, weights});
+            placed_.meshes.push_back({mesh, number, placement * instances.placement(i), nullptr, weights});
         }
     }
 

@@ -1,4 +1,4 @@
-// The meshes of a glTF file where its nodes place them.
+// The meshes, cameras and lights of a glTF file where its nodes place them.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@ using Joints = std::vector<glm::dmat4>;
 
 struct PlacedMesh {
     std::size_t mesh = 0;  ///< its number in "meshes"
+    std::size_t node = 0;  ///< the number of its node in "nodes"
     glm::dmat4 placement{1};
     /// Of a mesh with a skin; only vertices without joints go by the placement then.
     std::shared_ptr<const Joints> joints{};
@@ -23,9 +24,17 @@ struct PlacedMesh {
     std::shared_ptr<const std::vector<float>> weights{};
 };
 
+/// A camera or a light.
+struct PlacedElement {
+    std::size_t number = 0;  ///< in its list
+    glm::dmat4 placement{1};
+};
+
 struct PlacedMeshes {
     std::vector<PlacedMesh> meshes;
-    bool has_hidden = false;  ///< whether KHR_node_visibility hides a node that has a mesh
+    std::vector<PlacedElement> cameras;
+    std::vector<PlacedElement> lights;  ///< KHR_lights_punctual, at most 1000 that are visible
+    bool has_hidden = false;            ///< whether KHR_node_visibility hides a node that has a mesh
 };
 
 /// The visible meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the

@@ -16,8 +16,10 @@
 
 #include "gltf/accessor.hpp"
 #include "gltf/accessors.hpp"
+#include "gltf/cameras_and_lights.hpp"
 #include "gltf/extensions.hpp"
 #include "gltf/material.hpp"
+#include "gltf/names.hpp"
 #include "gltf/placed_meshes.hpp"
 
 namespace phasetree::tracer::gltf {
@@ -62,18 +64,20 @@ struct MorphTarget {
 
 class Reader {
   public:
-    Reader(std::string_view content, ReadMaterials materials, const Limits& limits, const ReadFile& read_file)
+    Reader(std::string_view content, const ReadOptions& options, const ReadFile& read_file)
         : document_(content, read_file),
-          accessors_(document_, limits.triangles),
-          materials_(document_, limits.pixels),
-          has_materials_(materials == ReadMaterials::all),
-          limits_(limits) {}
+          accessors_(document_, options.limits.triangles),
+          materials_(document_, options.limits.pixels, options.clear == ReadClear::as_solids),
+          has_materials_(options.materials == ReadMaterials::all),
+          clear_(options.clear),
+          limits_(options.limits) {}
 
     GltfFile read() {
-        check_required_extensions(document_, has_materials_);
+        check_required_extensions(document_, has_materials_, clear_ != ReadClear::warn);
         if (document_.count("animations") > 0) say("has animations, which are ignored");
         const PlacedMeshes all = placed_meshes(accessors_, limits_.primitives);
         for (const PlacedMesh& placed : all.meshes) {
+            ++placed_number_;
             const Item mesh = document_.element("meshes", placed.mesh, document_.root());
             primitives_ += mesh.count("primitives");
             if (primitives_ > limits_.primitives)
@@ -81,16 +85,23 @@ class Reader {
             for (const Item& primitive : mesh.items("primitives")) add(primitive, placed);
         }
         for (auto& [key, begun] : parts_) finish(begun);
-        if (file_.parts.empty()) throw GltfError(why_there_is_nothing(all));
+        if (clear_ == ReadClear::as_solids) {
+            std::ranges::stable_sort(file_.solids, {}, &ClearSolid::placed_mesh);
+            file_.camera = camera_of(document_, all);
+            file_.lights = lights_of(document_, all);
+        }
+        if (file_.parts.empty() && file_.solids.empty()) throw GltfError(why_there_is_nothing(all));
         say_which_extensions_are_not_read();
         return std::move(file_);
     }
 
   private:
-    // Primitives of one material are one part, those with colours of vertices another.
+    // Primitives of one material are one part, those with colours of vertices another. Those of a clear one are a solid
+    // for each placed mesh, whose number counts from 1.
     struct Key {
         std::optional<std::size_t> material;
-        bool by_vertices;
+        bool by_vertices = false;
+        std::size_t placed_mesh = 0;
         auto operator<=>(const Key&) const = default;
     };
 
@@ -103,6 +114,7 @@ class Reader {
         // Whether the file's tangents are dropped: some are missing, the images use other coordinates, or there is no
         // map of normals.
         bool drops_tangents = false;
+        std::optional<ClearSolid> solid{};
     };
 
     // Where a primitive's vertices come from, and where they go.
@@ -116,17 +128,28 @@ class Reader {
 
     std::string why_there_is_nothing(const PlacedMeshes& placed) const {
         if (!clear_materials_.empty() && !has_empty_)
-            return "all its materials are clear, but meshes must be opaque; give it a \"material\", or model it as a "
-                   "clear phase in \"tree\"";
+            return "all its materials are clear, but meshes must be opaque; give it a \"material\", or use "
+                   "\"phasetree import\" to make its objects phases";
         if (placed.meshes.empty() && placed.has_hidden)
             return "all of its meshes are hidden (KHR_node_visibility); make some visible and export it again";
         return "its scene has no triangles";
     }
 
+    // Whether something that the file uses is not read.
+    bool is_lost(const std::string& extension) const {
+        if (clear_ == ReadClear::warn) return true;
+        // Opaque materials report their own, and clear ones are phases.
+        const bool is_of_one_material =
+            extension.find("_materials_") != std::string::npos && extension != "KHR_materials_variants";
+        return extension != "KHR_lights_punctual" && !is_of_one_material;
+    }
+
     void say_which_extensions_are_not_read() {
-        for (const std::string& name : document_.root().texts("extensionsUsed")) extensions_.insert(name);
+        for (const std::string& name : document_.root().texts("extensionsUsed"))
+            if (is_lost(name)) extensions_.insert(name);
         if (const auto of_root = document_.root().item("extensions"))
-            for (const std::string& name : of_root->keys()) extensions_.insert(name);
+            for (const std::string& name : of_root->keys())
+                if (is_lost(name)) extensions_.insert(name);
         const std::string sentence = sentence_about_unread(extensions_, has_materials_);
         if (!sentence.empty()) say(sentence);
     }
@@ -143,11 +166,9 @@ class Reader {
         const Accessor positions = attributes.find("POSITION").value();
         if (positions.columns() != 3) positions.fail("has positions that do not have three numbers");
 
-        const Key key{has_materials_ ? primitive.index("material") : std::nullopt,
-                      has_materials_ && item->has("COLOR_0")};
-        if (clear_materials_.contains(key.material)) return;
-        if (!parts_.contains(key) && !begin(key, primitive)) return;
-        PartBeingRead& begun = parts_.at(key);
+        PartBeingRead* const part = part_of(primitive, placed, has_materials_ && item->has("COLOR_0"));
+        if (!part) return;
+        PartBeingRead& begun = *part;
         const auto of = [&](const std::string& name, std::size_t columns) {
             return attribute(attributes, name, positions, columns);
         };
@@ -201,9 +222,38 @@ class Reader {
         }
     }
 
+    // The part to which a primitive belongs; null if it is left out.
+    PartBeingRead* part_of(const Item& primitive, const PlacedMesh& placed, bool by_vertices) {
+        const Key key{has_materials_ ? primitive.index("material") : std::nullopt, by_vertices};
+        const auto clear = clear_materials_.find(key.material);
+        const bool is_opaque = clear == clear_materials_.end() && (parts_.contains(key) || begin(key, primitive));
+        if (is_opaque) return &parts_.at(key);
+        if (clear_ != ReadClear::as_solids) return nullptr;
+        const Key of_solid{.material = key.material, .placed_mesh = placed_number_};
+        if (!parts_.contains(of_solid)) begin_solid(of_solid, placed);
+        return &parts_.at(of_solid);
+    }
+
+    void begin_solid(const Key& key, const PlacedMesh& placed) {
+        if (++solids_ > limits_.solids)
+            throw GltfError(fmt::format("it has more than {} clear objects", limits_.solids));
+        const Item node = document_.element("nodes", placed.node, document_.root());
+        const Item mesh = document_.element("meshes", placed.mesh, node);
+        std::string name = clean_name(node.text("name"));
+        if (name.empty()) name = clean_name(mesh.text("name"));
+        if (name.empty()) name = fmt::format("node {}", placed.node);
+        const std::size_t material = clear_materials_.at(key.material);
+        const auto own = priority_of(node);
+        parts_[key].drops_tangents = true;
+        parts_[key].solid = {.name = std::move(name),
+                             .placed_mesh = placed_number_,
+                             .material = material,
+                             .priority = own ? own : file_.clear_materials[material].material.priority};
+    }
+
     // False if the material is clear.
     bool begin(const Key& key, const Item& primitive) {
-        if (parts_.size() + clear_materials_.size() >= limits_.materials)
+        if (parts_.size() - solids_ + clear_materials_.size() >= limits_.materials)
             throw GltfError(fmt::format("it has more than {} materials", limits_.materials));
         if (!has_materials_) {
             parts_[key].part.name = "all";
@@ -213,11 +263,7 @@ class Reader {
         extensions_.insert(made.extensions.begin(), made.extensions.end());
         for (const std::string& sentence : made.not_shown) say(fmt::format("\"{}\" {}", made.name, sentence));
         if (made.is_clear) {
-            say(
-                fmt::format("\"{}\" is clear and therefore ignored, because meshes must be opaque; model it as a clear "
-                            "phase in \"tree\"",
-                            made.name));
-            clear_materials_.insert(key.material);
+            begin_clear(key.material, std::move(made));
             return false;
         }
         const bool has_map = normal_map_of(made.material) != nullptr;
@@ -232,10 +278,33 @@ class Reader {
         return true;
     }
 
+    void begin_clear(const std::optional<std::size_t>& number, NamedMaterial made) {
+        clear_materials_[number] = file_.clear_materials.size();
+        if (clear_ == ReadClear::warn)
+            say(
+                fmt::format("\"{}\" is clear and therefore ignored, because meshes must be opaque; use \"phasetree "
+                            "import\" to make it a phase",
+                            made.name));
+        if (clear_ == ReadClear::as_solids)
+            file_.clear_materials.push_back({unlike(clear_names_, made.name), made.clear.value()});
+    }
+
+    // The name, or the name with a number if it is taken.
+    static std::string unlike(std::set<std::string>& taken, const std::string& name) {
+        std::string unique = name;
+        for (int same = 2; !taken.insert(unique).second; ++same) unique = fmt::format("{} {}", name, same);
+        return unique;
+    }
+
     void finish(PartBeingRead& begun) {
         Part& part = begun.part;
         if (part.mesh.triangles.empty()) {
-            has_empty_ = true;
+            has_empty_ = has_empty_ || !begun.solid;
+            return;
+        }
+        if (begun.solid) {
+            begun.solid->mesh = std::move(part.mesh);
+            file_.solids.push_back(std::move(*begun.solid));
             return;
         }
         const auto is_zero = [](const glm::vec3& n) { return n == glm::vec3(0); };
@@ -245,8 +314,7 @@ class Reader {
         if (begun.drops_tangents) part.tangents = {};
         // Where there are images, triangles without coordinates have the same ones at all corners, so one pixel.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
-        const std::string name = part.name;
-        for (int same = 2; !names_.insert(part.name).second; ++same) part.name = fmt::format("{} {}", name, same);
+        part.name = unlike(names_, part.name);
         file_.parts.push_back(std::move(part));
     }
 
@@ -392,21 +460,23 @@ class Reader {
     Accessors accessors_;
     Materials materials_;
     bool has_materials_;
+    ReadClear clear_;
     Limits limits_;
-    std::size_t triangles_ = 0, primitives_ = 0, moves_ = 0;
+    std::size_t triangles_ = 0, primitives_ = 0, moves_ = 0, solids_ = 0;
+    std::size_t placed_number_ = 0;               // of the placed mesh that is read, from 1
     std::uint32_t primitive_number_ = 0;          // of the primitive that is read
     std::vector<VertexInPart> vertices_in_part_;  // of the vertices of the primitive that is read
     std::map<Key, PartBeingRead> parts_;
-    std::set<std::optional<std::size_t>> clear_materials_;
-    bool has_empty_ = false;  // whether something opaque has no triangles
-    std::set<std::string> said_, names_, extensions_;
+    std::map<std::optional<std::size_t>, std::size_t> clear_materials_;  // their numbers in the file_
+    bool has_empty_ = false;                                             // whether something opaque has no triangles
+    std::set<std::string> said_, names_, clear_names_, extensions_;
     GltfFile file_;
 };
 
 }  // namespace
 
-GltfFile read_gltf(std::string_view content, ReadMaterials materials, const Limits& limits, const ReadFile& read_file) {
-    return Reader(content, materials, limits, read_file).read();
+GltfFile read_gltf(std::string_view content, const ReadOptions& options, const ReadFile& read_file) {
+    return Reader(content, options, read_file).read();
 }
 
 }  // namespace phasetree::tracer::gltf

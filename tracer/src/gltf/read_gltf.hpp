@@ -1,12 +1,14 @@
-// The triangles of a glTF file, with their materials.
+// The triangles of a glTF file, with their materials; on request also its clear solids, camera and lights.
 #pragma once
 
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gltf/clear_material.hpp"
 #include "gltf/document.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "shading/material.hpp"
@@ -29,11 +31,50 @@ struct Part {
     AtCorners<glm::vec4> tangents{};
 };
 
+/// What happens to clear materials. Meshes are opaque, so triangles of clear materials are left out of the parts.
+enum class ReadClear {
+    warn,      ///< report each clear material
+    skip,      ///< leave them out without a report, as well as lights, because the scene has them elsewhere
+    as_solids  ///< read them as ClearSolids
+};
+
+/// The triangles of one clear material of one placed mesh, in the same space as a Part.
+struct ClearSolid {
+    std::string name{};           ///< of its node, else of its mesh
+    std::size_t placed_mesh = 0;  ///< the number of the placed mesh, in the order of the file; others may have the same
+    std::size_t material = 0;     ///< in GltfFile::clear_materials
+    std::optional<float> priority{};  ///< extras.phasetree_priority of the node, else of the material
+    TriangleMesh mesh{};
+};
+
+struct NamedClearMaterial {
+    std::string name{};  ///< unlike that of any other clear material
+    ClearMaterial material{};
+};
+
+/// A perspective camera of the file, in its space.
+struct Camera {
+    glm::dvec3 position{0}, forward{0, 0, -1}, up{0, 1, 0};  ///< directions are normalised
+    float vertical_fov = 0;                                  ///< in radians
+    std::optional<float> aspect_ratio{};                     ///< width over height
+};
+
+/// A light of KHR_lights_punctual, in the space of the file.
+struct PunctualLight {
+    enum class Kind { directional, point, spot };
+    Kind kind = Kind::point;
+    glm::dvec3 position{0}, forward{0, 0, -1};  ///< the direction is normalised
+    glm::vec3 color{1};
+    float intensity = 1;                   ///< in candela; of a directional light, in lux
+    float inner_cone = 0, outer_cone = 0;  ///< of a spot: half angles in radians
+};
+
 /// How much a file may have: a small one may place one mesh many times, or say that its images are large.
 struct Limits {
     std::size_t triangles = 20'000'000;  ///< a mesh counts at each place where it is
     std::size_t primitives = 5'000'000;  ///< which are glTF's parts of meshes; they count in the same way
     std::size_t materials = 2'000;       ///< that triangles have
+    std::size_t solids = 1'000;          ///< of clear materials
     std::size_t pixels = 256'000'000;    ///< of all images
     std::size_t moves = 200'000'000;     ///< of vertices by morph targets
 };
@@ -45,11 +86,26 @@ enum class ReadMaterials { all, none };
 struct GltfFile {
     std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
     std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
+    // With ReadClear::as_solids:
+    std::vector<ClearSolid> solids{};  ///< in the order of the file
+    std::vector<NamedClearMaterial> clear_materials{};
+    std::optional<Camera> camera{};  ///< the first perspective camera
+    std::vector<PunctualLight> lights{};
+};
+
+/// How to read a file.
+struct ReadOptions {
+    ReadMaterials materials = ReadMaterials::all;
+    ReadClear clear = ReadClear::warn;
+    Limits limits{};
 };
 
 /// `content` is all of the file, .glb or .gltf; files that it names are read by `read_file`. Throws GltfError for what
 /// is no such file, what has no triangles to be shown, and what is beyond the limits, and whatever `read_file` throws.
-GltfFile read_gltf(std::string_view content, ReadMaterials materials = ReadMaterials::all, const Limits& limits = {},
-                   const ReadFile& read_file = {});
+GltfFile read_gltf(std::string_view content, const ReadOptions& options, const ReadFile& read_file = {});
+inline GltfFile read_gltf(std::string_view content, ReadMaterials materials = ReadMaterials::all,
+                          const Limits& limits = {}, const ReadFile& read_file = {}) {
+    return read_gltf(content, {.materials = materials, .limits = limits}, read_file);
+}
 
 }  // namespace phasetree::tracer::gltf

@@ -59,4 +59,19 @@ std::string ply_of(const MeshedObject& object) {
     return bytes_as_text(out);
 }
 
+std::string ply_of(const TriangleMesh& mesh) {
+    ByteWriter out;
+    append_text(out, fmt::format("ply\nformat binary_little_endian 1.0\ncomment made by phasetree\n"
+                                 "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+                                 "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                                 mesh.vertices.size(), mesh.triangles.size()));
+    for (const glm::vec3& v : mesh.vertices)
+        for (int i = 0; i < 3; ++i) out.number(v[i]);
+    for (const glm::uvec3& t : mesh.triangles) {
+        out.number(std::uint8_t{3});
+        for (int i = 0; i < 3; ++i) out.number(t[i]);
+    }
+    return bytes_as_text(out);
+}
+
 }  // namespace phasetree::tracer

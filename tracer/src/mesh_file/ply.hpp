@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh_file/meshed_object.hpp"
+#include "phasetree/nodes/fields/triangle_mesh.hpp"
 
 namespace phasetree::tracer {
 
@@ -11,5 +12,8 @@ namespace phasetree::tracer {
 /// on its sides; the header lists their names. Vertices are counterclockwise as seen from the phase in front. A face
 /// has the colour of the phase behind it, or of the one in front if the one behind is not chosen.
 std::string ply_of(const MeshedObject&);
+
+/// The bytes of a binary file of triangles alone. Reading it gives the same mesh, bit for bit.
+std::string ply_of(const TriangleMesh&);
 
 }  // namespace phasetree::tracer

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gltf/read_gltf.hpp"
+
 namespace phasetree::tracer {
 
 /// Whether the file has the extension .gltf or .glb, ignoring case.
@@ -16,5 +18,8 @@ std::filesystem::path file_of_gltf(const std::filesystem::path& gltf, const std:
 
 /// All usable files that a document references; empty if the document cannot be read.
 std::vector<std::filesystem::path> files_of_gltf(const std::filesystem::path& gltf);
+
+/// The content of a file and of the files that it references. Throws ParameterError for "file".
+gltf::GltfFile read_gltf_file(const std::filesystem::path& file, const gltf::ReadOptions& options);
 
 }  // namespace phasetree::tracer

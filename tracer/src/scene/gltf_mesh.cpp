@@ -56,8 +56,7 @@ void GltfParameters::check() const {
     check_ending_of_mesh(file, {".gltf", ".glb"});
 }
 
-MeshGroup GltfParameters::made() const {
-    check();
+gltf::GltfFile read_gltf_file(const std::filesystem::path& file, const gltf::ReadOptions& options) {
     const auto read_named = [&](const std::string& name) {
         try {
             return read_whole_file(file_of_gltf(file, name), most_bytes_of_mesh, most);
@@ -65,13 +64,18 @@ MeshGroup GltfParameters::made() const {
             throw gltf::GltfError(fmt::format("cannot be read: {}", e.what()));
         }
     };
-    gltf::GltfFile read;
     try {
-        read = gltf::read_gltf(read_whole_file(file, most_bytes_of_mesh, most),
-                               material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all, {}, read_named);
+        return gltf::read_gltf(read_whole_file(file, most_bytes_of_mesh, most), options, read_named);
     } catch (const gltf::GltfError& e) {
         throw ParameterError("file", fmt::format("{}: {}", file.string(), e.what()));
     }
+}
+
+MeshGroup GltfParameters::made() const {
+    check();
+    gltf::GltfFile read =
+        read_gltf_file(file, {.materials = material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all,
+                              .clear = imported ? gltf::ReadClear::skip : gltf::ReadClear::warn});
     MeshGroup group;
     for (gltf::Part& part : read.parts) {
         Mesh mesh{.vertices = std::move(part.mesh.vertices),

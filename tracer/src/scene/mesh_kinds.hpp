@@ -112,7 +112,8 @@ struct GltfParameters {
         "by their joints, and morph targets are applied with the weights of their node or mesh; animations are "
         "ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of "
         "texture coordinates per material, with any transforms. Clear materials are ignored, because meshes are "
-        "opaque; KHR_materials_transmission identifies them. Other supported extensions: KHR_texture_transform, "
+        "opaque; KHR_materials_transmission identifies them, and `phasetree import` makes them phases. Other supported "
+        "extensions: KHR_texture_transform, "
         "KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and "
         "KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if "
         "phasetree was built with their libraries. A file that requires another extension is rejected if the picture "
@@ -125,6 +126,7 @@ struct GltfParameters {
     float scale = 1.0f;
     float rotate_z_degrees = 0.0f;
     glm::vec3 translate{0.0f};
+    bool imported = false;
 
     template <class V>
     static void parameters(V&& v) {
@@ -136,6 +138,11 @@ struct GltfParameters {
               limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
+        v(&P::imported,
+          Parameter{"imported", "",
+                    "Whether this scene has the file's clear materials as phases and its lights in \"lights\", as "
+                    "`phasetree import` writes it; then no warning reports that they are missing here.",
+                    limits::any, true});
     }
     /// Checks the parameters without reading the file. Throws ParameterError.
     void check() const;

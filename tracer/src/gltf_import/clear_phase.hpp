@@ -1,0 +1,27 @@
+// glTF's clear materials as materials of phases.
+//
+// | glTF | "clear" | |
+// |---|---|---|
+// | ior | ior | exact |
+// | dispersion d | abbe_number 20/d, and "spectral" | exact; smooth materials without a film only |
+// | roughness r | roughness r² | exact: glTF's α |
+// | attenuation colour c after distance d | color c, color_distance d | exact: a = −ln(c)/d |
+// | iridescence | film_thickness, film_ior | exact for a factor of 1 |
+// | base colour t | absorption −2 ln(t)/l more | approximate: glTF tints light at each crossing of the surface; light
+// that
+//     crosses two surfaces and the mean chord l = 4 volume/area between them has the same colour here |
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gltf/clear_material.hpp"
+#include "gltf_import/json_layout.hpp"
+
+namespace phasetree::tracer::gltf_import {
+
+/// The material. `mean_chord` is that of all solids of the material, in metres. Sentences about what is lost or
+/// approximate are added to `losses`; each follows the material's name.
+SceneJson clear_phase(const gltf::ClearMaterial&, double mean_chord, std::vector<std::string>& losses);
+
+}  // namespace phasetree::tracer::gltf_import

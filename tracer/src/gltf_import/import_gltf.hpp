@@ -1,0 +1,27 @@
+// A glTF file as a scene: its clear objects as phases of a tree, and the rest as meshes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace phasetree::tracer::gltf_import {
+
+struct ImportedMesh {
+    std::string file;   ///< from the folder of the scene
+    std::string bytes;  ///< a PLY file
+};
+
+struct ImportedScene {
+    std::string text;                   ///< of the scene file
+    std::vector<ImportedMesh> meshes;   ///< files that the scene names
+    std::vector<std::string> warnings;  ///< sentences about what is lost
+    std::string report;                 ///< lines: the objects in their order, overlaps and gaps
+};
+
+/// Imports a .gltf or .glb file for a scene file of that name. With `panes_too`, closed objects of materials without
+/// volume become phases, too. Reads files, and writes none. Throws ParameterError for "file", whose message names the
+/// file.
+ImportedScene import_gltf(const std::filesystem::path& gltf, const std::filesystem::path& scene, bool panes_too);
+
+}  // namespace phasetree::tracer::gltf_import

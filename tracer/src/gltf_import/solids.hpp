@@ -1,0 +1,45 @@
+// The clear objects of a glTF file as solids: closed meshes in the space of the scene.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/read_gltf.hpp"
+#include "phasetree/math/bounds.hpp"
+#include "phasetree/nodes/fields/mesh.hpp"
+
+namespace phasetree::tracer::gltf_import {
+
+struct Solid {
+    std::string name{};        ///< of its node, unlike that of any other solid
+    std::size_t material = 0;  ///< in GltfFile::clear_materials
+    std::optional<float> priority{};
+    TriangleMesh mesh{};      ///< z is up
+    phasetree::Mesh field{};  ///< the solid within the mesh, repaired where needed
+    Bounds bounds{};
+    double volume = 0, area = 0;
+
+    /// The signed distance of a point.
+    float distance(const glm::vec3& p) const {
+        return phasetree::Mesh::distance<float>(field.data().data(), Vec3<float>{p.x, p.y, p.z});
+    }
+};
+
+struct Solids {
+    std::vector<Solid> solids;          ///< in the order of the file
+    std::vector<std::string> warnings;  ///< sentences
+};
+
+/// Makes the solids. Triangles of several clear materials on one surface become one solid. Left out, with a warning,
+/// are objects of materials without volume, unless `panes_too`, and objects that enclose nothing.
+Solids solids_of(const gltf::GltfFile& file, bool panes_too);
+
+/// A position or a direction of glTF, where y is up, in the space of the scene, where z is up.
+template <class T>
+glm::vec<3, T> z_up(const glm::vec<3, T>& p) {
+    return {p.x, -p.z, p.y};
+}
+
+}  // namespace phasetree::tracer::gltf_import
