@@ -349,6 +349,34 @@ TEST_CASE("a thin gap is reported with its width, unless something fills it") {
     CHECK(has(o.out, "\"Cup\" and \"Drink\" have a gap of 0.1 to 0.1 m along"));
     CHECK(has(o.out, "\"Cube\" wins (within the other)\n"));
     CHECK_FALSE(has(o.out, "\"Cup\" and \"Cube\""));
+    // The liquid flows to the glass.
+    CHECK(has(o.out, "gaps narrower than 0.2 m between the phases water, glass are closed; --keep-gaps keeps them\n"));
+    const std::vector<Vector> across_wall{{7.85f, 6, 3}, {7.95f, 6, 3}, {8.05f, 6, 3}, {7.95f, 15, 3}};
+    CHECK(shell.phases_at(across_wall) == "water water glass vacuum");
+    const Json closed = shell.scene()["tree"]["close_gaps"];
+    CHECK(closed["phases"] == Json::parse(R"(["water", "glass"])"));
+    CHECK(closed["gap"] == 0.2);
+    const Outcome kept = shell.import_well(g, {"--keep-gaps"});
+    CHECK(has(kept.out, "have a gap of 0.1 to 0.1 m along"));
+    CHECK_FALSE(has(kept.out, "closed"));
+    CHECK(shell.phases_at(across_wall) == "water vacuum glass vacuum");
+    CHECK(shell.scene()["tree"].contains("over"));
+}
+
+TEST_CASE("gaps are left alone where objects are near at a small part of their surfaces, or have one phase") {
+    const Import shell;
+    Gltf g;
+    // Two cubes side by side, shifted so that they face each other at a fiftieth of their surfaces.
+    g.node("a", g.mesh(box({0, 0, 0}, {1, 1, 1}), g.clear("glass", 1.5f)));
+    g.node("b", g.mesh(box({1.01f, 0.88f, 0}, {2.01f, 1.88f, 1}), g.clear("ice", 1.31f)));
+    CHECK_FALSE(has(shell.import_well(g).out, "closed"));
+    Gltf same;
+    const std::size_t glass = same.clear("glass", 1.5f);
+    same.node("a", same.mesh(box({0, 0, 0}, {1, 1, 1}), glass));
+    same.node("b", same.mesh(box({1.01f, 0, 0}, {2.01f, 1, 1}), glass));
+    const Outcome o = shell.import_well(same);
+    CHECK(has(o.out, "have a gap of 0.01 to 0.01 m"));
+    CHECK_FALSE(has(o.out, "closed"));
 }
 
 TEST_CASE("what is no solid is left out, by its name") {

@@ -27,7 +27,8 @@ using std::filesystem::path;
 
 struct ImportOptions {
     std::string input, output;
-    bool force = false, solid = false;
+    bool force = false;
+    gltf_import::ImportChoices choices{};
 };
 
 // Removes the files and the folder that it was given, unless they are kept.
@@ -99,7 +100,7 @@ bool write(const ImportOptions& options, const gltf_import::ImportedScene& scene
 
 gltf_import::ImportedScene imported(const ImportOptions& options) {
     try {
-        return gltf_import::import_gltf(options.input, options.output, options.solid);
+        return gltf_import::import_gltf(options.input, options.output, options.choices);
     } catch (const ParameterError& e) {
         throw UsageError(e.what());
     }
@@ -145,16 +146,20 @@ void add_import(CLI::App& app, Run& run) {
         "Where clear objects overlap, one of them keeps the space: the one with the higher number\n"
         "phasetree_priority in the extras of its node or material (default: 0); else the one within the\n"
         "other; else a solid rather than a gas, and a gas rather than a liquid; else the earlier in the\n"
-        "file. Names (\"ice\", \"Orange juice\") and indices say what is a liquid. The order, overlaps and\n"
-        "thin gaps are printed; warnings name materials and extensions of which something is lost.");
+        "file. Names (\"ice\", \"Orange juice\") and indices say what is a liquid. Thin gaps along surfaces\n"
+        "are closed. The order, overlaps and gaps are printed; warnings name materials and extensions of which "
+        "something is lost.");
     auto options = std::make_shared<ImportOptions>();
     command->add_option("file", options->input, "glTF file, .glb or .gltf")->required();
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
     command->add_flag(
-        "--solid", options->solid,
+        "--solid", options->choices.panes_too,
         "Make closed objects of clear materials without volume phases, too; otherwise they are thin panes "
         "and left out");
+    command->add_flag("!--keep-gaps", options->choices.closes_gaps,
+                      "Keep thin gaps between clear objects; otherwise the node close_gaps fills those that cover a "
+                      "tenth of an object's surface");
     command->callback([=, &run] { run = [=] { return import_file(*options); }; });
 }
 

@@ -1,6 +1,7 @@
 #include "gltf_import/import_gltf.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "gltf_import/clear_phase.hpp"
+#include "gltf_import/closed_gaps.hpp"
 #include "gltf_import/contacts.hpp"
 #include "gltf_import/json_layout.hpp"
 #include "gltf_import/precedence.hpp"
@@ -30,10 +32,13 @@ constexpr std::size_t most_phases = Phase::capacity - 1;
 
 class Importer {
   public:
-    Importer(const path& gltf, const path& scene, bool panes_too)
-        : gltf_(gltf), scene_(scene), file_(read_gltf_file(gltf, {.clear = gltf::ReadClear::as_solids})) {
+    Importer(const path& gltf, const path& scene, const ImportChoices& choices)
+        : gltf_(gltf),
+          scene_(scene),
+          choices_(choices),
+          file_(read_gltf_file(gltf, {.clear = gltf::ReadClear::as_solids})) {
         for (const std::string& sentence : file_.not_shown) warn(sentence);
-        Solids made = solids_of(file_, panes_too);
+        Solids made = solids_of(file_, choices.panes_too);
         for (std::string& warning : made.warnings) warn(std::move(warning));
         solids_ = std::move(made.solids);
         if (solids_.empty() && file_.parts.empty())
@@ -52,11 +57,12 @@ class Importer {
         contacts_ = contacts_of(solids_);
         precedence_ = precedence_of(solids_, matter_, contacts_);
         for (const std::string& warning : precedence_.warnings) warn(warning);
+        if (choices_.closes_gaps) closed_gaps_ = closed_gaps(solids_, contacts_, precedence_.order);
         write_meshes();
         SceneJson scene{{"version", 1}};
         if (!solids_.empty()) {
             scene["phases"] = phases();
-            scene["tree"] = tree();
+            scene["tree"] = with_closed_gaps(tree());
         }
         if (!file_.parts.empty()) scene["meshes"] = SceneJson::array({mesh()});
         const Bounds subject = subject_of();
@@ -146,6 +152,20 @@ class Importer {
         return objects.size() == 1 ? objects[0] : SceneJson{{"over", objects}};
     }
 
+    SceneJson with_closed_gaps(SceneJson tree) const {
+        if (!closed_gaps_) return tree;
+        return {{"close_gaps",
+                 {{"phases", names_of(closed_gaps_->materials)},
+                  {"gap", short_number(closed_gaps_->gap)},
+                  {"of", std::move(tree)}}}};
+    }
+
+    std::vector<std::string> names_of(const std::vector<std::size_t>& materials) const {
+        std::vector<std::string> names;
+        for (const std::size_t material : materials) names.push_back(phase_names_[material]);
+        return names;
+    }
+
     // The path of the glTF file from the folder of the scene.
     std::string named_from_scene() const {
         std::error_code problem;
@@ -199,16 +219,22 @@ class Importer {
                 text += fmt::format("{} have a gap of {:.2g} to {:.2g} m along {:.0f} % of \"{}\"\n", both,
                                     c.gap->least, c.gap->greatest, 100 * c.gap->share, solids_[c.gap->of].name);
         }
+        if (closed_gaps_)
+            text +=
+                fmt::format("gaps narrower than {:.2g} m between the phases {} are closed; --keep-gaps keeps them\n",
+                            closed_gaps_->gap, fmt::join(names_of(closed_gaps_->materials), ", "));
         return text;
     }
 
     path gltf_, scene_;
+    ImportChoices choices_;
     gltf::GltfFile file_;
     ImportedScene made_;
     std::vector<Solid> solids_;
     std::vector<Matter> matter_;
     std::vector<Contact> contacts_;
     Precedence precedence_;
+    std::optional<ClosedGaps> closed_gaps_;
     std::vector<std::string> phase_names_;     // by material; empty for those that no solid has
     std::vector<std::size_t> used_materials_;  // in the order of the file
     bool is_dispersive_ = false;
@@ -216,8 +242,8 @@ class Importer {
 
 }  // namespace
 
-ImportedScene import_gltf(const path& gltf, const path& scene, bool panes_too) {
-    return Importer(gltf, scene, panes_too).make();
+ImportedScene import_gltf(const path& gltf, const path& scene, const ImportChoices& choices) {
+    return Importer(gltf, scene, choices).make();
 }
 
 }  // namespace phasetree::tracer::gltf_import

@@ -19,9 +19,13 @@ struct ImportedScene {
     std::string report;                 ///< lines: the objects in their order, overlaps and gaps
 };
 
-/// Imports a .gltf or .glb file for a scene file of that name. With `panes_too`, closed objects of materials without
-/// volume become phases, too. Reads files, and writes none. Throws ParameterError for "file", whose message names the
-/// file.
-ImportedScene import_gltf(const std::filesystem::path& gltf, const std::filesystem::path& scene, bool panes_too);
+struct ImportChoices {
+    bool panes_too = false;   ///< whether closed objects of materials without volume become phases, too
+    bool closes_gaps = true;  ///< whether thin gaps between clear objects are closed (closed_gaps.hpp)
+};
+
+/// Imports a .gltf or .glb file for a scene file of that name. Reads files, and writes none. Throws ParameterError for
+/// "file", whose message names the file.
+ImportedScene import_gltf(const std::filesystem::path& gltf, const std::filesystem::path& scene, const ImportChoices&);
 
 }  // namespace phasetree::tracer::gltf_import

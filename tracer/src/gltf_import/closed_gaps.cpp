@@ -1,0 +1,39 @@
+#include "gltf_import/closed_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+#include <set>
+
+namespace phasetree::tracer::gltf_import {
+
+namespace {
+
+constexpr double least_share = 0.1;  // of a solid's surface
+
+// Two significant digits, as a person would write it; not less than x.
+float rounded_up(double x) {
+    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+    return static_cast<float>(std::ceil(x / unit * (1 - 1e-6)) * unit);
+}
+
+}  // namespace
+
+std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, const std::vector<Contact>& contacts,
+                                      std::span<const std::size_t> order) {
+    float widest = 0;
+    std::set<std::size_t> materials;
+    for (const Contact& c : contacts) {
+        const std::size_t first = solids[c.first].material, second = solids[c.second].material;
+        if (!c.gap || c.gap->share < least_share || first == second) continue;
+        widest = std::max(widest, c.gap->greatest);
+        materials.insert({first, second});
+    }
+    if (materials.empty()) return std::nullopt;
+    ClosedGaps closed{.materials = {}, .gap = rounded_up(2 * static_cast<double>(widest))};
+    for (const std::size_t solid : order | std::views::reverse)
+        if (materials.erase(solids[solid].material) > 0) closed.materials.push_back(solids[solid].material);
+    return closed;
+}
+
+}  // namespace phasetree::tracer::gltf_import

@@ -1,0 +1,27 @@
+// Which thin gaps between solids were meant to be contacts, and are closed by the node `close_gaps`.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gltf_import/contacts.hpp"
+#include "gltf_import/solids.hpp"
+
+namespace phasetree::tracer::gltf_import {
+
+/// The parameters of `close_gaps`.
+struct ClosedGaps {
+    std::vector<std::size_t> materials;  ///< those whose gaps are closed; an earlier one fills the gap to a later one
+    float gap = 0;                       ///< in metres: gaps narrower than this are closed
+};
+
+/// Gaps are closed if they cover a tenth or more of a solid's surface, such as those along the wall of a glass, and lie
+/// between different materials. `order` has the numbers of all solids, those that win first. What loses fills the gap,
+/// so a liquid flows to the glass. All gaps are closed up to twice the width of the widest one, because gaps are wider
+/// in corners. nullopt if there are none.
+std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, const std::vector<Contact>& contacts,
+                                      std::span<const std::size_t> order);
+
+}  // namespace phasetree::tracer::gltf_import
