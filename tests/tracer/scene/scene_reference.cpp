@@ -260,6 +260,7 @@ TEST_CASE("every key changes what is read") {
         {"view", "\"Raw\""},
         {"sun", "false"},
         {"y_up", "true"},
+        {"imported", "true"},
         {"smooth", "false"},
         {"visible_to_camera", "false"},
         {"group", "\"key\""},
