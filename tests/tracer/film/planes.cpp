@@ -39,7 +39,8 @@ Scene ball(const std::string& camera = R"({"position": [0, -5, 0], "look_at": [0
     return scene;
 }
 
-const std::vector<float>& channel(const Image& image, const std::string& name) {
+// Not a std::string, because GCC 13 and later would take the result for a reference into a temporary.
+const std::vector<float>& channel(const Image& image, const char* name) {
     for (const Channel& c : image.further)
         if (c.name == name) return c.values;
     FAIL("there is no channel " << name);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double least_share = 0.1;  // of a solid's surface
 
-// Two significant digits, as a person would write it; not less than x.
+// Two significant digits, as a person would write it: the next number above x, or x itself up to rounding.
 float rounded_up(double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
-    return static_cast<float>(std::ceil(x / unit * (1 - 1e-6)) * unit);
+    return static_cast<float>(std::ceil(x / unit * (1 - 1e-3)) * unit);
 }
 
 }  // namespace
