@@ -80,6 +80,7 @@ TEST_CASE("no point of any phase of any tree lies outside, however little work t
         const Phased object = random_object(rng, 4);
         const Bounds b = bounds(object);
         if (!b.finite() || b.empty() || b.diagonal() < 0.1f) continue;
+        if (phases(object).bits == 1) continue;  // only the vacuum is left, which cannot be carved
         ++objects;
         std::vector<PhaseSet> sets{{}};
         for_each_phase(phases(object).bits & ~std::uint64_t{1},
