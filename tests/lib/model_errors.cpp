@@ -224,6 +224,7 @@ auto chain(std::size_t depth) {
             node.phase_a = Phase{1};
             node.phase_b = Phase{2};
         }
+        if constexpr (std::is_same_v<Node, CloseGaps>) node.of_phases = {Phase{1}, Phase{2}};
         // A blob looks at its skeletons from thousands of places while it is made.
         if constexpr (std::is_same_v<Node, Blob>) {
             if (current.node()->depth == 20) break;

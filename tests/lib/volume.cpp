@@ -136,9 +136,10 @@ TEST_CASE("what is no grid is rejected") {
         "volume: the spacing of voxels must be from 1e-9 to 1e6 m, and their distance from the origin at most 1e9 m");
     CHECK_THROWS_WITH(made({{1, 1, 1}, {}, glm::dvec3(1)}, std::numeric_limits<double>::quiet_NaN()),
                       "volume: the value at the voxel (0, 0, 0) is too large, or not a number");
-    CHECK_THROWS_WITH(made({{8192, 8192, 8192}, {}, glm::dvec3(1)}, 0),
-                      "volume: the grid spans 8192 × 8192 × 8192 voxels, or 1073741824 blocks of 8 × 8 × 8, and at "
-                      "most 15000000 can be, empty ones included; crop it, split it, or resample it to larger voxels");
+    CHECK_THROWS_WITH(
+        made({{8192, 8192, 8192}, {}, glm::dvec3(1)}, 0),
+        "volume: the grid spans 8192 × 8192 × 8192 voxels, or 1073741824 blocks of 8 × 8 × 8 "
+        "including empty ones, but the limit is 15000000 blocks; crop it, split it, or resample it to larger voxels");
 }
 
 }  // namespace test_volume

@@ -13,7 +13,8 @@ constexpr double least_share = 0.1;  // of a solid's surface
 
 // Two significant digits, as a person would write it: the next number above x, or x itself up to rounding.
 float rounded_up(double x) {
-    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+    double unit = 1e-30;
+    while (100 * unit < x) unit *= 10;
     return static_cast<float>(std::ceil(x / unit * (1 - 1e-3)) * unit);
 }
 

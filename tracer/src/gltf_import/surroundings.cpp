@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "gltf_import/solids.hpp"
 
@@ -131,7 +132,7 @@ SceneJson render_settings_of(const gltf::GltfFile& file, const Bounds& subject, 
     if (file.lights.empty()) return render;
     // White paper that faces the lights has a luminance of 1.2, to the nearest half stop.
     const double radiance = 1.5 * irradiance_at(file, subject) / pi_number;
-    const double stops = std::clamp(std::round(2 * std::log2(1.2 / radiance)) / 2, -50.0, 50.0);
+    const double stops = std::clamp(std::round(2 * std::log(1.2 / radiance) / std::numbers::ln2) / 2, -50.0, 50.0);
     if (stops != 0) render["exposure"] = stops;
     if (has_phases) render["caustics"] = true;
     return render;
