@@ -21,7 +21,7 @@ endforeach()
 file(WRITE "${prefix}/include/draco/core/varint_decoding.h" "")
 file(WRITE "${prefix}/include/meshoptimizer.h" "void meshopt_decodeFilterOct(void*, unsigned, unsigned);\n")
 foreach(module harfbuzz cpp-httplib draco)
-    set(folders "-I${prefix}/include")
+    string(REPLACE " " "\\ " folders "-I${prefix}/include")
     if(module STREQUAL draco)
         set(folders "-Iinclude ${folders}")  # like draco.pc in Debian 13: CMake rejects relative and missing folders
     endif()
@@ -44,7 +44,7 @@ foreach(package "OpenImageDenoise;OpenImageDenoise;${prefix}/lib/libnowhere.so" 
     file(WRITE "${prefix}/lib/cmake/${name}/${name}Config.cmake" "
         add_library(${target} INTERFACE IMPORTED)
         target_include_directories(${target} INTERFACE \"${prefix}/include\" \"${prefix}/missing\")
-        target_link_libraries(${target} INTERFACE ${library})")
+        target_link_libraries(${target} INTERFACE \"${library}\")")
     set(compatible TRUE)
     if(name STREQUAL meshoptimizer)
         set(compatible FALSE)  # like the package itself, which is compatible with no other version

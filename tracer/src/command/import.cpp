@@ -157,9 +157,10 @@ void add_import(CLI::App& app, Run& run) {
         "--solid", options->choices.panes_too,
         "Make closed objects of clear materials without volume phases, too; otherwise they are thin panes "
         "and left out");
-    command->add_flag("!--keep-gaps", options->choices.closes_gaps,
-                      "Keep thin gaps between clear objects; otherwise the node close_gaps fills those that cover a "
-                      "tenth of an object's surface");
+    command->add_flag(
+        "!--keep-gaps", options->choices.closes_gaps,
+        "Keep thin gaps beside liquids; otherwise the node close_gaps fills those that cover a tenth of a "
+        "surface");
     command->callback([=, &run] { run = [=] { return import_file(*options); }; });
 }
 

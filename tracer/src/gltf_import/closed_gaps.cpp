@@ -20,13 +20,14 @@ float rounded_up(double x) {
 
 }  // namespace
 
-std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, const std::vector<Contact>& contacts,
-                                      std::span<const std::size_t> order) {
+std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, std::span<const Matter> matter,
+                                      const std::vector<Contact>& contacts, std::span<const std::size_t> order) {
     float widest = 0;
     std::set<std::size_t> materials;
     for (const Contact& c : contacts) {
         const std::size_t first = solids[c.first].material, second = solids[c.second].material;
         if (!c.gap || c.gap->share < least_share || first == second) continue;
+        if ((matter[c.first] == Matter::liquid) == (matter[c.second] == Matter::liquid)) continue;
         widest = std::max(widest, c.gap->greatest);
         materials.insert({first, second});
     }

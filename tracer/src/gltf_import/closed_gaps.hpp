@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gltf_import/contacts.hpp"
+#include "gltf_import/precedence.hpp"
 #include "gltf_import/solids.hpp"
 
 namespace phasetree::tracer::gltf_import {
@@ -17,11 +18,12 @@ struct ClosedGaps {
     float gap = 0;                       ///< in metres: gaps narrower than this are closed
 };
 
-/// Gaps are closed if they cover a tenth or more of a solid's surface, such as those along the wall of a glass, and lie
-/// between different materials. `order` has the numbers of all solids, those that win first. What loses fills the gap,
-/// so a liquid flows to the glass. All gaps are closed up to twice the width of the widest one, because gaps are wider
-/// in corners. nullopt if there are none.
-std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, const std::vector<Contact>& contacts,
-                                      std::span<const std::size_t> order);
+/// Gaps are closed if they lie between a liquid and something else and cover a tenth or more of a surface, such as
+/// those along the wall of a glass. `matter` has an entry per solid. `order` has the numbers of all solids, those that
+/// win first; the liquid comes after what it touches and fills the gap. Air between solids, as in double glazing,
+/// stays. All gaps are closed up to twice the width of the widest one, because gaps are wider in corners. nullopt if
+/// there are none.
+std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, std::span<const Matter> matter,
+                                      const std::vector<Contact>& contacts, std::span<const std::size_t> order);
 
 }  // namespace phasetree::tracer::gltf_import

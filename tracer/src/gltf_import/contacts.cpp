@@ -1,6 +1,7 @@
 #include "gltf_import/contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -117,9 +118,16 @@ class Finder {
     static bool faces(const Solid& own, const Solid& other, const SurfacePoint& p, float d) {
         for (const float sign : {1.0f, -1.0f}) {  // triangles may be inside out
             const glm::vec3 n = sign * p.normal;
-            if (std::abs(other.distance(p.at + d * n)) < 0.1f * d && own.distance(p.at + 0.5f * d * n) > 0) return true;
+            if (std::abs(other.distance(p.at + d * n)) < 0.1f * d && is_outside(own, p.at, d * n)) return true;
         }
         return false;
+    }
+
+    // Whether the way from a point on the surface lies outside the solid, also where it begins: from the outside of a
+    // thin wall, the way inwards to a liquid begins within the wall.
+    static bool is_outside(const Solid& own, const glm::vec3& at, const glm::vec3& way) {
+        return std::ranges::all_of(std::array{0.05f, 0.25f, 0.5f, 0.75f, 0.95f},
+                                   [&](float t) { return own.distance(at + t * way) > 0; });
     }
 
     // Whether a third solid is where the gap would be.

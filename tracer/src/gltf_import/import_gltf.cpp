@@ -57,7 +57,7 @@ class Importer {
         contacts_ = contacts_of(solids_);
         precedence_ = precedence_of(solids_, matter_, contacts_);
         for (const std::string& warning : precedence_.warnings) warn(warning);
-        if (choices_.closes_gaps) closed_gaps_ = closed_gaps(solids_, contacts_, precedence_.order);
+        if (choices_.closes_gaps) closed_gaps_ = closed_gaps(solids_, matter_, contacts_, precedence_.order);
         write_meshes();
         SceneJson scene{{"version", 1}};
         if (!solids_.empty()) {
