@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 
 #include "phasetree/model/handle.hpp"
@@ -93,6 +94,30 @@ TriangleMesh cube(const glm::vec3& low, const glm::vec3& high) {
         mesh.vertices.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
     mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+/// A sphere of radius 1 in n bands of latitude with 2n faces each.
+TriangleMesh latitudes_and_longitudes(int n) {
+    TriangleMesh mesh;
+    const int around = 2 * n;
+    const auto vertex = [&](int band, int k) { return static_cast<unsigned>((band - 1) * around + k % around); };
+    for (int band = 1; band < n; ++band)
+        for (int k = 0; k < around; ++k) {
+            const double polar = std::numbers::pi * band / n, azimuth = 2 * std::numbers::pi * k / around;
+            mesh.vertices.push_back(
+                glm::dvec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+        }
+    const auto north = static_cast<unsigned>(mesh.vertices.size()), south = north + 1;
+    mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 1}, {0, 0, -1}});
+    for (int k = 0; k < around; ++k) {
+        mesh.triangles.push_back({north, vertex(1, k), vertex(1, k + 1)});
+        mesh.triangles.push_back({south, vertex(n - 1, k + 1), vertex(n - 1, k)});
+        for (int band = 1; band + 1 < n; ++band) {
+            mesh.triangles.push_back({vertex(band, k), vertex(band + 1, k), vertex(band + 1, k + 1)});
+            mesh.triangles.push_back({vertex(band, k), vertex(band + 1, k + 1), vertex(band, k + 1)});
+        }
+    }
     return mesh;
 }
 
@@ -202,6 +227,22 @@ TEST_CASE("nearly equal parts become one, without walls of rounding that reach f
         compare(rng, Prepared(mesh), shape, 200);
     }
     compare.check();
+}
+
+TEST_CASE("parts that cannot be separated are rejected soon") {
+    Random rng(1);
+    for (const int n : {6, 8, 10}) {  // the last has triangles that meet in two sides while they are divided
+        const TriangleMesh sphere = latitudes_and_longitudes(n);
+        TriangleMesh mesh;
+        for (int copy = 0; copy < 3; ++copy) {
+            add(mesh, sphere, glm::vec3(0));
+            for (std::size_t v = mesh.vertices.size() - sphere.vertices.size(); v < mesh.vertices.size(); ++v)
+                mesh.vertices[v] += 1e-6f * glm::vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+        }
+        CAPTURE(n);
+        CHECK(said_of(mesh).starts_with(
+            "mesh: it has parts that lie on each other within rounding and cannot be separated"));
+    }
 }
 
 TEST_CASE("holes are closed, flat ones by a plane") {

@@ -43,7 +43,7 @@ class Importer {
         solids_ = std::move(made.solids);
         if (solids_.empty() && file_.parts.empty())
             throw ParameterError("file", fmt::format("{}: nothing can be imported: its objects are clear, and none of "
-                                                     "them is closed and has a volume",
+                                                     "them is a solid that a phase can have",
                                                      gltf.string()) +
                                              reasons());
     }

@@ -14,8 +14,6 @@ namespace {
 
 using gltf::PunctualLight;
 
-constexpr double pi_number = 3.14159265358979;
-
 double radius_of(const Bounds& subject) {
     const auto radius = 0.5 * static_cast<double>(subject.diagonal());
     return radius > 0 ? radius : 1;
@@ -71,7 +69,7 @@ SceneJson light_of(const PunctualLight& light, const Bounds& subject) {
              {{"centre", rounded(position)},
               {"radius", rounded(radius)},
               {"radiance", short_numbers(light.color)},
-              {"intensity", rounded(intensity / (pi_number * radius * radius))},
+              {"intensity", rounded(intensity / (std::numbers::pi * radius * radius))},
               {"visible_to_camera", false}}}};
 }
 
@@ -131,7 +129,7 @@ SceneJson render_settings_of(const gltf::GltfFile& file, const Bounds& subject, 
     if (is_dispersive) render["spectral"] = true;
     if (file.lights.empty()) return render;
     // White paper that faces the lights has a luminance of 1.2, to the nearest half stop.
-    const double radiance = 1.5 * irradiance_at(file, subject) / pi_number;
+    const double radiance = 1.5 * irradiance_at(file, subject) / std::numbers::pi;
     const double stops = std::clamp(std::round(2 * std::log(1.2 / radiance) / std::numbers::ln2) / 2, -50.0, 50.0);
     if (stops != 0) render["exposure"] = stops;
     if (has_phases) render["caustics"] = true;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "model/preparation.hpp"
@@ -91,14 +92,22 @@ class Arrangement {
         merge_equal(chain_.triangles);
         is_new_.assign(chain_.triangles.size(), 1);
         constexpr int most_rounds = 24, least_rounds = 6;
+        constexpr std::size_t few = 10'000;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         for (int round = 0; round < most_rounds; ++round) {
-            const Contacts contacts = find();
+            const std::optional<Contacts> found = find();
+            if (!found) break;
+            const Contacts& contacts = *found;
             const std::size_t count = contacts.edges.size() + contacts.faces.size();
             if (count == 0) return {};
             if (round >= least_rounds && count > 2 * fewest) break;
+            if (count > few && count > 16 * fewest) break;
             fewest = std::min(fewest, count);
-            if (!divide(contacts)) break;
+            try {
+                if (!divide(contacts)) break;
+            } catch (const Subdivision::Tangled&) {
+                break;  // before triangles were changed
+            }
         }
         std::vector<std::uint32_t> touching_others;
         for (std::uint32_t t = 0; t < is_new_.size(); ++t)
@@ -107,8 +116,9 @@ class Arrangement {
     }
 
   private:
-    // All contacts of new triangles.
-    Contacts find() {
+    // All contacts of new triangles; nullopt if there are too many. Where surfaces lie on each other within rounding,
+    // their parts get thinner from round to round, and each meets more of the others.
+    std::optional<Contacts> find() {
         const std::size_t n = chain_.triangles.size();
         std::vector<std::uint32_t> fresh;
         Bounds all;
@@ -116,7 +126,7 @@ class Arrangement {
             all = unite(all, chain_.box(t));
             if (is_new_[t]) fresh.push_back(t);
         }
-        if (fresh.empty()) return {};
+        if (fresh.empty()) return Contacts();
         std::vector<std::uint32_t> near = fresh;
         if (fresh.size() < n) {
             MarkedBoxes marked(all);
@@ -129,14 +139,18 @@ class Arrangement {
         const BoxTree tree(boxes, 4);
         constexpr std::size_t in_chunk = 1024;
         std::vector<Contacts> found((fresh.size() + in_chunk - 1) / in_chunk);
-        std::atomic<std::uint64_t> steps = 0;
-        const std::uint64_t most_steps = work_.left();
+        std::atomic<std::uint64_t> steps = 0, contacts = 0;
+        const std::uint64_t most_steps = work_.left(), most_contacts = 16 * std::uint64_t{n} + 1'000'000;
         tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
             const std::size_t end = std::min((chunk + 1) * in_chunk, fresh.size());
-            for (std::size_t i = chunk * in_chunk; i < end && steps <= most_steps; ++i)
+            for (std::size_t i = chunk * in_chunk; i < end && steps <= most_steps && contacts <= most_contacts; ++i) {
+                const std::size_t before = found[chunk].size();
                 steps += contacts_of(i, near, boxes, tree, found[chunk]);
+                contacts += found[chunk].size() - before;
+            }
         });
         work_.pay(steps);
+        if (contacts > most_contacts) return std::nullopt;
         Contacts result;
         for (Contacts& c : found) {
             result.edges.insert(result.edges.end(), c.edges.begin(), c.edges.end());

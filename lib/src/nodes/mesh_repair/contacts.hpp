@@ -23,6 +23,8 @@ struct Contacts {
     std::vector<EdgeContact> edges;
     std::vector<FaceContact> faces;
     std::vector<SegmentContact> segments;
+
+    std::size_t size() const { return edges.size() + faces.size() + segments.size(); }
 };
 
 /// Find where two triangles cross or touch, other than in vertices and edges that they share: vertices of one close to

@@ -87,14 +87,16 @@ bool Subdivision::should_flip(int a, int b, int c, int d) const {
     return std::min(number(c), number(d)) < std::min(number(a), number(b));
 }
 
-std::size_t Subdivision::side_to(int triangle, int neighbour) const {
-    std::size_t i = 0;
-    while (i < 2 && at(triangle).neighbours[i] != neighbour) ++i;
-    return i;
+// The side of a triangle from a to b. Two triangles may share two sides, so a neighbour does not determine its side.
+std::size_t Subdivision::side_from(int triangle, int a, int b) const {
+    const auto& c = at(triangle).corners;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (c[i] == a && c[(i + 1) % 3] == b) return i;
+    throw Tangled();
 }
 
-void Subdivision::replace_neighbour(int triangle, int old, int by) {
-    if (triangle != none) at(triangle).neighbours[side_to(triangle, old)] = by;
+void Subdivision::set_neighbour(int triangle, int a, int b, int neighbour) {
+    if (triangle != none) at(triangle).neighbours[side_from(triangle, a, b)] = neighbour;
 }
 
 // The triangle that contains a vertex, or one close to it.
@@ -117,8 +119,8 @@ void Subdivision::split_face(int triangle, int vertex) {
     write(triangle, {{a, b, vertex}, {ab, second, third}});
     write(second, {{b, c, vertex}, {bc, third, triangle}});
     write(third, {{c, a, vertex}, {ca, triangle, second}});
-    replace_neighbour(bc, triangle, second);
-    replace_neighbour(ca, triangle, third);
+    set_neighbour(bc, c, b, second);
+    set_neighbour(ca, a, c, third);
     for (const int t : {triangle, second, third}) doubtful_.push_back({t, 0});
     last_ = triangle;
 }
@@ -131,13 +133,14 @@ void Subdivision::split_side(int triangle, std::size_t side, int vertex) {
         const int bc = old.neighbours[(i + 1) % 3], ca = old.neighbours[(i + 2) % 3];
         write(t, {{a, vertex, c}, {none, second, ca}});
         write(second, {{vertex, b, c}, {none, bc, t}});
-        replace_neighbour(bc, t, second);
+        set_neighbour(bc, c, b, second);
         for (const auto& [half, j] :
              {std::pair(t, 0), std::pair(t, 1), std::pair(t, 2), std::pair(second, 0), std::pair(second, 1)})
             doubtful_.push_back({half, j});
     };
     const int other = at(triangle).neighbours[side], second = static_cast<int>(small_.size());
-    const std::size_t back = other == none ? 0 : side_to(other, triangle);
+    const auto& corners = at(triangle).corners;
+    const std::size_t back = other == none ? 0 : side_from(other, corners[(side + 1) % 3], corners[side]);
     halve(triangle, side, second);
     last_ = triangle;
     if (other == none) return;
@@ -159,15 +162,15 @@ void Subdivision::write(int triangle, const Small& small) {
 // Replaces the side from a to b, of triangles (a, b, c) and (b, a, d), by one from c to d.
 void Subdivision::flip(int t, std::size_t i) {
     const int u = at(t).neighbours[i];
-    const std::size_t j = side_to(u, t);
     const int a = at(t).corners[i], b = at(t).corners[(i + 1) % 3], c = at(t).corners[(i + 2) % 3];
+    const std::size_t j = side_from(u, b, a);
     const int d = at(u).corners[(j + 2) % 3];
     const int bc = at(t).neighbours[(i + 1) % 3], ca = at(t).neighbours[(i + 2) % 3];
     const int ad = at(u).neighbours[(j + 1) % 3], db = at(u).neighbours[(j + 2) % 3];
     write(t, {{a, d, c}, {ad, u, ca}});
     write(u, {{d, b, c}, {db, bc, t}});
-    replace_neighbour(ad, u, t);
-    replace_neighbour(bc, t, u);
+    set_neighbour(ad, d, a, t);
+    set_neighbour(bc, c, b, u);
     for (const auto& [of, k] : {std::pair(t, 0), std::pair(t, 2), std::pair(u, 0), std::pair(u, 1)})
         doubtful_.push_back({of, k});
 }
@@ -181,7 +184,7 @@ void Subdivision::flip_while_needed() {
         const int u = at(t).neighbours[i];
         if (u == none) continue;
         const int a = at(t).corners[i], b = at(t).corners[(i + 1) % 3], c = at(t).corners[(i + 2) % 3];
-        const int d = at(u).corners[(side_to(u, t) + 2) % 3];
+        const int d = at(u).corners[(side_from(u, b, a) + 2) % 3];
         if (is_fixed(a, b) || !(turn(a, d, c) > 0 && turn(d, b, c) > 0)) continue;
         const bool is_turned_over = !(turn(a, b, c) > 0 && turn(b, a, d) > 0);
         if (is_turned_over || should_flip(a, b, c, d)) flip(t, i);
@@ -201,9 +204,11 @@ void Subdivision::add_segment(std::uint32_t from, std::uint32_t to) {
     flip_while_needed();
 }
 
-// Calls f(triangle, i) for the triangles around a vertex, which is their corner i, until it returns true.
+// Calls f(triangle, i) for the triangles around a vertex, which is their corner i, until it returns true. Throws
+// Tangled if they do not close a circle.
 template <class F>
 void Subdivision::for_each_around(int vertex, const F& f) const {
+    std::size_t left = small_.size();
     const auto corner = [&](int t) {
         std::size_t i = 0;
         while (i < 2 && at(t).corners[i] != vertex) ++i;
@@ -214,10 +219,13 @@ void Subdivision::for_each_around(int vertex, const F& f) const {
     do {
         if (f(t, corner(t))) return;
         t = at(t).neighbours[(corner(t) + 2) % 3];
+        if (left-- == 0) throw Tangled();
     } while (t != none && t != start);
     if (t == start) return;
-    for (t = at(start).neighbours[corner(start)]; t != none; t = at(t).neighbours[corner(t)])
+    for (t = at(start).neighbours[corner(start)]; t != none; t = at(t).neighbours[corner(t)]) {
         if (f(t, corner(t))) return;
+        if (left-- == 0) throw Tangled();
+    }
 }
 
 std::optional<Subdivision::Side> Subdivision::find_side(int a, int b) const {
@@ -258,7 +266,7 @@ Subdivision::Way Subdivision::way_between(int from, int to) const {
         way.is_free = u != none && !is_fixed(left, right) && steps < small_.size();
         if (!way.is_free) return way;
         way.crossed.emplace_back(left, right);
-        const std::size_t j = side_to(u, crossed->triangle);  // from left to right
+        const std::size_t j = side_from(u, left, right);
         const int apex = at(u).corners[(j + 2) % 3];
         if (apex == to) return way;
         if (is_passed(from, to, apex)) {
@@ -280,7 +288,7 @@ void Subdivision::flip_crossed(int from, int to, std::vector<std::pair<int, int>
         const int t = side->triangle, u = at(t).neighbours[side->side];
         if (u == none) return;
         const int a = at(t).corners[side->side], b = at(t).corners[(side->side + 1) % 3],
-                  c = at(t).corners[(side->side + 2) % 3], d = at(u).corners[(side_to(u, t) + 2) % 3];
+                  c = at(t).corners[(side->side + 2) % 3], d = at(u).corners[(side_from(u, b, a) + 2) % 3];
         if (!(turn(a, d, c) > 0 && turn(d, b, c) > 0)) {
             crossed.emplace_back(p, q);
             continue;

@@ -22,6 +22,8 @@ namespace phasetree::mesh {
 class Subdivision {
   public:
     using Corners = std::array<std::uint32_t, 3>;
+    /// Thrown where rounding has made the triangles inconsistent: the triangle cannot be divided.
+    struct Tangled {};
 
     Subdivision(std::span<const glm::dvec3> points, const Corners&);
 
@@ -43,10 +45,10 @@ class Subdivision {
     int add(std::uint32_t vertex);
     double turn(int a, int b, int c) const;
     bool should_flip(int a, int b, int c, int d) const;
-    std::size_t side_to(int triangle, int neighbour) const;
+    std::size_t side_from(int triangle, int a, int b) const;
     Small& at(int triangle) { return small_[static_cast<std::size_t>(triangle)]; }
     const Small& at(int triangle) const { return small_[static_cast<std::size_t>(triangle)]; }
-    void replace_neighbour(int triangle, int old, int by);
+    void set_neighbour(int triangle, int a, int b, int neighbour);
     int containing(int vertex) const;
     void split_face(int triangle, int vertex);
     void split_side(int triangle, std::size_t side, int vertex);
