@@ -28,7 +28,7 @@ TEST_CASE("kill -9 at any time, again and again: nothing is lost, the bytes are 
     REQUIRE(shell.run(joined(render, {"-o", "whole.exr"})).code == 0);
     const std::string whole = bytes_of(shell.directory / "whole.exr");
     Uniform random(9);
-    const int wanted = is_long() ? 200 : 8;
+    const int wanted = long_tests() ? 200 : 8;
     int kills = 0, renders = 0, with_more = 0;
     while (kills < wanted) {
         std::filesystem::remove(shell.directory / "a.part");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command.hpp"
+#include "support/long_tests.hpp"
 #include "support/uniform.hpp"
 
 namespace phasetree::tests {
@@ -23,10 +24,6 @@ inline std::string cut_scene(int samples) {
 inline std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
-}
-
-inline bool is_long() {
-    return std::getenv("PHASETREE_LONG_TESTS") != nullptr;
 }
 
 // A whole number from 0 on, below n.

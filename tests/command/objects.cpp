@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "support/long_tests.hpp"
 
 namespace test_objects {
 
@@ -135,7 +136,7 @@ TEST_CASE("what is for one tree says so, and the picture is the same for any num
 }
 
 TEST_CASE("a million copies take less than 1 GB and are ready in seconds") {
-    const int side = std::getenv("PHASETREE_LONG_TESTS") ? 100 : 20;
+    const int side = phasetree::tests::long_tests() ? 100 : 20;
     Shell shell;
     shell.executes_program = true;
     std::string places = "PTPLACES";

@@ -36,7 +36,7 @@ TEST_CASE("any partition of the samples, rendered with any threads and merged in
     const std::string whole = bytes_of(shell.directory / "whole.exr");
     REQUIRE(whole.size() > 10'000);
     Uniform random(37);
-    for (int partitions = is_long() ? 30 : 3; partitions > 0; --partitions) {
+    for (int partitions = long_tests() ? 30 : 3; partitions > 0; --partitions) {
         const std::vector<int> cuts = random_cuts(random, samples);
         std::vector<std::string> parts;
         for (std::size_t i = 1; i < cuts.size(); ++i) {

@@ -38,7 +38,7 @@ void wait(double milliseconds) {
 TEST_CASE("whole files or none") {
     Uniform random(5);
     const std::string scene = scene_with(20'000);  // a second or so, if nobody stops it
-    const int times = is_long() ? 300 : 25;
+    const int times = long_tests() ? 300 : 25;
     int with_files = 0, without = 0;
     for (const int signal : {SIGINT, SIGTERM, SIGKILL})
         for (int i = 0; i < times; ++i) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -19,6 +18,7 @@
 
 #include "fuzz/mutate.hpp"
 #include "fuzz/words.hpp"
+#include "support/long_tests.hpp"
 
 using namespace phasetree::fuzz;
 
@@ -100,7 +100,7 @@ int main(int count, char** arguments) {
     if (!is_corpus) return 0;
 
     const std::vector<std::string> known = words();
-    const std::size_t times = std::getenv("PHASETREE_LONG_TESTS") ? 40 : 1;
+    const std::size_t times = phasetree::tests::long_tests() ? 40 : 1;
     const std::size_t most = times * target.replayed;
     Random random(1);
     for (std::size_t i = 0; i < most; ++i) {

@@ -193,7 +193,7 @@ void compare_examples(GlDialect dialect, const GlslOptions& options, std::size_t
     tell(gl->renderer(), all);
 }
 
-const bool is_long = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+const bool is_long = long_tests();
 const std::size_t some = is_long ? 1 : 9;
 
 }  // namespace

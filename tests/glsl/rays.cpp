@@ -8,6 +8,7 @@
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/glsl/shader.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "support/long_tests.hpp"
 #include "support/random_tree.hpp"
 
 namespace test_rays {
@@ -115,7 +116,7 @@ void check(const std::string& what, const Outcome& o) {
 }
 
 std::vector<std::string> scenes() {
-    if (!std::getenv("PHASETREE_LONG_TESTS")) return {"hourglass", "two_pears", "jelly_contact"};
+    if (!tests::long_tests()) return {"hourglass", "two_pears", "jelly_contact"};
     std::vector<std::string> all;
     for (const auto& entry : std::filesystem::directory_iterator(source_directory() + "/scenes"))
         if (entry.path().extension() == ".json" && !entry.path().stem().string().starts_with("scene."))

@@ -45,37 +45,49 @@ TEST_CASE("every node describes itself and all its parameters, in the page and i
     const Value fields = nodes("field"), objects = nodes("object");
     CHECK(fields.size() == FieldNodes::size);
     CHECK(objects.size() == PhasedNodes::size);
-    const auto check = [&]<class N>(const Value& among) {
-        CAPTURE(N::info.name);
-        CHECK(!N::info.name.empty());
-        CHECK(!N::info.summary.empty());
-        CHECK(!N::info.equation.empty());
-        CHECK(text.find("  " + std::string(N::info.name)) != std::string::npos);
-        CHECK(markdown.find("\n## " + std::string(N::info.name) + "\n") != std::string::npos);
-        const auto page = std::ranges::find(pages, N::info.name, &KindPage::name);
-        REQUIRE(page != pages.end());
-        REQUIRE(among.find(N::info.name));
-        Value object = *among.find(N::info.name);
-        if (const auto either = object.find("anyOf")) object = (*either)[0];
-        const N node{};
-        std::size_t count = 0;
-        for_each_parameter(node, [&](const auto&, const Parameter& p) {
-            CAPTURE(p.name);
-            CHECK(!p.name.empty());
-            CHECK(!p.description.empty());
-            const auto property = object.find("properties")->find(p.name);
-            REQUIRE(property);
-            CHECK(property->find("description")->string().starts_with(p.description));
-            REQUIRE(count < page->parameters.size());
-            CHECK(page->parameters[count++].name == p.name);
-        });
-        // A warp has one page, that of objects, where the phases to warp can be chosen.
-        const bool has_own_page = !has_node<Warps>(N::info.name) || &among == &objects;
-        if (has_own_page) CHECK(count == page->parameters.size());
-        CHECK(object.find("properties")->size() == count);
+    struct Described {
+        NodeInfo info;
+        std::vector<std::string> names, descriptions;
     };
-    for_each_type(FieldNodes(), [&]<class N>() { check.template operator()<N>(fields); });
-    for_each_type(PhasedNodes(), [&]<class N>() { check.template operator()<N>(objects); });
+    const auto check = [&](const Described& node, const Value& among, bool has_own_page) {
+        CAPTURE(node.info.name);
+        CHECK(!node.info.name.empty());
+        CHECK(!node.info.summary.empty());
+        CHECK(!node.info.equation.empty());
+        CHECK(text.find("  " + std::string(node.info.name)) != std::string::npos);
+        CHECK(markdown.find("\n## " + std::string(node.info.name) + "\n") != std::string::npos);
+        const auto page = std::ranges::find(pages, node.info.name, &KindPage::name);
+        REQUIRE(page != pages.end());
+        REQUIRE(among.find(node.info.name));
+        Value object = *among.find(node.info.name);
+        if (const auto either = object.find("anyOf")) object = (*either)[0];
+        for (std::size_t i = 0; i < node.names.size(); ++i) {
+            CAPTURE(node.names[i]);
+            CHECK(!node.names[i].empty());
+            CHECK(!node.descriptions[i].empty());
+            const auto property = object.find("properties")->find(node.names[i]);
+            REQUIRE(property);
+            CHECK(property->find("description")->string().starts_with(node.descriptions[i]));
+            REQUIRE(i < page->parameters.size());
+            CHECK(page->parameters[i].name == node.names[i]);
+        }
+        if (has_own_page) CHECK(node.names.size() == page->parameters.size());
+        CHECK(object.find("properties")->size() == node.names.size());
+    };
+    const auto described = []<class N>() {
+        Described node{.info = N::info, .names = {}, .descriptions = {}};
+        const N plain{};
+        for_each_parameter(plain, [&](const auto&, const Parameter& p) {
+            node.names.emplace_back(p.name);
+            node.descriptions.emplace_back(p.description);
+        });
+        return node;
+    };
+    // A warp has one page, that of objects, where the phases to warp can be chosen.
+    for_each_type(FieldNodes(), [&]<class N>() {
+        check(described.template operator()<N>(), fields, !has_node<Warps>(N::info.name));
+    });
+    for_each_type(PhasedNodes(), [&]<class N>() { check(described.template operator()<N>(), objects, true); });
 }
 
 }  // namespace test_reference

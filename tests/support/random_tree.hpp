@@ -11,13 +11,13 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string_view>
 
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree_support/split_mix64.hpp"
+#include "support/long_tests.hpp"
 
 namespace phasetree::tests {
 
@@ -71,11 +71,6 @@ const NodeKind& object_kind(std::string_view name);
 inline Bounds region_of_interest(const Bounds& b) {
     const Bounds near = intersect(b, Bounds::centred(glm::vec3(3)));
     return near.empty() ? Bounds::centred(glm::vec3(1)) : near.inflated(0.1f + 0.1f * near.diagonal());
-}
-
-/// The long form of a test: many times the samples, for a run over night.
-inline bool long_tests() {
-    return std::getenv("PHASETREE_LONG_TESTS") != nullptr;
 }
 
 }  // namespace phasetree::tests

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "phasetree/nodes/fields/voxel_grid.hpp"
+#include "support/long_tests.hpp"
 #include "support/random_tree.hpp"
 #include "volume/vdb_folder.hpp"
 
@@ -109,7 +110,7 @@ TEST_CASE("files of 1 to 300 leaves are read, whatever their values, halves and 
     // OpenVDB pads arrays of 49 to 127 bytes, and leaves have arrays of one byte and of eight bytes each.
     const std::set<int> ends{1, 6, 7, 15, 16, 48, 49, 127, 128, 300};
     const std::array<std::uint32_t, 6> compressions{0, 1, 2, 3, 4, 6};
-    const bool all = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+    const bool all = tests::long_tests();
     for (int leaves = 1; leaves <= 300; ++leaves)
         for (const std::uint32_t compression : compressions) {
             // The short form has each number of leaves with what OpenVDB uses unless told otherwise, and one more.

@@ -7,13 +7,9 @@
 
 #include "embree/embree.hpp"
 #include "phasetree/phasetree_embree.hpp"
+#include "support/long_tests.hpp"
 
 namespace phasetree::tests {
-
-inline bool is_long() {
-    const char* const value = std::getenv("PHASETREE_LONG_TESTS");
-    return value && *value == '1';
-}
 
 inline embree::Tree object_tree() {
     return embree::Tree::from_text(object_text, "object");

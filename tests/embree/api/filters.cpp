@@ -147,7 +147,7 @@ TEST_CASE("so they do where cells are many, which reach into each other") {
         const auto inside = [&] {
             return box.low + box.extent() * glm::vec3(unit(random), unit(random), unit(random));
         };
-        int crossed = 0, differing = 0, count = is_long() ? 20'000 : 1500;
+        int crossed = 0, differing = 0, count = long_tests() ? 20'000 : 1500;
         for (int i = 0; i < count; ++i) {
             const glm::vec3 a = inside(), b = inside();
             const Ray ray{a, glm::normalize(b - a)};

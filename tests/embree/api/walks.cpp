@@ -69,7 +69,7 @@ TEST_CASE("rays from inside every phase end in the vacuum: none leaks, in a mill
     const Placed placed(object_tree(), with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT));
     const InterfaceTracer tracer(object());
     Evaluator::Workspace workspace;
-    const int count = is_long() ? 1'000'000 : 50'000;
+    const int count = long_tests() ? 1'000'000 : 50'000;
     long long crossings = 0;
     int differing = 0;
     for (const auto& [ray, phase] : rays_from_within(placed.geometry, count, 31)) {

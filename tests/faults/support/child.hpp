@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "phasetree_support/temporary_directory.hpp"
+#include "support/long_tests.hpp"
 
 // The command's main().
 int phasetree_main(int count, char** arguments);
@@ -25,10 +26,6 @@ namespace phasetree::tests {
 using support::bytes_of;
 using support::TemporaryDirectory;
 using support::write_text;
-
-inline bool is_long() {
-    return std::getenv("PHASETREE_LONG_TESTS") != nullptr;
-}
 
 // A scene with some of everything that is read and written, as small as can be.
 inline constexpr const char* tiny_scene = R"({"version": 1,

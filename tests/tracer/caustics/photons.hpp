@@ -10,6 +10,7 @@
 
 #include "caustics/caustics.hpp"
 #include "caustics/trace_photon.hpp"
+#include "support/long_tests.hpp"
 #include "tracer/support/paths.hpp"
 
 namespace phasetree::tracer::tests {
@@ -17,7 +18,7 @@ namespace phasetree::tracer::tests {
 inline constexpr std::uint32_t paths_a_pass = 64;
 
 // The long form finds an error of 3 %, the short one of 15 %.
-inline const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+inline const bool long_form = phasetree::tests::long_tests();
 inline const int passes = long_form ? 6000 : 100;
 inline const double planted = long_form ? 1.03 : 1.15;
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "support/long_tests.hpp"
 #include "tracer/support/paths.hpp"
 
 namespace test_furnace {
@@ -45,7 +46,7 @@ const std::string half_full_of_air =
 // The long form of the test, for a run over night, looks for what goes wrong once in a million paths. It lets
 // them be as long as they will: of a million in lossless glass some ten go around within the wall more than the 4,096
 // times that a scene allows by itself.
-const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+const bool long_form = phasetree::tests::long_tests();
 const int samples = long_form ? 500 : 16;
 
 std::string view(const std::string& position, const std::string& look_at, int fov, int size) {

@@ -12,6 +12,7 @@
 #include <cstdlib>
 
 #include "phasetree_support/temporary_directory.hpp"
+#include "support/long_tests.hpp"
 #include "tracer/support/paths.hpp"
 
 namespace test_scattering_furnace {
@@ -21,7 +22,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-const bool long_form = std::getenv("PHASETREE_LONG_TESTS") != nullptr;
+const bool long_form = phasetree::tests::long_tests();
 
 const std::string ball = R"({"set": {"phase": "milk", "of": {"sphere": {"radius": 1}}}})";
 // In exact contact with its glass, and half full: above the milk is nothing.

@@ -11,6 +11,7 @@
 #include "phasetree/io/error.hpp"
 #include "scene/one_tree.hpp"
 #include "scene/read_transform.hpp"
+#include "support/long_tests.hpp"
 #include "tracer/support/straight_rays.hpp"
 
 namespace test_moving_objects {
@@ -152,7 +153,7 @@ TEST_CASE("rays at any time through moving, nested, mirrored and scaled objects 
     REQUIRE(several.moves());
     const TracedGeometry geometry(several);
     std::size_t crossings = 0;
-    const int count = std::getenv("PHASETREE_LONG_TESTS") ? 20'000 : 1500;
+    const int count = phasetree::tests::long_tests() ? 20'000 : 1500;
     for (const float time : {0.0f, 0.137f, 0.41f, 0.5f, 0.77f, 0.999f}) {
         CAPTURE(time);
         Scene one = several;

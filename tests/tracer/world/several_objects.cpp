@@ -6,6 +6,7 @@
 
 #include "phasetree/io/document.hpp"
 #include "scene/one_tree.hpp"
+#include "support/long_tests.hpp"
 #include "tracer/support/straight_rays.hpp"
 #include "world/world.hpp"
 
@@ -85,7 +86,7 @@ TEST_CASE("rays through 1,000 nested, scaled and mirrored objects are as through
     one.placed = {};
     const TracedGeometry geometry(several), tree(one);
     const double resolution = static_cast<double>(tree.object().resolution());
-    const int count = std::getenv("PHASETREE_LONG_TESTS") ? 200'000 : 20'000;
+    const int count = phasetree::tests::long_tests() ? 200'000 : 20'000;
     std::size_t crossings = 0;
     for (int i = 0; i < count; ++i) {
         CAPTURE(i);
