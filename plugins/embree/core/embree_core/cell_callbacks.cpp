@@ -53,10 +53,13 @@ void intersect_cell_for_query(const InterfaceCells& cells, const RTCIntersectFun
     if (arguments->valid[0] != -1) return;
     Query& query = query_of(arguments->context);
     if (query.passes_cells) return;
-    RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
+    auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     const auto crossing = search(cells, *arguments, query, ray);
     if (!crossing) return;
-    ray.tfar = crossing->t_in / query.seen.length;
+    const float t = crossing->t_in / query.seen.length;
+    const ObjectInstance object = ObjectInstance::of(*arguments->context, arguments->geomID);
+    if (!replaces_hit(cells, arguments->primID, object, query.seen, t, ray.tfar, hit)) return;
+    ray.tfar = t;
     write_hit(RTCRayHitN_HitN(arguments->rayhit, 1), 1, 0, *crossing, -query.seen.traced.direction, arguments->primID,
               arguments->geomID, *arguments->context);
     query.crossing = *crossing;

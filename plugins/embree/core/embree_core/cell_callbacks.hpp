@@ -3,7 +3,9 @@
 /// Embree callbacks of an RTCGeometry whose primitives are an object's cells.
 
 #include <algorithm>
+#include <limits>
 #include <new>
+#include <utility>
 
 #include "embree_core/lanes.hpp"
 #include "embree_core/query.hpp"
@@ -18,6 +20,30 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
     out.upper_x = box.high.x;
     out.upper_y = box.high.y;
     out.upper_z = box.high.z;
+}
+
+/// Where a ray enters a box; meaningless if it misses the box.
+inline double entry(const Bounds& box, const TracedRay& ray) {
+    double result = -std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.direction[axis] == 0) continue;
+        const double side = ray.direction[axis] > 0 ? box.low[axis] : box.high[axis];
+        result = std::max(result, (side - ray.origin[axis]) * ray.inverse[axis]);
+    }
+    return result;
+}
+
+/// Whether a crossing that a ray meets in a cell, no farther than the ray's hit so far, replaces it. Which of equally
+/// near crossings is the hit does not depend on the order in which Embree visits cells: that of the first object, and
+/// in an object that of the cell that the ray enters first. (Embree may skip a cell that is entered only at the hit.)
+inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object, const SeenRay& seen,
+                         float t, float far, const RTCHit& hit) {
+    if (t < far || hit.geomID == RTC_INVALID_GEOMETRY_ID) return true;
+    const ObjectInstance other = ObjectInstance::of(hit);
+    if (object != other) return object < other;
+    if (hit.primID >= cells.size()) return false;
+    return std::pair(entry(cells.bounds(cell), seen.traced), cell) <
+           std::pair(entry(cells.bounds(hit.primID), seen.traced), hit.primID);
 }
 
 /// For a single ray whose context is a Query. The hit's normal is not evaluated: Ng is minus the ray's direction.
@@ -47,13 +73,16 @@ void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFu
                                Carried&& carried, Report&& report) noexcept {
     const unsigned n = arguments.N, cell = arguments.primID;
     RTCRayN* const rays = RTCRayHitN_RayN(arguments.rayhit, n);
+    RTCHitN* const hits = RTCRayHitN_HitN(arguments.rayhit, n);
     each_crossing(cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const SeenRay& seen) {
-        const glm::vec3 normal = -cells.normal(cell, crossing, seen.traced.direction).unit;
         float& far = RTCRayN_tfar(rays, n, i);
         // Rounding must not move a hit outside the ray.
-        far = std::clamp(crossing.t_in / seen.length, std::min(RTCRayN_tnear(rays, n, i), far), far);
-        write_hit(RTCRayHitN_HitN(arguments.rayhit, n), n, i, crossing, normal, cell, arguments.geomID,
-                  *arguments.context);
+        const float t = std::max(crossing.t_in / seen.length, std::min(RTCRayN_tnear(rays, n, i), far));
+        const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
+        if (!replaces_hit(cells, cell, object, seen, t, far, rtcGetHitFromHitN(hits, n, i))) return;
+        far = t;
+        const glm::vec3 normal = -cells.normal(cell, crossing, seen.traced.direction).unit;
+        write_hit(hits, n, i, crossing, normal, cell, arguments.geomID, *arguments.context);
         report(i, crossing, seen.length);
     });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "embree_core/rays.hpp"
@@ -30,17 +31,22 @@ struct SeenRay {
 
 /// Find the first crossing of a ray within a cell, between the ray's tnear and tfar. All tracing through Embree goes
 /// through this function.
+///
+/// The whole of the ray in the cell is searched, beyond tfar too. Its bits then do not depend on tfar, which Embree
+/// sets to the nearest hit so far, and so not on the order in which Embree visits cells, which differs from processor
+/// to processor.
 inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
                                            const RTCRay& ray, std::optional<Phase> carried,
                                            const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
     const float near = std::max(ray.tnear * seen.length, 0.0f), far = ray.tfar * seen.length;
     std::optional<Crossing> crossing;
     if (!(near <= far)) return crossing;
-    crossing = cells.first_crossing(cell, seen.traced, near, far, carried, leaving_hint, counters);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    crossing = cells.first_crossing(cell, seen.traced, near, infinity, carried, leaving_hint, counters);
     if (!crossing) return crossing;
     // For a ray that starts at an interface, rounding may put the crossing slightly before the start.
     crossing->t_in = std::max(crossing->t_in, near);
-    if (!(crossing->t_in <= far)) crossing.reset();  // within the ray only up to rounding
+    if (!(crossing->t_in / seen.length <= ray.tfar)) crossing.reset();
     return crossing;
 }
 

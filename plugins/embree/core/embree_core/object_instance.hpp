@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 
 #include "embree_core/embree.hpp"
 
@@ -18,7 +19,7 @@ struct ObjectInstance {
     Path instance_primitives = outside();  ///< index in an instance array; Embree sets 0 for other instances
 #endif
 
-    bool operator==(const ObjectInstance&) const = default;
+    auto operator<=>(const ObjectInstance&) const = default;
 
     /// The path of an object outside all instances.
     static constexpr Path outside() {
