@@ -104,7 +104,7 @@ phase, or of all phases except the vacuum, is a manifold."""
     names: np.ndarray
     spacing: np.ndarray
     crossings: np.ndarray
-    passed_over: np.ndarray
+    skipped: np.ndarray
 
 class Field:
     r"""A signed distance, negative inside. Immutable.
@@ -1030,7 +1030,7 @@ class Scene:
         r"""Writes a scene file, from which load() makes an equal scene.
 
 Files within the folder of the scene file are named relative to it."""
-    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
+    def render(self, *, progress=..., threads=..., crop=..., quality=..., max_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
         r"""Path-traces the scene. Returns an Image, which does not depend on the number of threads. Ctrl-C ends it.
 
 image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.

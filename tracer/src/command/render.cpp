@@ -226,7 +226,7 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
         world.emplace(scene, WorldOptions{.quality = options.quality,
                                           .cancelled = job.cancelled,
                                           .progress = [&](float done) { progress.tell(static_cast<double>(done)); },
-                                          .most_bytes = options.most_bytes,
+                                          .max_bytes = options.max_bytes,
                                           .kept_cells = options.cells});
     };
     try {

@@ -50,10 +50,10 @@ class ObjectsReader {
         read_groups();
         if (const auto list = root_.find("instances")) read_instances(*list, "\"instances\"", model_.placed.instances);
         add_default_instances();
-        if (model_.placed.copies() > most_copies)
+        if (model_.placed.copies() > max_copies)
             throw document_.error(root_,
                                   fmt::format("groups and instances produce {} copies of objects; the limit is {}",
-                                              model_.placed.copies(), most_copies));
+                                              model_.placed.copies(), max_copies));
         return std::move(model_);
     }
 
@@ -235,10 +235,10 @@ class ObjectsReader {
             if (instance.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[instance.of].depth);
         require_depth(made.depth);
         made.copies = model_.placed.copies_of(made.instances);
-        if (made.copies > most_copies)
+        if (made.copies > max_copies)
             throw document_.error(group.key_offset(),
                                   fmt::format("the group \"{}\" has {} copies of objects; the limit is {}", name,
-                                              made.copies, most_copies));
+                                              made.copies, max_copies));
         open_.pop_back();
         const auto number = static_cast<std::uint32_t>(model_.placed.groups.size());
         model_.placed.groups.push_back(std::move(made));

@@ -28,7 +28,7 @@ struct Mesh {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
                                    "The solid inside a surface of triangles; exact."};
-    static constexpr std::size_t most_pieces_in_box = 64;
+    static constexpr std::size_t max_pieces_in_box = 64;
 
     FromFile<TriangleMesh> file{};
     std::string rule{};
@@ -71,7 +71,7 @@ struct Mesh {
 
     /// The data, if a loop over all pieces is acceptable; otherwise throws ModelError.
     static const float* few_pieces(const float* data);
-    static constexpr std::size_t most_pieces_of_shader = 2000;
+    static constexpr std::size_t max_pieces_in_shader = 2000;
 
     /// See LocalDataPrimitive.
     struct Specialised {
@@ -104,7 +104,7 @@ struct Mesh {
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {
-        return mesh::PieceTree::pieces_in(data, range, of, most_pieces_in_box, floats);
+        return mesh::PieceTree::pieces_in(data, range, of, max_pieces_in_box, floats);
     }
 
     double support(const glm::dvec3& d, float level) const;

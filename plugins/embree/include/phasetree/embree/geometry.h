@@ -55,7 +55,7 @@ typedef struct PhasetreeGeometryOptions {
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
      * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
-    size_t mostBytes;
+    size_t maxBytes;
     /* Phases to show. A crossing between two phases is skipped if neither is in the set. The vacuum never counts as
      * shown. To hide one phase, leave it out. */
     PhasetreePhaseSet shownPhases;
@@ -85,7 +85,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
     options->resolution = 0;
     options->buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     options->cellDivisions = 0;
-    options->mostBytes = 0;
+    options->maxBytes = 0;
     options->shownPhases = PHASETREE_ALL_PHASES;
     options->opaquePhases = 0;
     options->cancelled = NULL;
@@ -211,7 +211,7 @@ PHASETREE_API PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geome
  * to the last bit. Embree's BVH over them is built as usual.
  *
  * tree, options  must match those for which the cells were built: the same shapes (names and materials may differ),
- *                resolution, buildQuality, cellDivisions and opaquePhases. mostBytes must not be smaller than it was;
+ *                resolution, buildQuality, cellDivisions and opaquePhases. maxBytes must not be smaller than it was;
  *                if it made the cells coarser, it must be equal. Other options may differ.
  *
  * PHASETREE_ERROR_CELLS_FILE  the file does not exist, is not a cell file, or is damaged (its size, checksums and
@@ -230,9 +230,9 @@ PHASETREE_API PhasetreeError phasetreeNewGeometryFromCells(unsigned int apiVersi
 typedef struct PhasetreeGeometryStatistics {
     size_t cells; /* number of cells; primID of a hit is less than this */
     size_t bytes; /* memory of the cells and their programs, without Embree's BVH */
-    size_t wholeInstructions, medianInstructions, mostInstructions; /* whole object; median and maximum over cells */
-    float resolution;                                               /* in use; a distance in the tree's space */
-    float buildSeconds;                                             /* time to build or read the cells */
+    size_t wholeInstructions, medianInstructions, maxInstructions; /* whole object; median and maximum over cells */
+    float resolution;                                              /* in use; a distance in the tree's space */
+    float buildSeconds;                                            /* time to build or read the cells */
 } PhasetreeGeometryStatistics;
 
 /* Returns statistics of a built geometry. */
