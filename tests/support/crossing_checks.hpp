@@ -93,7 +93,7 @@ bool is_within_rounding(const Tracer& tracer, const glm::vec3& p, Phase phase) {
     return false;
 }
 
-/// What is wrong along one ray: its crossings are told to `totals`, and what a person should look at to `complaints`.
+/// Checks one ray: counts its crossings in `totals`, and describes what a person should inspect in `complaints`.
 template <class Tracer>
 class RayCheck {
   public:
@@ -350,7 +350,7 @@ inline void check_totals(const Totals& totals, const std::vector<std::string>& c
     CHECK(totals.flickering < totals.rays / 2000);
     CHECK(totals.creeping > totals.rays / 2000);
     CHECK(totals.uncertified == 0);
-    // Some 4 in a million are; the one more is for few crossings, of which one is likely all the same.
+    // About 4 in a million are. The additional one is for runs of few crossings, in which one may still occur.
     CHECK(totals.rounded <= 1 + totals.crossings / 200'000);
     CHECK(totals.wide == 0);
     CHECK(totals.over_sliver < totals.crossings / 2000);
