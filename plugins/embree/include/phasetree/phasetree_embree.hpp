@@ -59,7 +59,7 @@ class Reference {
     Handle handle_ = nullptr;
 };
 
-/// A convex volume around some phases: their points are behind all planes.
+/// A convex volume around some phases: their points lie behind every plane.
 struct CarvedBounds : PhasetreeCarvedBounds {
     std::vector<PhasetreePlane> planes;
 };

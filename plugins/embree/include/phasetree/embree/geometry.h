@@ -15,8 +15,8 @@ typedef uint64_t PhasetreePhaseSet;
 /* Bits of PhasetreeGeometryOptions.flags. */
 typedef enum PhasetreeGeometryFlags {
     PHASETREE_GEOMETRY_FLAG_NONE = 0,
-    /* Every ray query that can reach the geometry uses a PhasetreeRayContext as its context. Without this flag, the
-     * geometry reads nothing but Embree's own members of a context. */
+    /* Promises that every ray query that can reach the geometry uses a PhasetreeRayContext as its context. Without this
+     * flag, the geometry reads nothing but Embree's own members of a context. */
     PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT = 1 << 0,
     /* Promises that neither the geometry nor any query has a filter function. Filter functions are then not called, and
      * occlusion rays may stop at any crossing instead of the first one along the ray. */
@@ -31,9 +31,8 @@ typedef enum PhasetreeGeometryFlags {
      *   - all phases must be shown;
      *   - the object can only be moved by instances.
      * The number of primitives in the application's scene grows by the number of cells, and changes with
-     * phasetreeSetGeometryTree. A scene of the geometry's own is still built on the first call of
-     * phasetreeFindClosestInterface, or of phasetreeDecodeHit for a hit whose primID does not name the cell in which it
-     * lies. */
+     * phasetreeSetGeometryTree. The geometry's own scene is still built when it is first needed: by
+     * phasetreeFindClosestInterface, or by phasetreeDecodeHit if the hit's primID is not the cell that contains it. */
     PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 
@@ -71,10 +70,10 @@ typedef struct PhasetreeGeometryOptions {
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
     /* Receives the fraction of cells built, an estimate that never decreases and is 1 when the cells are complete;
-     * Embree's BVH over them is built after that. As with Embree's progress monitor, return false to cancel with
-     * PHASETREE_ERROR_CANCELLED, after which it is not called again. Called from any building thread, one at a time,
-     * while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the call,
-     * and not at all if cells are read from a file. */
+     * Embree's BVH over them is built after that. Return false to cancel with PHASETREE_ERROR_CANCELLED,
+     * as with Embree's progress monitor; the function is then not called again. Called from any building thread, one at
+     * a time, while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the
+     * call, and not at all if cells are read from a file. */
     RTCProgressMonitorFunction progress;
     void* progressUserPtr;
 } PhasetreeGeometryOptions;
@@ -106,15 +105,16 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * the application limits their number for the whole process.
  *
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or empty: nothing is left of it, or all of it is vacuum. The
- *                               message says which. Call phasetreeGetTreeBounds to find out beforehand.
+ *                               message says which, and names the nodes that make the tree unbounded. Call
+ *                               phasetreeGetTreeBounds to find out beforehand.
  * Clears Embree's error code of the calling thread (rtcGetDeviceError).
  *
- * A hit is a change of phase along a ray:
- *     tfar         where the ray leaves the phase that it is in
- *     Ng           the interface's unit normal, on the side the ray comes from, in geometry space
- *     u, v         the index of the phase left and of the phase entered
- *     primID       the cell
- *     geomID, instID, instPrimID   as usual
+ * A hit is a change of phase along a ray. Embree's members of the ray and the hit are set as follows.
+ *     tfar         Where the ray leaves the phase that it is in.
+ *     Ng           The interface's unit normal, on the side the ray comes from, in geometry space.
+ *     u, v         The index of the phase left, and of the phase entered.
+ *     primID       The cell.
+ *     geomID, instID, instPrimID   As usual.
  * The ray is in the phase at its start, at tnear, unless its context says otherwise (PhasetreeRayContext). Directions
  * may have any length. Rays with numbers that are not finite hit nothing.
  *
