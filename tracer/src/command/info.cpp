@@ -14,6 +14,7 @@
 #include "command/objects_report.hpp"
 #include "command/streams.hpp"
 #include "output/late_progress.hpp"
+#include "output/utf8_name.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
@@ -79,6 +80,7 @@ int info_of_meshes(const SceneFile& file, const InfoOptions& chosen, const Docum
 }
 
 int info(const SceneFile& file, const InfoOptions& chosen) {
+    if (chosen.as_json) require_utf8(file.shown());
     const AvailableThreads threads;
     const Document document = read_document(file);
     if (has_meshes_alone(document)) return info_of_meshes(file, chosen, document);
