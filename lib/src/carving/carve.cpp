@@ -16,6 +16,7 @@
 #include "phasetree/nodes/fields/polyhedron.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 
 namespace phasetree {
 
@@ -237,7 +238,9 @@ void check(const CarveOptions& options) {
 
 CarvedBounds carve(const Field& field, const CarveOptions& options) {
     check(options);
-    if (bounds(field).empty()) return {};
+    const Bounds box = bounds(field);
+    if (box.empty()) return {};
+    if (!box.finite()) throw UnboundedError(unbounded_parts(field));
     const TraceableObject traceable = prepare_to_trace(Set{.phase = Phase{1}, .of = field});
     return Carver(field, traceable.bounds, options).run();
 }

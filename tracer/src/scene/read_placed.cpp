@@ -13,11 +13,13 @@
 #include "phasetree/io/suggest.hpp"
 #include "phasetree/model/renumber.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/placed.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/read_transform.hpp"
+#include "scene/unbounded_error.hpp"
 
 namespace phasetree::tracer {
 
@@ -188,11 +190,27 @@ class ObjectsReader {
                 found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
             found.object.tree = with_bounds(found.object.tree);
             (void)prepare_to_trace(found.object.tree);  // only checks whether the tree can be traced
+        } catch (const UnboundedError&) {
+            throw unbounded_error(found);
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
         }
         object_numbers_.emplace(found.object.name, static_cast<std::uint32_t>(model_.placed.objects.size()));
         model_.placed.objects.push_back(found.object);
+    }
+
+    // Reads the object's tree again to find the positions of its nodes.
+    SceneError unbounded_error(const Found& found) const {
+        NodePlaces places;
+        Phased tree;
+        if (!found.from.empty()) {
+            tree = read_tree(found.document, file_readers(), &places).object;
+        } else {
+            const Value own = found.at.find(name_of_tree).value_or(found.at);
+            tree =
+                phasetree::read_objects(document_, model_.phases, std::span(&own, 1), file_readers(), &places).front();
+        }
+        return tracer::unbounded_error(found.document, tree, places, fmt::format("\"{}\": ", found.object.name));
     }
 
     // Renumbers the phases. The nodes' positions in the text do not change.
