@@ -54,7 +54,7 @@ Fingerprint cells_of(const InterfaceCells& cells) {
     found.add(statistics.cells);
     found.add(statistics.routines);
     found.add(statistics.bytes);
-    found.add(statistics.most_instructions);
+    found.add(statistics.max_instructions);
     Samples samples;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         const Bounds box = cells.bounds(cell);

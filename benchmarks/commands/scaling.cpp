@@ -72,7 +72,7 @@ Report scaling(const Settings& settings) {
                  {"cells", "cells", "{:.0f}"},
                  {"median_instructions", "median", "{:.0f}"},
                  {"percentile90_instructions", "90 %", "{:.0f}"},
-                 {"most_instructions", "most", "{:.0f}"},
+                 {"max_instructions", "most", "{:.0f}"},
                  {"build_seconds", "build s", "{:.3f}"},
                  {"opaque_build_seconds", "opaque s", "{:.3f}"},
                  {"cell_bytes", "cells MB", "{:.2f}", 1e-6},
@@ -98,7 +98,7 @@ Report scaling(const Settings& settings) {
         slowest_primary = std::max(slowest_primary, slower_primary.median);
         slowest_random = std::max(slowest_random, slower_random.median);
         table.row({double(counts[i]), double(o.scene->cells().whole().program().instructions.size()), double(s.cells),
-                   double(s.median_instructions), double(s.percentile90_instructions), double(s.most_instructions),
+                   double(s.median_instructions), double(s.percentile90_instructions), double(s.max_instructions),
                    o.build_seconds, o.opaque_build_seconds, double(s.bytes), double(o.scene->embree_bytes()),
                    rate(on_primary), double(on_primary.checksum(i).hits) / double(on_primary.checksum(i).rays),
                    rate(on_random), batches(o.primary), batches(o.random), slower_primary, slower_random});

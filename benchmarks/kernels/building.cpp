@@ -28,7 +28,7 @@ void cells(benchmark::State& state, const Phased& object, const CellOptions& opt
 
 CellOptions divided_once() {
     CellOptions options;
-    options.deepest = 1;
+    options.max_depth = 1;
     return options;
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("cells with any limit of memory give the labels and crossings of the w
         const InterfaceCells unlimited(object);
         std::size_t fewer = unlimited.size();
         for (const std::size_t bytes : {std::size_t{100'000}, std::size_t{20'000}, std::size_t{1}}) {
-            const InterfaceCells cells(object, {.most_bytes = bytes});
+            const InterfaceCells cells(object, {.max_bytes = bytes});
             CHECK(cells.size() <= fewer);
             fewer = cells.size();
             for (int i = 0; i < 60; ++i)
@@ -90,10 +90,10 @@ TEST_CASE("cells within a budget take about that much, say that they are coarser
     const Phased object = blocks(0.25f);
     const InterfaceCells unlimited(object);
     CHECK(!unlimited.statistics().is_coarser);
-    CHECK(are_equal(unlimited, InterfaceCells(object, {.most_bytes = std::size_t{1} << 40})));
+    CHECK(are_equal(unlimited, InterfaceCells(object, {.max_bytes = std::size_t{1} << 40})));
     std::size_t most = unlimited.statistics().bytes;
     for (const std::size_t bytes : std::initializer_list<std::size_t>{10'000'000, 3'000'000, 300'000}) {
-        const CellOptions options{.most_bytes = bytes};
+        const CellOptions options{.max_bytes = bytes};
         const auto one = with_threads(1, object, options);
         const CellStatistics s = one->statistics();
         MESSAGE(bytes, " bytes allowed: ", s.cells, " cells of ", s.bytes, " bytes, where ", unlimited.size(), " of ",
@@ -118,7 +118,7 @@ TEST_CASE("a build reports its progress one call at a time, each time more than 
                                                            reports.push_back(done);
                                                            --inside;
                                                        },
-                                                   .most_bytes = bytes});
+                                                   .max_bytes = bytes});
         CHECK(is_alone);
         REQUIRE(reports.size() > 10);
         CHECK(std::ranges::is_sorted(reports, std::less_equal<>()));  // each more than the one before
@@ -132,7 +132,7 @@ TEST_CASE("a build that is cancelled ends, also within a budget") {
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{1'000'000}}) {
         std::atomic<int> asked{0};
         const int enough = 500;
-        const CellOptions options{.cancelled = [&] { return ++asked > enough; }, .most_bytes = bytes};
+        const CellOptions options{.cancelled = [&] { return ++asked > enough; }, .max_bytes = bytes};
         CHECK_THROWS_AS(InterfaceCells(blocks(0.25f), options), BuildCancelled);
         CHECK(asked < enough + 100);
     }

@@ -55,7 +55,7 @@ inline Phased various() {
         .object;
 }
 
-inline const CellOptions few{.deepest = 3};
+inline const CellOptions few{.max_depth = 3};
 
 // Why a file is rejected; nothing if it is not.
 inline std::optional<Reason> refusal(const fs::path& path, const Phased& object, const CellOptions& options = few,

@@ -30,7 +30,7 @@ TEST_CASE("cells of a glass of water whose gap is closed have its labels, and ra
         CHECK(all.different == 0);
         MESSAGE(cells.size(), " cells; ", cells_of_exact, " of the exact tree; ",
                 cells.statistics().median_instructions, " instructions in the median, ",
-                cells.statistics().most_instructions, " at most");
+                cells.statistics().max_instructions, " at most");
     }
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("every kind of field is cut correctly at thresholds other than zero") 
             if (bounds(object).empty()) continue;
             CAPTURE(i);
             // Large boxes, whose cuts are many, and small ones, which may be within a corner.
-            const InterfaceCells cells(object, {.deepest = 1 + rng.below(5)});
+            const InterfaceCells cells(object, {.max_depth = 1 + rng.below(5)});
             const Changes c = changes_of(cells, box, {}, 100, rng);
             CHECK(c.outside == 0);
             changes += c.all;
@@ -146,7 +146,7 @@ TEST_CASE("each of a gem's many facets is visited a few times, and the cells lie
         const glm::vec3 normal(glm::sqrt(1 - z * z) * glm::vec2(glm::cos(turn), glm::sin(turn)), z);
         gem.of.push_back(Plane{.normal = normal, .offset = glm::dot(normal, centre) + 0.1f});
     }
-    const InterfaceCells cells(Set{.phase = Phase{1}, .of = gem}, {.deepest = 1});
+    const InterfaceCells cells(Set{.phase = Phase{1}, .of = gem}, {.max_depth = 1});
     double sum = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) sum += surface(cells.bounds(i));
     MESSAGE(cells.size(), " cells of surface ", sum);

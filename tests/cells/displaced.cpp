@@ -42,7 +42,7 @@ TEST_CASE("the programs of a displaced solid's cells have no far bounds") {
                      .scale = 0.2f}});
     // The solid, the noise, its amplitude, the sum and its slope; with the bounds there are four more.
     MESSAGE(cells.size(), " cells of ", cells.statistics().median_instructions, " to ",
-            cells.statistics().most_instructions, " instructions");
+            cells.statistics().max_instructions, " instructions");
     CHECK(cells.statistics().median_instructions <= 5);
 }
 

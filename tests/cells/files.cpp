@@ -96,7 +96,7 @@ TEST_CASE("random trees come back from files") {
 }
 
 TEST_CASE("cells are known to be those of an object, or of another one or of other options") {
-    const CellOptions options{.quality = BuildQuality::low, .opaque = {0b10}, .most_bytes = 50'000'000};
+    const CellOptions options{.quality = BuildQuality::low, .opaque = {0b10}, .max_bytes = 50'000'000};
     const InterfaceCells cells(various(), options);
     CHECK(are_cells_of(cells, various(), options));
     const auto with = [&](auto&& change) {
@@ -107,21 +107,21 @@ TEST_CASE("cells are known to be those of an object, or of another one or of oth
     CHECK_FALSE(with([](CellOptions& o) { o.quality = BuildQuality::medium; }));
     CHECK_FALSE(with([](CellOptions& o) { o.opaque = {}; }));
     CHECK_FALSE(with([](CellOptions& o) { o.resolution = 0.01f; }));
-    CHECK_FALSE(with([](CellOptions& o) { o.deepest = 13; }));
+    CHECK_FALSE(with([](CellOptions& o) { o.max_depth = 13; }));
     // Those that are not coarser because of the limit are the same with a higher one.
-    CHECK(with([](CellOptions& o) { o.most_bytes = 60'000'000; }));
-    CHECK_FALSE(with([](CellOptions& o) { o.most_bytes = 1; }));
+    CHECK(with([](CellOptions& o) { o.max_bytes = 60'000'000; }));
+    CHECK_FALSE(with([](CellOptions& o) { o.max_bytes = 1; }));
     const auto ball = [](float radius) -> Phased { return Set{.phase = Phase{1}, .of = Sphere{radius}}; };
     const InterfaceCells of_ball(ball(1));
     CHECK(are_cells_of(of_ball, ball(1)));
     CHECK_FALSE(are_cells_of(of_ball, ball(std::nextafter(1.0f, 2.0f))));
     CHECK_FALSE(are_cells_of(of_ball, Set{.phase = Phase{2}, .of = Sphere{1}}));
     CellOptions tight;
-    tight.most_bytes = 20'000;
+    tight.max_bytes = 20'000;
     const InterfaceCells coarser(various(), tight);
     REQUIRE(coarser.statistics().is_coarser);
     CHECK(are_cells_of(coarser, various(), tight));
-    tight.most_bytes = 20'001;
+    tight.max_bytes = 20'001;
     CHECK_FALSE(are_cells_of(coarser, various(), tight));
 }
 

@@ -21,9 +21,9 @@ TEST_CASE("a file of other cells is rejected, and says in what it differs") {
     CHECK_FALSE(refusal(w.path, w.object, few));
     expect(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}, few, "another tree");
     expect(w.object, {}, "divisions");
-    expect(w.object, {.deepest = 3, .quality = BuildQuality::low}, "quality");
-    expect(w.object, {.deepest = 3, .opaque = {0b10}}, "opaque");
-    expect(w.object, {.resolution = 1e-4f, .deepest = 3}, "resolution");
+    expect(w.object, {.max_depth = 3, .quality = BuildQuality::low}, "quality");
+    expect(w.object, {.max_depth = 3, .opaque = {0b10}}, "opaque");
+    expect(w.object, {.resolution = 1e-4f, .max_depth = 3}, "resolution");
 
     const auto with = [&](auto&& change, const char* part) {
         Bytes file = w.bytes;
@@ -43,8 +43,8 @@ TEST_CASE("a file of other cells is rejected, and says in what it differs") {
 }
 
 TEST_CASE("cells that have all the memory they want are those that more of it gives; others are not") {
-    const CellOptions roomy{.most_bytes = 1 << 28}, tight{.most_bytes = 1 << 18};
-    const auto with = [](std::size_t bytes) { return CellOptions{.most_bytes = bytes}; };
+    const CellOptions roomy{.max_bytes = 1 << 28}, tight{.max_bytes = 1 << 18};
+    const auto with = [](std::size_t bytes) { return CellOptions{.max_bytes = bytes}; };
     const Written all(roomy), less(tight);
     REQUIRE_FALSE(all.cells.statistics().is_coarser);
     REQUIRE(less.cells.statistics().is_coarser);

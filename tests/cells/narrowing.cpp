@@ -38,7 +38,7 @@ TEST_CASE("a ray finds where it enters a ball in few batches, because it knows a
 
 TEST_CASE("a bracket that follows from the curvature of the distance holds the crossing") {
     const double radius = 1;
-    const InterfaceCells cells(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}), {.deepest = 3});
+    const InterfaceCells cells(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}), {.max_depth = 3});
     Random rng(5);
     TraceCounters counters;
     Evaluator::Workspace w;

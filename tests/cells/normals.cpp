@@ -44,7 +44,7 @@ TEST_CASE("no normal of a cell is an outlier, whatever the node") {
             const auto object = traceable(kind.object(rng, 1 + tree % 3 + !kind.is_field));
             if (!object) continue;
             const InterfaceTracer tracer(*object);
-            const InterfaceCells cells(*object, {.deepest = 5});
+            const InterfaceCells cells(*object, {.max_depth = 5});
             grazing_rays(*object, tracer, rng, rays, 20, [&](const glm::vec3& o, const glm::vec3& ray) {
                 each_crossing(tracer, o, ray, [&](const Crossing& c, const glm::vec3& d) {
                     each_cell(cells, c, d, [&](std::size_t cell, const Crossing& again) {

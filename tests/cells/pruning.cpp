@@ -147,10 +147,10 @@ TEST_CASE("far links of a chain are pruned, though each is too near to the next 
     const Phased object = LayeredSequence{
         .of = Set{.phase = Phase{1}, .of = chain}, .layers = {Phase{2}, Phase{3}}, .thicknesses = {0.05f, 0.03f}};
     const CellStatistics cells = InterfaceCells(object, {.quality = BuildQuality::low}).statistics();
-    MESSAGE(cells.cells, " cells, up to ", cells.most_instructions, " instructions");
+    MESSAGE(cells.cells, " cells, up to ", cells.max_instructions, " instructions");
     // Told from its neighbours alone no link goes where neighbours are nearer than boxes are large: 387 of them, and
     // 52,000 cells.
-    CHECK(cells.most_instructions <= 30);
+    CHECK(cells.max_instructions <= 30);
     CHECK(cells.cells < 20'000);
 }
 

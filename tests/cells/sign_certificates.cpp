@@ -167,7 +167,7 @@ TEST_CASE("a ray that grazes a dome beside its cut meets it, where the bounds of
         const Phased object = n % 2 == 0 ? solid(Intersection{{both, Box{.size = glm::vec3(1)}}})
                                          : solid(Difference{.from = Box{.size = glm::vec3(1)}, .subtract = {both}});
         // Large cells, too, in which a batch's places are far apart.
-        const InterfaceCells cells(object, {.deepest = n % 8 < 4 ? 2 : 14});
+        const InterfaceCells cells(object, {.max_depth = n % 8 < 4 ? 2 : 14});
         const InterfaceTracer tracer(object);
         const std::size_t before = all.different;
         for (int i = 0; i < 500; ++i) {

@@ -1,177 +1,10 @@
-// `phasetree import`: the scenes that it makes of small glTF files, and what it reports where it cannot.
-#include <fmt/format.h>
-
-#include <array>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include "command.hpp"
-#include "tracer/support/written_glb.hpp"
+// `phasetree import`: the scenes that it makes of small glTF files, and what it reports as lost.
+#include "imports.hpp"
 
 namespace test_import {
 
 using namespace phasetree::tests;
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
-namespace {
-
-using Vector = std::array<float, 3>;
-
-struct Surface {
-    std::vector<float> places;
-    std::vector<std::uint32_t> triangles;
-
-    // Four corners, counterclockwise as seen from outside.
-    void add(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-        const auto first = static_cast<std::uint32_t>(places.size() / 3);
-        for (const Vector& p : {a, b, c, d}) places.insert(places.end(), p.begin(), p.end());
-        for (const std::uint32_t i : {0, 1, 2, 0, 2, 3}) triangles.push_back(first + i);
-    }
-    // The sides of a box without top, facing outwards or inwards.
-    void add_tray(const Vector& a, const Vector& b, bool outwards) {
-        const auto face = [&](const Vector& p, const Vector& q, const Vector& r, const Vector& s) {
-            if (outwards)
-                add(p, q, r, s);
-            else
-                add(s, r, q, p);
-        };
-        face({a[0], a[1], a[2]}, {b[0], a[1], a[2]}, {b[0], a[1], b[2]}, {a[0], a[1], b[2]});
-        face({a[0], a[1], b[2]}, {b[0], a[1], b[2]}, {b[0], b[1], b[2]}, {a[0], b[1], b[2]});
-        face({b[0], a[1], a[2]}, {a[0], a[1], a[2]}, {a[0], b[1], a[2]}, {b[0], b[1], a[2]});
-        face({a[0], a[1], a[2]}, {a[0], a[1], b[2]}, {a[0], b[1], b[2]}, {a[0], b[1], a[2]});
-        face({b[0], a[1], b[2]}, {b[0], a[1], a[2]}, {b[0], b[1], a[2]}, {b[0], b[1], b[2]});
-    }
-};
-
-Surface box(const Vector& a, const Vector& b) {
-    Surface s;
-    s.add_tray(a, b, true);
-    s.add({a[0], b[1], b[2]}, {b[0], b[1], b[2]}, {b[0], b[1], a[2]}, {a[0], b[1], a[2]});
-    return s;
-}
-
-// A box with a square cavity that is open above.
-Surface cup(const Vector& a, const Vector& b, float wall) {
-    const Vector c{a[0] + wall, a[1] + wall, a[2] + wall}, d{b[0] - wall, b[1], b[2] - wall};
-    Surface s;
-    s.add_tray(a, b, true);
-    s.add_tray(c, d, false);
-    const float y = b[1];
-    s.add({a[0], y, b[2]}, {b[0], y, b[2]}, {d[0], y, d[2]}, {c[0], y, d[2]});
-    s.add({b[0], y, b[2]}, {b[0], y, a[2]}, {d[0], y, c[2]}, {d[0], y, d[2]});
-    s.add({b[0], y, a[2]}, {a[0], y, a[2]}, {c[0], y, c[2]}, {d[0], y, c[2]});
-    s.add({a[0], y, a[2]}, {a[0], y, b[2]}, {c[0], y, d[2]}, {c[0], y, c[2]});
-    return s;
-}
-
-// A glTF file that grows.
-struct Gltf {
-    Json json{{"scenes", {{{"nodes", Json::array()}}}}, {"nodes", Json::array()}};
-    GlbBytes bytes;
-
-    std::size_t add(const char* list, Json element) {
-        json[list].push_back(std::move(element));
-        return json[list].size() - 1;
-    }
-    template <class Number>
-    std::size_t accessor(const std::vector<Number>& numbers, const char* type, std::size_t columns, int component) {
-        const std::size_t view = add("bufferViews", Json::parse(bytes.add(numbers)));
-        return add(
-            "accessors",
-            {{"bufferView", view}, {"componentType", component}, {"count", numbers.size() / columns}, {"type", type}});
-    }
-    std::size_t position(const Surface& s) { return accessor(s.places, "VEC3", 3, 5126); }
-    Json primitive(const Surface& s, std::size_t material) {
-        return {{"attributes", {{"POSITION", position(s)}}},
-                {"indices", accessor(s.triangles, "SCALAR", 1, 5125)},
-                {"material", material}};
-    }
-    std::size_t mesh(const Surface& s, std::size_t material) {
-        return add("meshes", {{"primitives", {primitive(s, material)}}});
-    }
-    std::size_t material(const std::string& name, Json extensions = Json::object(), Json more = Json::object()) {
-        Json made{{"name", name}, {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}}};
-        for (const auto& [key, value] : extensions.items()) made["extensions"]["KHR_materials_" + key] = value;
-        made.update(more, true);
-        return add("materials", std::move(made));
-    }
-    std::size_t clear(const std::string& name, float ior, Json extensions = Json::object(),
-                      Json more = Json::object()) {
-        Json all{{"transmission", {{"transmissionFactor", 1}}},
-                 {"volume", {{"thicknessFactor", 1}}},
-                 {"ior", {{"ior", ior}}}};
-        all.update(extensions);
-        return material(name, all, std::move(more));
-    }
-    void node(const std::string& name, std::size_t mesh, Json more = Json::object()) {
-        Json made{{"name", name}, {"mesh", mesh}};
-        made.update(more);
-        json["scenes"][0]["nodes"].push_back(add("nodes", std::move(made)));
-    }
-    std::string file() const {
-        std::string text = json.dump();
-        return glb(text.substr(1, text.size() - 2), bytes.bytes());
-    }
-};
-
-struct Import : Shell {
-    Outcome import(const Gltf& gltf, std::vector<std::string> more = {}) const {
-        write_text(directory / "in.glb", gltf.file());
-        std::vector<std::string> words{"import", "in.glb", "-o", "out.json"};
-        words.insert(words.end(), more.begin(), more.end());
-        return run(words);
-    }
-    Outcome import_well(const Gltf& gltf, std::vector<std::string> more = {}) const {
-        more.emplace_back("--force");
-        const Outcome o = import(gltf, more);
-        CHECK_MESSAGE(o.code == 0, o.err);
-        const Outcome check = run({"check", "out.json"});
-        CHECK_MESSAGE(check.code == 0, check.err);
-        CHECK(check.err == "");
-        return o;
-    }
-    Json scene() const { return Json::parse(bytes_of(directory / "out.json")); }
-    // The names of the phases at points of glTF's space.
-    std::string phases_at(const std::vector<Vector>& points) const {
-        std::string input, names;
-        for (const Vector& p : points) input += fmt::format("{} {} {}\n", p[0], -p[2], p[1]);
-        const std::string csv = run({"eval", "out.json"}, input).out;
-        // x, y, z, phase, …
-        for (std::size_t line = csv.find('\n') + 1; line < csv.size(); line = csv.find('\n', line) + 1) {
-            std::size_t from = line;
-            for (int i = 0; i < 3; ++i) from = csv.find(',', from) + 1;
-            names += (names.empty() ? "" : " ") + csv.substr(from, csv.find(',', from) - from);
-        }
-        return names;
-    }
-    std::size_t entries() const {
-        return static_cast<std::size_t>(
-            std::distance(fs::directory_iterator(directory.path()), fs::directory_iterator()));
-    }
-};
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-// A cup of 2 mm walls around a cavity of 16 mm, with water that reaches 0.3 mm into it, ice half in the water, and a
-// table.
-Gltf drink() {
-    Gltf g;
-    const std::size_t wood = g.material("Wood"), glass = g.clear("Glass", 1.5f), water = g.clear("Water", 1.33f),
-                      ice = g.clear("Ice", 1.31f);
-    g.node("Table", g.mesh(box({-0.1f, -0.01f, -0.1f}, {0.1f, 0, 0.1f}), wood));
-    g.node("Drink", g.mesh(box({-0.0083f, 0.0017f, -0.0083f}, {0.0083f, 0.012f, 0.0083f}), water));
-    g.node("Cup", g.mesh(cup({-0.01f, 0, -0.01f}, {0.01f, 0.02f, 0.01f}, 0.002f), glass));
-    g.node("Cube", g.mesh(box({-0.002f, 0.010f, -0.002f}, {0.002f, 0.014f, 0.002f}), ice));
-    g.add("cameras",
-          {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"aspectRatio", 1.5}, {"znear", 0.01}}}});
-    g.json["scenes"][0]["nodes"].push_back(g.add("nodes", {{"camera", 0}, {"translation", {0, 0.01, 0.1}}}));
-    return g;
-}
-
-}  // namespace
+using namespace phasetree::tests::imports;
 
 TEST_CASE("a drink becomes phases: glass keeps its wall, ice its part of the water; the table stays a mesh") {
     const Import shell;
@@ -293,108 +126,6 @@ TEST_CASE("instances, mirrored nodes, skins and morph targets are where they are
     CHECK(shell.scene()["tree"]["set"]["of"]["union"].size() == 6);
 }
 
-TEST_CASE("overlaps: priorities come first, then containment, then matter, then the file") {
-    const Import shell;
-    const auto phases = [&](const std::vector<std::pair<std::string, Vector>>& boxes, const std::vector<Vector>& points,
-                            const std::vector<int>& priorities = {}) {
-        Gltf g;
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const auto& [name, range] = boxes[i];
-            const Json extras = i < priorities.size() && priorities[i] != 0
-                                    ? Json{{"extras", {{"phasetree_priority", priorities[i]}}}}
-                                    : Json::object();
-            g.node("node", g.mesh(box({range[0], 0, 0}, {range[1], range[2], range[2]}), g.clear(name, 1.5f)), extras);
-        }
-        (void)shell.import_well(g);
-        return shell.phases_at(points);
-    };
-    const std::vector<Vector> both{{1.5f, 0.5f, 0.5f}};
-    CHECK(phases({{"water", {0, 2, 1}}, {"glass", {1, 3, 1}}}, both) == "glass");
-    CHECK(phases({{"glass", {0, 2, 1}}, {"water", {1, 3, 1}}}, both) == "glass");
-    CHECK(phases({{"water", {0, 2, 1}}, {"air", {1, 3, 1}}}, both) == "air");
-    CHECK(phases({{"air", {0, 2, 1}}, {"glass", {1, 3, 1}}}, both) == "glass");
-    CHECK(phases({{"glass", {0, 2, 1}}, {"ice", {1, 3, 1}}}, both) == "glass");
-    CHECK(phases({{"ice", {0, 2, 1}}, {"glass", {1, 3, 1}}}, both) == "ice");
-    CHECK(phases({{"ice", {0, 2, 1}}, {"glass", {1, 3, 1}}}, both, {0, 1}) == "glass");
-    CHECK(phases({{"water", {0, 2, 1}}, {"glass", {1, 3, 1}}}, both, {1, 0}) == "water");
-    // What lies within the other is kept, even a liquid within a solid.
-    CHECK(phases({{"glass", {0, 3, 3}}, {"water", {1, 2, 1}}}, both) == "water");
-    CHECK(phases({{"glass", {0, 3, 3}}, {"water", {1, 2, 1}}}, both, {1, 0}) == "glass");
-    CHECK(phases({{"Glass of water", {0, 2, 1}}, {"Orange_juices", {1, 3, 1}}}, both) == "Glass of water");
-    CHECK(phases({{"OrangeJuice", {0, 2, 1}}, {"Water glass", {1, 3, 1}}}, both) == "Water glass");
-    // An index is a hint only for names that say nothing.
-    Gltf g;
-    g.node("a", g.mesh(box({0, 0, 0}, {2, 1, 1}), g.clear("x", 1.34f)));
-    g.node("b", g.mesh(box({1, 0, 0}, {3, 1, 1}), g.clear("y", 1.5f)));
-    g.node("c", g.mesh(box({2.5f, 0, 0}, {4, 1, 1}), g.clear("z", 1.0f)));
-    const Outcome o = shell.import_well(g);
-    CHECK(has(o.out, "\"a\" and \"b\" overlap by up to 0.4"));
-    CHECK(has(o.out, "\"b\" wins (solid over gas)\n"));
-    CHECK(shell.phases_at({{1.5f, 0.5f, 0.5f}, {2.7f, 0.5f, 0.5f}, {3.5f, 0.5f, 0.5f}}) == "y y z");
-    // Rules that contradict each other: liquid within a solid, and a gas through both.
-    Gltf circle;
-    circle.node("block", circle.mesh(box({0, 0, 0}, {9, 9, 9}), circle.clear("glass", 1.5f)));
-    circle.node("core", circle.mesh(box({3, 3, 3}, {6, 6, 6}), circle.clear("water", 1.33f)));
-    circle.node("hose", circle.mesh(box({4, 4, 4}, {5, 5, 12}), circle.clear("air", 1.0f)));
-    CHECK(has(shell.import_well(circle).err, "against the rule (gas over liquid)"));
-}
-
-TEST_CASE("a thin gap is reported with its width, unless something fills it") {
-    const Import shell;
-    Gltf g;
-    g.node("Cup", g.mesh(cup({-10, 0, -10}, {10, 20, 10}, 2), g.clear("glass", 1.5f)));
-    g.node("Drink", g.mesh(box({-7.9f, 2.1f, -7.9f}, {7.9f, 12, 7.9f}), g.clear("water", 1.33f)));
-    g.node("Cube", g.mesh(box({7.5f, 5, -1}, {7.8f, 7, 1}), g.clear("ice", 1.31f)));
-    const Outcome o = shell.import_well(g);
-    CHECK(has(o.out, "\"Cup\" and \"Drink\" have a gap of 0.1 to 0.1 m along"));
-    CHECK(has(o.out, "\"Cube\" wins (within the other)\n"));
-    CHECK_FALSE(has(o.out, "\"Cup\" and \"Cube\""));
-    // The liquid flows to the glass.
-    CHECK(has(o.out, "gaps narrower than 0.2 m between the phases water, glass are closed; --keep-gaps keeps them\n"));
-    const std::vector<Vector> across_wall{{7.85f, 6, 3}, {7.95f, 6, 3}, {8.05f, 6, 3}, {7.95f, 15, 3}};
-    CHECK(shell.phases_at(across_wall) == "water water glass vacuum");
-    const Json closed = shell.scene()["tree"]["close_gaps"];
-    CHECK(closed["phases"] == Json::parse(R"(["water", "glass"])"));
-    CHECK(closed["gap"] == 0.2);
-    const Outcome kept = shell.import_well(g, {"--keep-gaps"});
-    CHECK(has(kept.out, "have a gap of 0.1 to 0.1 m along"));
-    CHECK_FALSE(has(kept.out, "closed"));
-    CHECK(shell.phases_at(across_wall) == "water vacuum glass vacuum");
-    CHECK(shell.scene()["tree"].contains("over"));
-}
-
-TEST_CASE("a gap wider than the wall of the glass is measured from within") {
-    const Import shell;
-    Gltf g;
-    g.node("Cup", g.mesh(cup({-40, 0, -40}, {40, 80, 40}, 0.6f), g.clear("glass", 1.5f)));
-    g.node("Wine", g.mesh(box({-38.7f, 1.3f, -38.7f}, {38.7f, 50, 38.7f}), g.clear("wine", 1.34f)));
-    const Outcome o = shell.import_well(g);
-    CHECK(has(o.out, "\"Cup\" and \"Wine\" have a gap of 0.7 to 0.7 m along"));
-    const double closed = shell.scene()["tree"]["close_gaps"]["gap"].get<double>();
-    CHECK(closed >= 1.4);
-    CHECK(closed <= 1.6);  // near edges, gaps are up to a tenth wider
-}
-
-TEST_CASE("gaps are left alone between solids, at a small part of surfaces, and within a phase") {
-    const Import shell;
-    Gltf panes;
-    panes.node("a", panes.mesh(box({0, 0, 0}, {1, 1, 0.01f}), panes.clear("glass", 1.5f)));
-    panes.node("b", panes.mesh(box({0, 0, 0.02f}, {1, 1, 0.03f}), panes.clear("acrylic", 1.49f)));
-    CHECK_FALSE(has(shell.import_well(panes).out, "closed"));
-    Gltf g;
-    // Two cubes side by side, shifted so that they face each other at a fiftieth of their surfaces.
-    g.node("a", g.mesh(box({0, 0, 0}, {1, 1, 1}), g.clear("glass", 1.5f)));
-    g.node("b", g.mesh(box({1.01f, 0.88f, 0}, {2.01f, 1.88f, 1}), g.clear("water", 1.33f)));
-    CHECK_FALSE(has(shell.import_well(g).out, "closed"));
-    Gltf same;
-    const std::size_t glass = same.clear("glass", 1.5f);
-    same.node("a", same.mesh(box({0, 0, 0}, {1, 1, 1}), glass));
-    same.node("b", same.mesh(box({1.01f, 0, 0}, {2.01f, 1, 1}), glass));
-    const Outcome o = shell.import_well(same);
-    CHECK(has(o.out, "have a gap of 0.01 to 0.01 m"));
-    CHECK_FALSE(has(o.out, "closed"));
-}
-
 TEST_CASE("what is no solid is left out, by its name") {
     const Import shell;
     Gltf g;
@@ -477,68 +208,30 @@ TEST_CASE("lights become lights, and exposure is theirs") {
     CHECK(shell.run({"render", "out.json", "--size", "4x3", "--spp", "1", "-o", "a.png", "--quiet"}).err == "");
 }
 
-TEST_CASE("nothing is replaced without --force, and errors leave no file") {
-    Import shell;
-    const Gltf g = drink();
-    const auto refused = [&](const std::vector<std::string>& words, const std::string& said, int code = 2) {
-        const Outcome o = shell.run(words);
-        CAPTURE(o.err);
-        CHECK(o.code == code);
-        CHECK(has(o.err, said));
-        CHECK(o.err.size() < 400);
-    };
-    write_text(shell.directory / "in.glb", g.file());
-    refused({"import", "in.glb"}, "--output is required");
-    refused({"import", "in.glb", "-o", "in.glb"}, "must end in .json");
-    refused({"import", "in.obj", "-o", "out.json"}, "must end in .glb or .gltf");
-    refused({"import", "none.glb", "-o", "out.json"}, "no such file none.glb");
-    refused({"import", "in.glb", "-o", "nowhere/out.json"}, "nowhere", 1);
-    write_text(shell.directory / "short.glb", g.file().substr(0, 900));
-    refused({"import", "short.glb", "-o", "out.json"}, "short.glb: the file ends too early");
-    CHECK(shell.entries() == 2);
-    // As a full disk: there is room for small meshes, and for no larger one.
-    shell.in_child = [] {
-        const rlimit limit{900, 900};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    };
-    refused({"import", "in.glb", "-o", "out.json"}, "File too large", 1);
-    shell.in_child = {};
-    CHECK(shell.entries() == 2);
-    CHECK(shell.import(g).code == 0);
-    const std::string before = bytes_of(shell.directory / "out.json");
-    refused({"import", "in.glb", "-o", "out.json"},
-            "out.json exists; choose another name with --output, or replace it "
-            "with --force");
-    fs::remove(shell.directory / "out.json");
-    refused({"import", "in.glb", "-o", "out.json"}, "out.meshes/Drink.ply exists");
-    CHECK(shell.import(g, {"--force"}).code == 0);
-    CHECK(bytes_of(shell.directory / "out.json") == before);
-    // A scene in another folder finds everything.
-    fs::create_directory(shell.directory / "there");
-    CHECK(shell.run({"import", "in.glb", "-o", "there/out.json"}).code == 0);
-    CHECK(shell.run({"check", "there/out.json"}).err == "");
-}
-
-TEST_CASE("Ctrl-C ends an import, and no file is left") {
+TEST_CASE("cameras and lights that are left out are reported") {
     const Import shell;
-    Gltf g;
-    Surface many;
-    for (int i = 0; i < 20'000; ++i) {
-        const auto x = static_cast<float>(2 * i);
-        const Surface one = box({x, 0, 0}, {x + 1, 1, 1});
-        const auto first = static_cast<std::uint32_t>(many.places.size() / 3);
-        many.places.insert(many.places.end(), one.places.begin(), one.places.end());
-        for (const std::uint32_t t : one.triangles) many.triangles.push_back(first + t);
-    }
-    g.node("many", g.mesh(many, g.clear("glass", 1.5f)));
-    write_text(shell.directory / "in.glb", g.file());
-    bool is_sent = false;
-    const Outcome o = shell.run({"import", "in.glb", "-o", "out.json"}, "", [&](pid_t process) {
-        if (!is_sent && catches(process, SIGUSR1) && catches(process, SIGINT)) is_sent = ::kill(process, SIGINT) == 0;
-    });
-    CHECK(o.code == 130);
-    CHECK(o.err == "phasetree: interrupted while importing; no file was written\n");
-    CHECK(shell.entries() == 1);
+    Gltf g = drink();
+    g.json["cameras"] = {{{"type", "orthographic"}, {"name", "Front"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}};
+    g.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    g.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "Off"}, {"intensity", 0}},
+        {{"type", "point"}, {"intensity", -5}},
+        {{"type", "directional"}, {"name", "Dark"}, {"color", {0, 0, 0}}},
+        {{"type", "point"}, {"name", "Odd"}, {"color", {1, -1, 0}}, {"intensity", 2}},
+        {{"type", "point"}, {"name", "Key"}, {"intensity", 2}}};
+    for (int i = 0; i < 5; ++i)
+        g.json["scenes"][0]["nodes"].push_back(
+            g.add("nodes", {{"translation", {0, 1, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}}));
+    const Outcome o = shell.import_well(g);
+    CHECK(o.err ==
+          "warning: in.glb: the camera \"Front\" is orthographic and left out; write it into the scene by hand, as an "
+          "\"orthographic\" camera\n"
+          "warning: in.glb: the light \"Off\" has the intensity 0 and is left out\n"
+          "warning: in.glb: the light 1 has a negative intensity and is left out\n"
+          "warning: in.glb: the light \"Dark\" has a black or negative colour and is left out\n"
+          "warning: in.glb: the light \"Odd\" has a colour with negative components, which become 0\n");
+    CHECK(shell.scene()["lights"].size() == 3);  // two of the file, and the sky
+    CHECK(shell.scene()["camera"]["fov"] == 30);
 }
 
 }  // namespace test_import

@@ -150,8 +150,9 @@ TEST_CASE("check of a scene without a camera says what it is good for") {
 
     const Outcome unbounded = check(tree_of(R"({"plane": {}})"));
     CHECK(unbounded.code == 3);
-    CHECK(unbounded.out.find("can be used by eval and info, but not traced, because it is unbounded") !=
-          std::string::npos);
+    CHECK(
+        unbounded.out.find("can be used by eval and info, but not traced, because the node in line 2, column 43 makes "
+                           "it unbounded") != std::string::npos);
     CHECK(shell.run({"eval", "scene.json"}).code == 0);
     CHECK(shell.run({"trace", "scene.json"}).code == 2);
 
@@ -173,6 +174,34 @@ TEST_CASE("check of a scene without a camera says what it is good for") {
         CHECK(wrong.out == "");
         CHECK(wrong.err.find(w.message) != std::string::npos);
     }
+}
+
+TEST_CASE("an unbounded object is an error at the node that makes it unbounded") {
+    const Shell shell;
+    SceneText scene;
+    scene.tree = R"({"over": [{"set": {"phase": "glass", "of": "ball"}},
+        {"set": {"phase": "glass", "of": {"union": ["ball", {"plane": {}}, {"plane": {"offset": 1}}]}}}]})";
+    write_text(shell.directory / "scene.json", scene.text());
+    const std::string message =
+        "this \"plane\" makes the object unbounded (as does \"plane\" at 5:77); intersect it with a box: "
+        "{\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}\n";
+    for (const char* const command : {"check", "render", "trace"}) {
+        const Outcome o = shell.run({command, "scene.json"});
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.starts_with("scene.json:5:62: " + message));
+    }
+    // In the file of one of several objects, or in the scene itself.
+    write_text(shell.directory / "objects.json", R"({"version": 1, "phases": {"wood": {"diffuse": {}}}, "objects": [
+        {"name": "floor", "file": "scene.json"}]})");
+    CHECK(shell.run({"info", "objects.json"}).err.starts_with("scene.json:5:62: \"floor\": " + message));
+    write_text(shell.directory / "objects.json", R"({"version": 1, "phases": {"wood": {"diffuse": {}}}, "objects": [
+        {"name": "floor", "tree": {"strata": {"phases": ["wood", "wood"], "thicknesses": [1]}}}]})");
+    const Outcome o = shell.run({"info", "objects.json"});
+    CHECK(o.code == 2);
+    CHECK(
+        o.err.starts_with("objects.json:2:36: \"floor\": this \"strata\" makes the object unbounded; intersect it "
+                          "with a box: {\"intersect_shape\": {\"of\": {\"strata\": …}, \"shape\": {\"box\": …}}}\n"));
 }
 
 TEST_CASE("an object of which nothing is left is worth a sentence") {

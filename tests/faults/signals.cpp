@@ -1,5 +1,5 @@
-// Signals at any time during a render: whole files or none. After SIGINT and SIGTERM nothing else is left; after
-// SIGKILL nobody can take a temporary file away before the same file is written again, but it is told by its name.
+// Signals at any time during a render: output files are complete or missing. SIGINT and SIGTERM leave nothing else.
+// SIGKILL may leave a temporary file, which has a recognisable name and is removed when the same file is written again.
 #include <time.h>
 
 #include "faults/support/child.hpp"

@@ -21,7 +21,7 @@ inline void walk_density(VoxelGrid grid) {
         float last = 0.0f;
         // No more than blocks along the three axes.
         for (int count = 0; const auto stretch = stretches.next(); ++count) {
-            promised(count < 4 * VoxelGrid::most_along_axis, "a way through voxels ends");
+            promised(count < 4 * VoxelGrid::max_along_axis, "a way through voxels ends");
             promised(stretch->from >= last && stretch->to > stretch->from, "stretches follow each other");
             promised(stretch->bound > 0.0f && stretch->bound <= 1.0f, "bounds are shares");
             last = stretch->to;

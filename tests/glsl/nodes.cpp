@@ -203,20 +203,20 @@ TEST_CASE("nodes' examples have the same values, labels and gradients in GLSL ES
 }
 
 TEST_CASE("examples are the same by a table of instructions, and by programs of boxes") {
-    compare_examples(GlDialect::es_300, {.most_calls = 0}, some);
-    compare_examples(GlDialect::es_300, {.most_numbers_in_text = 0, .grid = 6}, some);
+    compare_examples(GlDialect::es_300, {.max_calls = 0}, some);
+    compare_examples(GlDialect::es_300, {.max_numbers_in_text = 0, .grid = 6}, some);
 }
 
 TEST_CASE("examples are the same in GLSL 3.30") {
     compare_examples(GlDialect::desktop_330, {}, some);
-    compare_examples(GlDialect::desktop_330, {.most_calls = 0}, 2 * some);
+    compare_examples(GlDialect::desktop_330, {.max_calls = 0}, 2 * some);
 }
 
 // Nodes under others, with other numbers than their examples have.
 TEST_CASE("random trees have the same values, labels and gradients in GLSL ES 3.00") {
     const auto gl = GlContext::make(GlDialect::es_300);
     if (!gl) return;
-    const GlslOptions ways[] = {{}, {.most_calls = 0}, {.most_numbers_in_text = 0, .grid = 6}};
+    const GlslOptions ways[] = {{}, {.max_calls = 0}, {.max_numbers_in_text = 0, .grid = 6}};
     Comparison all;
     int trees = 0;
     const auto kinds = node_kinds();

@@ -137,7 +137,7 @@ TEST_CASE("labels and normals along rays through scenes agree with the CPU") {
     for (const std::string& name : scenes()) {
         const Phased object = read_scene(name);
         check(name + ", whole", traced(*gl, object, rng, {}));
-        check(name + ", grid", traced(*gl, object, rng, {.most_numbers_in_text = 0, .grid = 12}));
+        check(name + ", grid", traced(*gl, object, rng, {.max_numbers_in_text = 0, .grid = 12}));
     }
 }
 

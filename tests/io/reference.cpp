@@ -32,6 +32,16 @@ bool has_node(std::string_view name) {
 
 }  // namespace
 
+TEST_CASE("a text that is one of several words is described by these words and its default") {
+    const std::vector<KindPage> pages = pages_of_nodes();
+    const auto mesh = std::ranges::find(pages, "mesh", &KindPage::name);
+    REQUIRE(mesh != pages.end());
+    const ParameterPage& rule = mesh->parameters.at(1);
+    CHECK(rule.type == "`\"winding_number\"`, `\"even_odd\"`, `\"non_zero\"`");
+    CHECK(rule.default_value == "\"winding_number\"");
+    CHECK(rule.schema == R"({"enum":["winding_number","even_odd","non_zero"]})");
+}
+
 TEST_CASE("every node describes itself and all its parameters, in the page and in the schema") {
     const std::vector<KindPage> pages = pages_of_nodes();
     const std::string text = reference_text(node_chapters());

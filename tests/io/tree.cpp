@@ -183,6 +183,11 @@ TEST_CASE("the reference says what the program does") {
     }
 }
 
+TEST_CASE("a text that is one of several words is checked where it is written, before files are read") {
+    CHECK(error_of(R"({"set": {"phase": "a", "of": {"mesh": {"file": "none.obj", "rule": "even-odd"}}}})") ==
+          "\"rule\" must be one of \"winding_number\", \"even_odd\", \"non_zero\", but is \"even-odd\"");
+}
+
 TEST_CASE("a document's files may have to lie in a folder") {
     const Document anywhere = Document::from_text(R"(["a.png", "../a.png", "/etc/passwd"])", "/tmp/scene.json");
     CHECK(anywhere.file(anywhere.root()[1]) == "/tmp/../a.png");

@@ -87,10 +87,10 @@ TEST_CASE("no point of any phase of any tree lies outside, however little work t
                        [&](int i) { sets.push_back(PhaseSet::of(Phase{static_cast<std::uint8_t>(i)})); });
         for (const PhaseSet of : sets) {
             CarveOptions options;
-            options.most_evaluations = rng.chance(0.5) ? 300 : 6000;
-            options.most_planes = 6 + rng.below(20);
+            options.max_evaluations = rng.chance(0.5) ? 300 : 6000;
+            options.max_planes = 6 + rng.below(20);
             const CarvedBounds carved = carve(object, of, options);
-            CHECK(carved.evaluations <= options.most_evaluations + 200);
+            CHECK(carved.evaluations <= options.max_evaluations + 200);
             const Outside found = points_outside(object, of, carved, rng, 1500);
             points += found.points;
             CHECK(found.outside == 0);
@@ -186,7 +186,7 @@ TEST_CASE("what has no bounds is rejected, what is empty has none, and work can 
     options.cancelled = [] { return true; };
     CHECK_THROWS_AS(carve(Field(Sphere{}), options), CarvingCancelled);
     options = {};
-    options.most_planes = 3;
+    options.max_planes = 3;
     CHECK_THROWS_AS(carve(Field(Sphere{}), options), ModelError);
     options = {};
     options.directions = {glm::dvec3(0)};

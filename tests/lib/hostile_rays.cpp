@@ -36,7 +36,7 @@ const Phased object =
     Under{.of = {Set{.phase = Phase{1}, .of = Sphere{}}, Set{.phase = Phase{2}, .of = Box{.size = {1, 1, 3}}}}};
 
 /// Batches that a ray takes at most where what it creeps along can be enclosed.
-constexpr std::uint64_t most_batches = 5000;
+constexpr std::uint64_t max_batches = 5000;
 /// And at all, by the law of trace/creep.hpp: 524,288, and then some for each doubling of its steps.
 constexpr std::uint64_t most_batches_at_all = 600'000;
 
@@ -70,7 +70,7 @@ TEST_CASE("rays that are no rays meet nothing in bounded time") {
         }
     }
     CHECK(crossings == 0);
-    CHECK(most < most_batches);
+    CHECK(most < max_batches);
 }
 
 TEST_CASE("a ray without a direction meets nothing") {
@@ -81,7 +81,7 @@ TEST_CASE("a ray without a direction meets nothing") {
             TraceCounters c;
             CHECK_FALSE(tracer.first_crossing(o, {0, 0, 0}, 0, t_max, {}, w, &c).has_value());
             CHECK_FALSE(tracer.first_crossing(o, {0, 0, 0}, 0, t_max, tracer.label(o, w), w, &c).has_value());
-            CHECK(c.batches < 2 * most_batches);
+            CHECK(c.batches < 2 * max_batches);
         }
     }
 }
@@ -175,16 +175,16 @@ TEST_CASE("a ray creeps along any surface in bounded time, at any resolution, an
         std::uint64_t most;
     };
     const Creep creeps[] = {
-        {"a face", Box{.size = glm::vec3(1)}, {-3, 0.1f, 0.5f}, {1, 0, 0}, most_batches},
-        {"an edge", Box{.size = glm::vec3(1)}, {-3, 0.5f, 0.5f}, {1, 0, 0}, most_batches},
+        {"a face", Box{.size = glm::vec3(1)}, {-3, 0.1f, 0.5f}, {1, 0, 0}, max_batches},
+        {"an edge", Box{.size = glm::vec3(1)}, {-3, 0.5f, 0.5f}, {1, 0, 0}, max_batches},
         {"a seam",
          Union{.of = {Box{.size = glm::vec3(1)}, warped(Translate{{0, 1, 0}}, Box{.size = glm::vec3(1)})}},
          {-3, 0.5f, 0.5f},
          {1, 0, 0},
-         most_batches},
-        {"a line of a cylinder", Cylinder{.radius = 0.5f, .height = 2}, {0.3f, 0.4f, -5}, {0, 0, 1}, most_batches},
-        {"a twisted surface", twisted(Box{.size = {1, 0.5f, 2}}), {-3, 0.25f, 0}, {1, 0, 0}, most_batches},
-        {"a pyramid's face", Pyramid{.base = 2, .height = 1}, {3, 0, -2.5f}, {-1, 0, 1}, most_batches},
+         max_batches},
+        {"a line of a cylinder", Cylinder{.radius = 0.5f, .height = 2}, {0.3f, 0.4f, -5}, {0, 0, 1}, max_batches},
+        {"a twisted surface", twisted(Box{.size = {1, 0.5f, 2}}), {-3, 0.25f, 0}, {1, 0, 0}, max_batches},
+        {"a pyramid's face", Pyramid{.base = 2, .height = 1}, {3, 0, -2.5f}, {-1, 0, 1}, max_batches},
         {"an outline", Extrude{.of = outline, .height = 1}, {-3, 0.25f, 0.1f}, {1, 0, 0}, most_batches_at_all},
     };
     Evaluator::Workspace w;

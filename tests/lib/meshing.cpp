@@ -300,8 +300,8 @@ TEST_CASE("a plate and a slit 1.2 times as thick as the grid are whole, however 
 TEST_CASE("what is thinner than the grid is counted") {
     const Phased shell = ThinShell{.of = Sphere{.radius = 1}, .shell = one, .inside = two, .half_thickness = 0.01f};
     const PhaseMesh coarse = meshed(shell, 0.1f), fine = meshed(of(one, Sphere{.radius = 1}), 0.1f);
-    CHECK(coarse.passed_over > coarse.crossings / 4);
-    CHECK(fine.passed_over < fine.crossings / 50);
+    CHECK(coarse.skipped > coarse.crossings / 4);
+    CHECK(fine.skipped < fine.crossings / 50);
     for (const Phase phase : {vacuum, one, two}) CHECK(faults_of(coarse, PhaseSet::of(phase)) == 0);
 }
 

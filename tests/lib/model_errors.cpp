@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "math/dual.hpp"
+#include "phasetree/carving/carve.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/write.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 #include "support/dual_distances.hpp"
 #include "support/random_node.hpp"
 #include "tree/node.hpp"
@@ -305,8 +307,40 @@ TEST_CASE("an object that cannot be traced says so") {
     };
     CHECK(why(object) == "no error");
     CHECK(why(Set{.phase = Phase{1}, .of = Plane{}}) ==
-          "the object is unbounded; cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+          "the object is unbounded because of its \"plane\" (at set.of.plane); intersect it with a box: "
+          "{\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}");
     CHECK(why(Set{.phase = Phase{1}, .of = Offset{.of = ball, .amount = -2}}) == "the object is empty");
+}
+
+TEST_CASE("the nodes that make an object unbounded are found") {
+    const auto paths = [](const auto& tree) {
+        std::string all;
+        for (const UnboundedPart& part : unbounded_parts(tree)) all += (all.empty() ? "" : " ") + part.path;
+        return all;
+    };
+    const Field plane = Plane{}, other = Plane{.normal = {0, 0, -1}}, side = Plane{.normal = {1, 0, 0}};
+    CHECK(paths(ball) == "");
+    CHECK(paths(plane) == "plane");
+    CHECK(paths(Field(Union{.of = {ball, plane}})) == "union.of[1].plane");
+    // What is subtracted from a ball may be unbounded; what a ball is subtracted from may not.
+    CHECK(paths(Field(Difference{.from = ball, .subtract = {plane}})) == "");
+    CHECK(paths(Field(Difference{.from = plane, .subtract = {ball, side}})) == "difference.from.plane");
+    // A node whose children are bounded, or are each needed, is itself the reason.
+    CHECK(paths(Field(FieldEndlessGrid{{.of = Sphere{.radius = 0.2f}, .spacing = {1, 0, 0}}})) == "endless_grid");
+    CHECK(paths(Field(Union{.of = {ball, Intersection{.of = {plane, side}}}})) == "union.of[1].intersection");
+    // A shared node is reported once, and there are at most three.
+    CHECK(paths(Field(Union{.of = {plane, plane}})) == "union.of[0].plane");
+    CHECK(paths(Field(Union{.of = {plane, other, side, Plane{.offset = 1}}})) ==
+          "union.of[0].plane union.of[1].plane union.of[2].plane");
+    const Phased both = Over{.of = {Set{.phase = Phase{2}, .of = ball}, Set{.phase = Phase{1}, .of = plane}}};
+    CHECK(paths(both) == "over.of[1].set.of.plane");
+    CHECK(how_to_bound(unbounded_parts(plane).front()) ==
+          "intersect it with a box: {\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}");
+    CHECK_THROWS_WITH_AS((void)carve(plane), doctest::Contains("because of its \"plane\" (at plane)"), UnboundedError);
+    // Many unbounded parts, none of which is the reason: the search gives up early.
+    std::vector<Field> many;
+    for (int i = 0; i < 3000; ++i) many.push_back(Plane{.normal = {1, 0, 0.001f * static_cast<float>(i)}});
+    CHECK(paths(Field(Intersection{.of = many})) == "intersection");
 }
 
 }  // namespace test_model_errors

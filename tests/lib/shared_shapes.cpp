@@ -1,6 +1,6 @@
-// Shapes made of shapes, forty levels of them, each with the one below as every child that it has: few nodes that stand
-// for billions. What walks a tree must go through each node once, or count what it does and refuse; a test that does
-// not end tells of one that does neither.
+// Trees of forty levels, in which every child of a node is the same node of the level below: few nodes that stand for
+// billions. A function that walks a tree must visit each node once, or count its steps and give up. One that does
+// neither shows as a test that does not end.
 #include <doctest/doctest.h>
 
 #include "phasetree/io/write.hpp"

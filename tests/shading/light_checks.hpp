@@ -62,8 +62,8 @@ struct PValues {
 };
 
 // χ² test of sampled directions. `sample(u)` gives an optional direction, `bin(direction)` its cell or -1.
-// The defect draws 1 % of the samples from half of the unit square only; its χ²-distance is 0.01² = 1e-4 or more, and
-// so many samples are taken that this is seen.
+// The defect draws 1 % of the samples from half of the unit square only; its χ²-distance is 0.01² = 1e-4 or more. The
+// number of samples is large enough to detect it.
 template <class Sample, class Bin>
 PValues direction_test(const std::vector<double>& probability, const Sample& sample, const Bin& bin) {
     const std::size_t cells = probability.size();

@@ -69,7 +69,7 @@ struct Scene {
 
 struct Totals {
     std::size_t rays = 0, lines = 0, roots = 0, missed = 0, flickering = 0, uncertified = 0;
-    std::uint64_t batches = 0, most_batches = 0;
+    std::uint64_t batches = 0, max_batches = 0;
     double most_crept = 0;  ///< in resolutions
     std::vector<std::string> complaints;
 };
@@ -312,7 +312,7 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
         TraceCounters counters;
         const auto hit = tracer.first_crossing(origin, scene.d, length, carried, last ? &*last : nullptr, counters);
         totals.batches += counters.batches;
-        totals.most_batches = std::max(totals.most_batches, counters.batches);
+        totals.max_batches = std::max(totals.max_batches, counters.batches);
         if (!hit) break;
         changes.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), hit->from, hit->to});
         if (hit->from != carried || tracer.label(hit->p_out) != hit->to) ++totals.uncertified;
@@ -403,7 +403,7 @@ inline void check_totals(const Totals& totals) {
     for (const std::string& c : totals.complaints) MESSAGE(c);
     MESSAGE(totals.rays, " rays, of which ", totals.lines, " creep for more than 2,000 resolutions, at most for ",
             totals.most_crept, "; ", totals.roots, " roots, ", totals.missed, " missed; ", totals.batches / totals.rays,
-            " batches a ray, at most ", totals.most_batches, "; ", totals.flickering, " rays flicker");
+            " batches a ray, at most ", totals.max_batches, "; ", totals.flickering, " rays flicker");
     CHECK(totals.missed == 0);
     CHECK(totals.flickering < totals.rays / 20);
     CHECK(totals.lines > totals.rays / 4);

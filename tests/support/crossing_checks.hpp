@@ -41,7 +41,7 @@ struct Totals {
     std::size_t creeping = 0, most_crossings = 0, flickering = 0;
     std::size_t normals = 0, reflections = 0, self_hits = 0, departures = 0, strayed = 0, batches_knowing = 0,
                 batches_unknowing = 0;
-    std::uint64_t most_batches = 0;
+    std::uint64_t max_batches = 0;
 };
 
 inline std::string report(const char* what, const Scene& scene, const Probe& probe, int n) {
@@ -93,7 +93,7 @@ bool is_within_rounding(const Tracer& tracer, const glm::vec3& p, Phase phase) {
     return false;
 }
 
-/// What is wrong along one ray: its crossings are told to `totals`, and what a person should look at to `complaints`.
+/// Checks one ray: counts its crossings in `totals`, and describes what a person should inspect in `complaints`.
 template <class Tracer>
 class RayCheck {
   public:
@@ -130,7 +130,7 @@ class RayCheck {
             const std::optional<Hit> hit = tracer_.first_crossing(
                 origin, probe_.d, length_, carried, steps_.empty() ? nullptr : &steps_.back().crossing, counters);
             creeps_ = creeps_ || counters.batches > 256;
-            totals_.most_batches = std::max(totals_.most_batches, counters.batches);
+            totals_.max_batches = std::max(totals_.max_batches, counters.batches);
             if (!hit) break;
             steps_.push_back(
                 {glm::dot(dvec3(hit->p_in) - o_, d_), glm::dot(dvec3(hit->p_out) - o_, d_), *hit, aside_, false});
@@ -343,14 +343,14 @@ inline void check_totals(const Totals& totals, const std::vector<std::string>& c
     for (const std::string& c : complaints) MESSAGE(c);
     MESSAGE(totals.rays, " rays, ", totals.crossings, " crossings, ", totals.normals, " normals, ", totals.reflections,
             " reflections, ", totals.departures, " departures, ", totals.strayed, " of them astray, ", totals.creeping,
-            " rays creep, by at most ", totals.most_batches, " batches; ", totals.flickering,
+            " rays creep, by at most ", totals.max_batches, " batches; ", totals.flickering,
             " rays within rounding of a face cross it more than 100 times, at most ", totals.most_crossings, "; ",
             totals.rounded, " crossings certain only up to rounding");
     CHECK(totals.wrong == 0);
     CHECK(totals.flickering < totals.rays / 2000);
     CHECK(totals.creeping > totals.rays / 2000);
     CHECK(totals.uncertified == 0);
-    // Some 4 in a million are; the one more is for few crossings, of which one is likely all the same.
+    // About 4 in a million are. The additional one is for runs of few crossings, in which one may still occur.
     CHECK(totals.rounded <= 1 + totals.crossings / 200'000);
     CHECK(totals.wide == 0);
     CHECK(totals.over_sliver < totals.crossings / 2000);

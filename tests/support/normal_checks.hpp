@@ -70,8 +70,8 @@ struct NormalCheck {
     }
     glm::dvec3 middle() const { return 0.5 * (glm::dvec3(crossing.p_in) + glm::dvec3(crossing.p_out)); }
 
-    /// By rounding a ray may cross an interface against its normal, where it creeps along, or once more back and
-    /// forth. What it is given points along the ray all the same.
+    /// Because of rounding, a ray that creeps along an interface may cross it against its normal, or cross it several
+    /// times. The normal that is returned still points along the ray.
     glm::dvec3 turned_along(const glm::dvec3& n) const {
         const double cosine = glm::dot(n, direction);
         if (cosine >= 0) return n;

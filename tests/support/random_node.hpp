@@ -29,7 +29,7 @@ concept NeedsBoundedChild = IsEndlessGrid<Node> || requires(Node n) {
 /// A random value of a node's parameter.
 template <class Node, class Value>
 void fill(Random& rng, Value& value, const Parameter& p, int depth) {
-    // What it is told of its numbers and their places belongs to its content.
+    // These parameters of Labels must match its content, so they are not random.
     if constexpr (std::is_same_v<Node, Labels>)
         if (p.name == "values" || p.name == "empty" || p.name == "spacing") return;
     detail::fill(rng, value, p, depth, NeedsBoundedChild<Node>);

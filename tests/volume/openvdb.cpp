@@ -17,7 +17,7 @@
 #include "support/random_voxels.hpp"
 #include "volume/vdb_folder.hpp"
 
-// What the leak sanitizer is told here. OpenVDB 10 loses the node that it is reading when a file ends too early,
+// Suppresses a report of the leak sanitizer. OpenVDB 10 leaks the node that it is reading when a file ends too early,
 // because RootNode::readTopology() holds it by a plain pointer while it throws.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {

@@ -14,5 +14,6 @@
 #include "phasetree/program/program.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree/tree/levels_of_detail.hpp"
+#include "phasetree/tree/unbounded.hpp"
 #include "phasetree/tree/value_source.hpp"
 #include "phasetree/version.hpp"

@@ -15,7 +15,7 @@ using voxels::Table;
 namespace {
 
 // In a box with more relevant voxels, their blocks give the bounds.
-constexpr int most_voxels = 512;
+constexpr int max_voxels = 512;
 
 // The voxels that are relevant in a box, as the first and the last along each axis.
 struct Counted {
@@ -119,7 +119,7 @@ class Differences {
     }
 
     const Counted& counted_;
-    std::array<float, most_voxels> values_;
+    std::array<float, max_voxels> values_;
     std::array<int, 3> stride_{};
 };
 
@@ -142,7 +142,7 @@ VoxelsInBox voxels_in_box(const float* data, const PointRange& box, bool is_spli
     const Table table(data);
     const Counted counted(data, box, is_spline);
     VoxelsInBox known{range_of_blocks(table, counted)};
-    if (counted.all() > most_voxels) return known;
+    if (counted.all() > max_voxels) return known;
     const Differences differences(table, counted);
     FieldInBox field;
     field.values = differences.values();

@@ -35,12 +35,12 @@ constexpr int parallel_depth = 3;
 // A division counts as a gain if it reduces the cost below this fraction.
 constexpr float gain = 0.8f;
 
-// A box in which millions of parts are searched may be divided this often beyond CellOptions::deepest, because each
+// A box in which millions of parts are searched may be divided this often beyond CellOptions::max_depth, because each
 // search costs rays far more than the division. This does not apply if fewer divisions than usual are requested, as for
 // a preview, which has few rays.
 constexpr int more_divisions_of_searches = 3;
 int more_divisions(const Candidate& cell, const CellOptions& options) {
-    return cell.is_searched && options.deepest >= CellOptions().deepest ? more_divisions_of_searches : 0;
+    return cell.is_searched && options.max_depth >= CellOptions().max_depth ? more_divisions_of_searches : 0;
 }
 
 // The total cost of cells, and the approximate area of the interfaces in them.
@@ -88,10 +88,10 @@ bool may_pay_off(const BuildNode& node, const BuildContext& context) {
     constexpr int divided_in_any_case = 3;  // levels
     const bool has_few_parts =
         cell.work_of_parts > 0 && cell.work_of_parts <= short_list && node.depth >= divided_in_any_case;
-    const int deepest = context.options.deepest + more_divisions(cell, context.options);
+    const int max_depth = context.options.max_depth + more_divisions(cell, context.options);
     const bool is_small = diagonal < 64 * context.reach;
     const float least = (1 + saving) * least_cost(cell.facts.box) + cost_model::traversal * surface(node.box);
-    return node.futile_divisions < node.policy.most_futile_divisions && node.depth < deepest && !is_small &&
+    return node.futile_divisions < node.policy.most_futile_divisions && node.depth < max_depth && !is_small &&
            !has_few_parts && !(cell.cost < least);
 }
 

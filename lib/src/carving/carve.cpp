@@ -16,6 +16,7 @@
 #include "phasetree/nodes/fields/polyhedron.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 
 namespace phasetree {
 
@@ -63,15 +64,15 @@ class Carver {
     // The number of evaluations left; 0 if the solid is empty.
     std::size_t left() const {
         if (is_empty_) return 0;
-        return options_.most_evaluations - std::min(options_.most_evaluations, field_.evaluations());
+        return options_.max_evaluations - std::min(options_.max_evaluations, field_.evaluations());
     }
     // The height of a plane perpendicular to d. No direction gets more than twice an even share of the remaining
     // evaluations.
     double support(const glm::dvec3& d) {
         const auto planes = static_cast<std::size_t>(
-            options_.directions.empty() ? options_.most_planes : static_cast<int>(options_.directions.size()) + 6);
+            options_.directions.empty() ? options_.max_planes : static_cast<int>(options_.directions.size()) + 6);
         const Support r =
-            support_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.most_evaluations / planes));
+            support_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.max_evaluations / planes));
         is_within_tolerance_ = is_within_tolerance_ && r.is_within_tolerance;
         is_empty_ = is_empty_ || r.height == -std::numeric_limits<double>::infinity();
         return r.height;
@@ -154,14 +155,14 @@ class Carver {
         }
         std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.votes > b.votes; });
         for (const Side& side : sides) {
-            if (side.votes < 3 || count() >= options_.most_planes / 2 || left() == 0) return;
+            if (side.votes < 3 || count() >= options_.max_planes / 2 || left() == 0) return;
             if (!is_known(side.normal)) add(side.normal);
         }
     }
 
     void cut_corners() {
         std::vector<glm::dvec3> done;  // corners that no plane cuts off
-        while (count() < options_.most_planes && left() > 0) {
+        while (count() < options_.max_planes && left() > 0) {
             const auto corners = ConvexPolyhedron(box_, planes_).mesh().corners;
             std::vector<std::pair<double, glm::dvec3>> far;
             for (std::size_t first = 0; first < corners.size(); first += batch_size) {
@@ -226,9 +227,9 @@ void check(const CarveOptions& options) {
     for (const glm::dvec3& d : options.directions)
         if (!(glm::length(d) > 0) || !std::isfinite(glm::length(d)))
             throw ModelError("a carving direction must not be zero");
-    if (options.directions.size() > Polyhedron::most_planes - 6) throw ModelError("too many carving directions");
+    if (options.directions.size() > Polyhedron::max_planes - 6) throw ModelError("too many carving directions");
     if (options.directions.empty() &&
-        (options.most_planes < 6 || options.most_planes > static_cast<int>(Polyhedron::most_planes)))
+        (options.max_planes < 6 || options.max_planes > static_cast<int>(Polyhedron::max_planes)))
         throw ModelError("the number of carving planes must be from 6 to 256");
     if (!(options.tolerance > 0)) throw ModelError("the carving tolerance must be positive");
 }
@@ -237,7 +238,9 @@ void check(const CarveOptions& options) {
 
 CarvedBounds carve(const Field& field, const CarveOptions& options) {
     check(options);
-    if (bounds(field).empty()) return {};
+    const Bounds box = bounds(field);
+    if (box.empty()) return {};
+    if (!box.finite()) throw UnboundedError(unbounded_parts(field));
     const TraceableObject traceable = prepare_to_trace(Set{.phase = Phase{1}, .of = field});
     return Carver(field, traceable.bounds, options).run();
 }

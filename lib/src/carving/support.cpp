@@ -77,7 +77,7 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
 }  // namespace
 
 Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
-                      std::size_t most_evaluations) {
+                      std::size_t max_evaluations) {
     const Frame frame(d);
     glm::dvec3 low(infinity), high(-infinity);
     for (int i = 0; i < 8; ++i) {
@@ -89,7 +89,7 @@ Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box,
     beams.push(
         {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), high.z});
     double seen = -infinity;
-    const std::size_t until = field.evaluations() + most_evaluations;
+    const std::size_t until = field.evaluations() + max_evaluations;
     while (!beams.empty()) {
         Beam beam = beams.top();
         const double rho = beam.half_diagonal();

@@ -14,6 +14,6 @@ struct Support {
 /// Bounds d·p over the part of the solid within a box, for a unit vector d, with at most this many evaluations. The
 /// height is −∞ if the solid is proven empty.
 Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box, double tolerance,
-                      std::size_t most_evaluations);
+                      std::size_t max_evaluations);
 
 }  // namespace phasetree::carving

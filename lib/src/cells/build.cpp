@@ -36,7 +36,7 @@ InterfaceCells::InterfaceCells(const Phased& object, const CellOptions& options)
     const BuildContext context{options, progress,
                                ProgramContext(rewritten, recorded.constants, options.opaque, 0.5f * data->resolution),
                                data->reach, data->bounds.diagonal()};
-    CellsWithinBudget within = divide_within(data->most_bytes, data->bounds, rewritten, context);
+    CellsWithinBudget within = divide_within(data->max_bytes, data->bounds, rewritten, context);
     static_cast<CellTables&>(*data) =
         make_tables(std::move(within.cells), recorded.constants, data->curvature_code, options.cancelled);
     data->recorded_constants = recorded_constants;

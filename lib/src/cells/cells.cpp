@@ -85,7 +85,7 @@ CellStatistics InterfaceCells::statistics() const {
     std::sort(length.begin(), length.end());
     s.median_instructions = length[length.size() / 2];
     s.percentile90_instructions = length[length.size() * 9 / 10];
-    s.most_instructions = length.back();
+    s.max_instructions = length.back();
     return s;
 }
 

@@ -12,9 +12,9 @@ namespace phasetree::cells {
 struct BuildSettings {
     float resolution = 0;
     PhaseSet opaque;
-    int deepest = 0;
+    int max_depth = 0;
     BuildQuality quality{};
-    std::size_t most_bytes = 0;  ///< the memory limit in effect, whether given or the default
+    std::size_t max_bytes = 0;  ///< the memory limit in effect, whether given or the default
 };
 
 /// Gives the reader, writer and comparison of cell files access to the parts of InterfaceCells that they need.

@@ -13,7 +13,7 @@ namespace {
 // The memory limit, capped at 64 GiB: cell indices have 32 bits, which is enough for the cells that fit there.
 std::size_t limit_bytes(const CellOptions& options) {
     constexpr std::size_t largest = std::size_t{64} << 30;
-    return std::min(options.most_bytes > 0 ? options.most_bytes : default_cell_bytes(), largest);
+    return std::min(options.max_bytes > 0 ? options.max_bytes : default_cell_bytes(), largest);
 }
 
 }  // namespace
@@ -25,9 +25,9 @@ InterfaceCells::Data::Data(const Phased& object, const CellOptions& options) {
     warning = traceable.warning;
     reach = 4 * resolution;
     opaque = options.opaque;
-    deepest = options.deepest;
+    max_depth = options.max_depth;
     quality = options.quality;
-    most_bytes = limit_bytes(options);
+    max_bytes = limit_bytes(options);
     curvature_code = CurvatureCode(bounds.diagonal());
 }
 

@@ -22,13 +22,13 @@ struct InterfaceCells::Data : cells::CellTables {
     std::string warning;
     float reach = 0;
     PhaseSet opaque;
-    int deepest = 0;
+    int max_depth = 0;
     BuildQuality quality{};
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     double build_seconds = 0;
     cells::CurvatureCode curvature_code;
 
-    cells::BuildSettings settings() const { return {resolution, opaque, deepest, quality, most_bytes}; }
+    cells::BuildSettings settings() const { return {resolution, opaque, max_depth, quality, max_bytes}; }
 
     kernel::Routine routine(const Cell& c) const {
         kernel::Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());

@@ -111,9 +111,9 @@ CellsFileHeader header_of(const Program& program, std::size_t own_constants, con
     h.layout = layout_of_tables();
     h.program = fingerprint(program, own_constants);
     h.opaque = settings.opaque.bits;
-    h.most_bytes = settings.most_bytes;
+    h.max_bytes = settings.max_bytes;
     h.resolution = settings.resolution;
-    h.deepest = settings.deepest;
+    h.max_depth = settings.max_depth;
     h.quality = static_cast<std::uint32_t>(settings.quality);
     return h;
 }

@@ -32,9 +32,9 @@ struct CellsFileHeader {
     std::array<char, 24> machine;
     std::uint64_t layout;   ///< layout_of_tables() in file_format.cpp
     std::uint64_t program;  ///< fingerprint() of the object's program
-    std::uint64_t opaque, most_bytes;
+    std::uint64_t opaque, max_bytes;
     float resolution;
-    std::int32_t deepest;
+    std::int32_t max_depth;
     std::uint32_t quality, is_coarser;
     std::uint64_t routines;                      ///< CellTables::routine_count
     std::array<std::uint64_t, sections> counts;  ///< the number of items in each section

@@ -118,11 +118,11 @@ class CellsReader {
         if (h.resolution != wanted.resolution)
             throw differs(fmt::format("its cells have resolution {}, not {}", h.resolution, wanted.resolution));
         if (h.quality != wanted.quality) throw differs("its cells were built with another quality");
-        if (h.deepest != wanted.deepest)
-            throw differs(fmt::format("its cells were built with {} divisions, not {}", h.deepest, wanted.deepest));
+        if (h.max_depth != wanted.max_depth)
+            throw differs(fmt::format("its cells were built with {} divisions, not {}", h.max_depth, wanted.max_depth));
         if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
         // If the cells are not coarser, the limit had no effect, and any higher limit gives the same cells.
-        if (h.is_coarser ? h.most_bytes != wanted.most_bytes : h.most_bytes > wanted.most_bytes)
+        if (h.is_coarser ? h.max_bytes != wanted.max_bytes : h.max_bytes > wanted.max_bytes)
             throw differs("its cells were built with another memory limit");
     }
 

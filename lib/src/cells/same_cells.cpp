@@ -33,9 +33,9 @@ bool are_cells_of(const InterfaceCells& cells, const Phased& object, const CellO
     const auto [tables, program, own] = CellsFile::contents(cells);
     const BuildSettings wanted = CellsFile::settings(object, options);
     const bool has_same_limit =
-        tables.is_coarser ? own.most_bytes == wanted.most_bytes : own.most_bytes <= wanted.most_bytes;
+        tables.is_coarser ? own.max_bytes == wanted.max_bytes : own.max_bytes <= wanted.max_bytes;
     const bool has_same_settings = own.resolution == wanted.resolution && own.quality == wanted.quality &&
-                                   own.deepest == wanted.deepest && own.opaque.bits == wanted.opaque.bits &&
+                                   own.max_depth == wanted.max_depth && own.opaque.bits == wanted.opaque.bits &&
                                    has_same_limit;
     // Compare the program last, because recording it may take the longest.
     return has_same_settings && is_program_of(record(object), program, tables.recorded_constants);

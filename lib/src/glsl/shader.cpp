@@ -190,13 +190,13 @@ Evaluation by_table(Program program, const Bounds& bounds, float resolution, con
 }  // namespace
 
 GlslShader make_glsl(const Program& program, const Bounds& bounds, float resolution, const GlslOptions& options) {
-    if (program.instructions.size() > longest_glsl_program)
+    if (program.instructions.size() > max_glsl_instructions)
         throw ModelError(
             fmt::format("the object has {} instructions, but a shader can hold only {}; export a part of it",
-                        program.instructions.size(), longest_glsl_program));
-    const bool is_table = options.grid > 0 || program.instructions.size() > options.most_calls;
+                        program.instructions.size(), max_glsl_instructions));
+    const bool is_table = options.grid > 0 || program.instructions.size() > options.max_calls;
     Evaluation evaluation = is_table ? by_table(program, bounds, resolution, options) : by_calls(program);
-    const bool in_texture = evaluation.numbers.size() > options.most_numbers_in_text;
+    const bool in_texture = evaluation.numbers.size() > options.max_numbers_in_text;
     fill_rows(evaluation.numbers, in_texture ? GlslShader::numbers_in_row : 4);
     GlslShader shader;
     shader.text = heading(program, options, in_texture ? evaluation.numbers.size() / GlslShader::numbers_in_row : 0) +

@@ -23,7 +23,7 @@ namespace io {
 namespace {
 
 constexpr std::size_t radius = 3, phase = 4, required = 3;
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t max_bytes = std::uint64_t{1} << 30;
 constexpr std::string_view too_many = "there are more than 16 million balls";
 
 // For each column of ball_columns, its index among the columns of the file.
@@ -47,7 +47,7 @@ std::optional<BallBuilder::Mistake> BallBuilder::add(const std::array<double, ba
     if (has_radius_ && columns[radius] > most) return Mistake{radius, "a radius is too large"};
     if (has_phase_ && !(columns[phase] >= 0 && columns[phase] < 256 && columns[phase] == std::floor(columns[phase])))
         return Mistake{phase, "a phase is not a whole number from 0 to 255"};
-    if (balls_.centres.size() == BallList::most_balls) return Mistake{0, too_many};
+    if (balls_.centres.size() == BallList::max_balls) return Mistake{0, too_many};
     balls_.centres.emplace_back(static_cast<float>(columns[0]), static_cast<float>(columns[1]),
                                 static_cast<float>(columns[2]));
     if (has_radius_) balls_.radii.push_back(static_cast<float>(columns[radius]));
@@ -66,7 +66,7 @@ BallList read_ball_ply(const std::filesystem::path& path, std::string_view conte
         for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = e.find(ball_columns[i]);
         if (const std::string missing = missing_columns(indices); !missing.empty())
             throw SceneError(path.string(), missing);
-        if (e.rows > BallList::most_balls) throw SceneError(path.string(), std::string(too_many));
+        if (e.rows > BallList::max_balls) throw SceneError(path.string(), std::string(too_many));
         BallBuilder builder(indices[radius].has_value(), indices[phase].has_value());
         std::array<double, ball_columns.size()> columns{};
         ply.for_each_row(e, [&](const Ply::Row& row) {
@@ -109,8 +109,8 @@ BallList read_ball_csv(const std::filesystem::path& path, std::string_view conte
 BallList read_balls(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    if (ending == ".ply") return io::read_ball_ply(path, io::read_file(path, io::most_bytes));
-    if (ending == ".csv") return io::read_ball_csv(path, io::read_file(path, io::most_bytes));
+    if (ending == ".ply") return io::read_ball_ply(path, io::read_file(path, io::max_bytes));
+    if (ending == ".csv") return io::read_ball_csv(path, io::read_file(path, io::max_bytes));
     throw SceneError(path.string(), "is not a file of balls: its name must end in .ply or .csv");
 }
 

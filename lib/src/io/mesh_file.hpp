@@ -11,8 +11,8 @@ namespace phasetree::io {
 /// Readers of file contents, one per format. Each throws SceneError, which gives the position in the file but quotes
 /// none of its contents (Reader::read_file in tree.cpp explains why). Sizes claimed by a file are compared with its
 /// actual size before memory is allocated.
-MeshFile read_obj(const std::filesystem::path&, std::string_view content, std::size_t most_triangles);
-MeshFile read_ply(const std::filesystem::path&, std::string_view content, std::size_t most_triangles);
+MeshFile read_obj(const std::filesystem::path&, std::string_view content, std::size_t max_triangles);
+MeshFile read_ply(const std::filesystem::path&, std::string_view content, std::size_t max_triangles);
 MeshFile read_stl(const std::filesystem::path&, std::string_view content);
 
 /// Drops values that only some triangles have.

@@ -52,8 +52,8 @@ const glm::vec3 no_color(std::numeric_limits<float>::quiet_NaN());
 
 class ObjReader {
   public:
-    ObjReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
-        : path_(path), words_(content, Words::Rules::obj), most_triangles_(most_triangles) {}
+    ObjReader(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles)
+        : path_(path), words_(content, Words::Rules::obj), most_triangles_(max_triangles) {}
 
     MeshFile read() {
         while (words_.next_line()) {
@@ -227,8 +227,8 @@ class ObjReader {
 
 }  // namespace
 
-MeshFile read_obj(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
-    return ObjReader(path, content, most_triangles).read();
+MeshFile read_obj(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles) {
+    return ObjReader(path, content, max_triangles).read();
 }
 
 }  // namespace phasetree::io

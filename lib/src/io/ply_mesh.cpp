@@ -45,8 +45,8 @@ double largest_of(Ply::Type type) {
 
 class PlyReader {
   public:
-    PlyReader(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles)
-        : path_(path), ply_(path, content), most_triangles_(most_triangles) {}
+    PlyReader(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles)
+        : path_(path), ply_(path, content), most_triangles_(max_triangles) {}
 
     MeshFile read() {
         bool has_vertices = std::ranges::none_of(ply_.elements(), is_of_vertices);
@@ -239,8 +239,8 @@ class PlyReader {
 
 }  // namespace
 
-MeshFile read_ply(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles) {
-    return PlyReader(path, content, most_triangles).read();
+MeshFile read_ply(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles) {
+    return PlyReader(path, content, max_triangles).read();
 }
 
 }  // namespace phasetree::io

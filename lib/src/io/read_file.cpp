@@ -51,7 +51,7 @@ std::optional<std::string> neighbour(const std::filesystem::path& missing) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
+std::string read_file(const std::filesystem::path& path, std::size_t max_bytes) {
     const std::string name = path.string();
     if (name.empty()) throw SceneError("(no name)", "the name of a file is empty");
     const auto fail = [&](int code) -> SceneError {
@@ -61,7 +61,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
     };
     if (name.find('\0') != std::string::npos) throw fail(ENOENT);
 
-    const auto too_large = [&] { return SceneError(name, fmt::format("is larger than {} MiB", most_bytes >> 20)); };
+    const auto too_large = [&] { return SceneError(name, fmt::format("is larger than {} MiB", max_bytes >> 20)); };
 
     // Check before opening, too: opening a device can have side effects.
     struct stat status {};
@@ -69,7 +69,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
     const auto check = [&] {
         if (S_ISDIR(status.st_mode)) throw SceneError(name, "is a directory, not a file");
         if (!S_ISREG(status.st_mode)) throw SceneError(name, "is not a regular file but a pipe, a socket or a device");
-        if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > most_bytes) throw too_large();
+        if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > max_bytes) throw too_large();
     };
     check();
     const OpenFile file(name.c_str());
@@ -86,7 +86,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
         if (got < 0) throw fail(errno);
         if (got == 0) break;
         length += static_cast<std::size_t>(got);
-        if (length > most_bytes) throw too_large();
+        if (length > max_bytes) throw too_large();
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);

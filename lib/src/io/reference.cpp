@@ -33,6 +33,9 @@ template <PlainParameter T>
 NodeParameter described(const T& v, const Parameter& p) {
     return {ParameterType<T>::describe(p), ParameterType<T>::written(v)};
 }
+NodeParameter described(const std::string& v, const ChoiceParameter& p) {
+    return {ParameterType<std::string, ChoiceParameter>::describe(p), ParameterType<std::string>::written(v)};
+}
 template <class Content>
 NodeParameter described(const FromFile<Content>&, const Parameter& p) {
     return {ParameterType<std::filesystem::path>::describe(p), "none"};
@@ -68,7 +71,7 @@ KindPage page_of_node() {
     page.summary = N::info.summary;
     const N node{};
     std::size_t required = 0, lists = 0;
-    for_each_parameter(node, [&](const auto& value, const Parameter& p) {
+    for_each_parameter(node, [&](const auto& value, const auto& p) {
         const NodeParameter d = described(value, p);
         page.parameters.push_back(parameter_page(p, d.type, d.written));
         if (p.optional) return;

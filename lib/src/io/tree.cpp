@@ -10,6 +10,7 @@
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/meant_kind.hpp"
 #include "phasetree/io/object_reader.hpp"
+#include "phasetree/io/parameter_type.hpp"
 #include "phasetree/io/suggest.hpp"
 #include "tree/node.hpp"
 
@@ -192,7 +193,7 @@ class Reader {
         // reported missing.
         for_each_parameter(node, [&](auto&, const Parameter& p) { reader.allow({p.name}); });
         reader.finish();
-        for_each_parameter(node, [&](auto& target, const Parameter& p) {
+        for_each_parameter(node, [&](auto& target, const auto& p) {
             if (p.optional && !reader.value(p.name)) return;
             read_value(target, reader.required_value(p.name), p);
         });
@@ -234,6 +235,10 @@ class Reader {
             throw document_.error(
                 list, fmt::format("\"{0}\" needs \"{1}\" beside the list: {{\"{0}\": {{\"{2}\": […], \"{1}\": …}}}}",
                                   N::info.name, missing, single));
+    }
+
+    void read_value(std::string& target, Value value, const ChoiceParameter& p) {
+        target = ParameterType<std::string, ChoiceParameter>::read(document_, value, fmt::format("\"{}\"", p.name), p);
     }
 
     template <class T>

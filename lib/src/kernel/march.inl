@@ -39,7 +39,7 @@ class March {
   private:
     static constexpr float no_label = -1;
     // The search pauses after this many batches: most rays that need more creep along an interface (trace/creep.hpp).
-    static constexpr std::uint32_t most_batches = 256;
+    static constexpr std::uint32_t max_batches = 256;
     // The number of frames on the stack. Each lies within a gap of the frame below, which is at most about a fifth of
     // that frame's length.
     static constexpr int deepest = 24;
@@ -300,7 +300,7 @@ HWY_INLINE bool March::narrow(Frame* frames, int& depth, bool& is_aligned, RayCr
 HWY_INLINE bool March::search_gaps(Frame* frames, int depth, bool is_aligned, RayCrossing& result) {
     const float length = ray_.length, resolution = ray_.resolution;
     for (;;) {
-        if (batches_ >= most_batches) return pause(result);
+        if (batches_ >= max_batches) return pause(result);
         if (depth == 0) {
             if (here_.t >= length) return false;
             if (!fill(frames[0], evenly_spaced(here_.t, length), here_, 3.402823466e38f)) return false;

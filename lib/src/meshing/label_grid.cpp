@@ -40,10 +40,10 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     grid.digit = 0x1p-23 * farthest;
     const double finest = finest_in_digits * grid.digit;
     grid.spacing = spacing > 0 ? static_cast<double>(spacing) : std::max(longest / default_cubes_along, finest);
-    if (!(longest / grid.spacing <= most_cubes_along))
+    if (!(longest / grid.spacing <= max_cubes_along))
         throw ModelError(fmt::format(
             "a spacing of {} needs more than {} cubes along the object, which is {:.6g} long; use at least {:.4g}",
-            spacing, most_cubes_along, longest, 1.0001 * longest / most_cubes_along));
+            spacing, max_cubes_along, longest, 1.0001 * longest / max_cubes_along));
     if (grid.spacing < finest)
         throw ModelError(
             fmt::format("a spacing of {} is finer than 32-bit coordinates allow at this distance from the origin; use "

@@ -204,7 +204,7 @@ class Mesher {
                 shown[static_cast<std::size_t>(k)] += has_crossing ? 1 : 0;
             });
         });
-        mesh.passed_over = mesh.crossings - std::accumulate(shown.begin(), shown.end(), std::size_t{0});
+        mesh.skipped = mesh.crossings - std::accumulate(shown.begin(), shown.end(), std::size_t{0});
     }
 
     glm::dvec3 vertex_of(const glm::ivec3& cube, const CubePatches& patches, int patch) const {

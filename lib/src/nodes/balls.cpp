@@ -61,8 +61,8 @@ std::vector<glm::vec4> detail::given_balls(std::string_view node, const std::vec
         throw ModelError(fmt::format("{}: remove \"radii\", because the file has its own", node));
     const std::vector<float>& sizes = has_own ? file.content->radii : radii;
     if (points.empty()) throw ModelError(fmt::format("{}: there are no balls", node));
-    if (points.size() > BallList::most_balls)
-        throw ModelError(fmt::format("{}: there are more than {} balls", node, BallList::most_balls));
+    if (points.size() > BallList::max_balls)
+        throw ModelError(fmt::format("{}: there are more than {} balls", node, BallList::max_balls));
     if (sizes.size() != 1 && sizes.size() != points.size())
         throw ModelError(sizes.empty() ? fmt::format("{}: \"radii\" is missing{}", node,
                                                      file.content ? ", and the file has none of its own" : "")
@@ -89,16 +89,16 @@ void Balls::prepare() {
 
 const float* Balls::few_balls(const float* data) {
     const std::size_t count = balls::ShortList::count(data);
-    if (count > most_of_shader)
+    if (count > max_in_shader)
         throw ModelError(
-            fmt::format("balls: a shader can hold at most {} balls, but there are {}", most_of_shader, count));
+            fmt::format("balls: a shader can hold at most {} balls, but there are {}", max_in_shader, count));
     return data;
 }
 
 bool Balls::Specialised::is_sound(std::span<const float> data) {
     if (data.empty()) return false;
     const float count = data[0];
-    return count >= 1 && count <= static_cast<float>(most_in_box) && count == std::floor(count) &&
+    return count >= 1 && count <= static_cast<float>(max_in_box) && count == std::floor(count) &&
            data.size() >= balls::ShortList::floats(data.data());
 }
 

@@ -2,7 +2,7 @@
 
 namespace phasetree::nodes {
 
-using formula::most_operations, formula::Op;
+using formula::max_operations, formula::Op;
 using Index = FormulaIndex;
 
 namespace {
@@ -10,7 +10,7 @@ namespace {
 // Makes a term from a step and all the steps that it needs.
 TermSteps term_of(const std::vector<FormulaStep>& all, Index root) {
     TermSteps term{{}, needed_steps(all, root)};
-    if (term.steps.size() > most_operations)
+    if (term.steps.size() > max_operations)
         fail_in_formula(all[root].offset, "there are more than 128 operations between minima and maxima");
     term.data = {static_cast<float>(term.steps.size()), 1};
     for (const FormulaStep& s : term.steps) {

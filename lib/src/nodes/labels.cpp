@@ -82,8 +82,8 @@ void Labels::prepare() {
             std::count(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]))
             throw ModelError("labels: \"values\" must be different whole numbers");
     if (!std::ranges::all_of(empty, is_whole)) throw ModelError("labels: \"empty\" must be whole numbers");
-    if (voxels::count_of(content.lattice.size) > LabelGrid::most_voxels)
-        throw ModelError(fmt::format("labels: the grid has more than {} voxels", LabelGrid::most_voxels));
+    if (voxels::count_of(content.lattice.size) > LabelGrid::max_voxels)
+        throw ModelError(fmt::format("labels: the grid has more than {} voxels", LabelGrid::max_voxels));
     if (content.voxels.empty() || content.voxels.size() != voxels::count_of(content.lattice.size))
         throw ModelError("labels: the grid lacks some of its voxels");
     const std::vector<int> phase_of = phases_of_numbers(*this);

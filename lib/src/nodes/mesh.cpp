@@ -176,8 +176,8 @@ std::optional<Surface> clean_surface(const TriangleMesh& triangles, const std::s
 
 void Mesh::prepare() {
     const std::string name = file.path.empty() ? "it" : file.path;
-    if (file.content->triangles.size() > TriangleMesh::most_triangles)
-        throw ModelError(fmt::format("mesh: {} has more than {} triangles", name, TriangleMesh::most_triangles));
+    if (file.content->triangles.size() > TriangleMesh::max_triangles)
+        throw ModelError(fmt::format("mesh: {} has more than {} triangles", name, TriangleMesh::max_triangles));
     const WindingRule winding_rule = rule_of(rule);
     const std::optional<Surface> clean = clean_surface(*file.content, name);
     const Surface surface = clean ? *clean : mesh::repaired(*file.content, winding_rule, name);
@@ -197,17 +197,17 @@ double Mesh::support(const glm::dvec3& d, float level) const {
 const float* Mesh::few_pieces(const float* data) {
     std::size_t count = 0;
     for_each_kind([&]<class Kind>() { count += mesh::PieceList::count(data, Kind::kind); });
-    if (count > most_pieces_of_shader)
+    if (count > max_pieces_in_shader)
         throw ModelError(
             fmt::format("mesh: a shader can hold meshes of at most {} faces, edges and vertices, but this one has {}",
-                        most_pieces_of_shader, count));
+                        max_pieces_in_shader, count));
     return data;
 }
 
 bool Mesh::Specialised::is_sound(std::span<const float> data) {
     if (data.size() < mesh::PieceList::head) return false;
     for (std::size_t kind = 0; kind < mesh::piece_kinds; ++kind)
-        if (!(data[kind] >= 0 && data[kind] <= static_cast<float>(most_pieces_in_box)) ||
+        if (!(data[kind] >= 0 && data[kind] <= static_cast<float>(max_pieces_in_box)) ||
             data[kind] != std::floor(data[kind]))
             return false;
     return floats(data.data()) <= data.size();

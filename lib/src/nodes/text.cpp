@@ -116,7 +116,7 @@ void Text::prepare() {
                 table[0] = static_cast<float>(count);
                 pieces += count;
                 strokes.push_back({std::make_shared<const Pieces>(std::move(table))});
-                if (strokes.size() > most_strokes || pieces > most_pieces)
+                if (strokes.size() > max_strokes || pieces > max_pieces)
                     throw ModelError("text: its letters have more than 4096 outlines, or 65536 curves");
             }
         }

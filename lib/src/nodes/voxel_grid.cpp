@@ -55,9 +55,9 @@ std::vector<float> head_of(const VoxelLattice& lattice) {
 void check(std::string_view who, const VoxelLattice& lattice) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (lattice.size[i] < 1) throw ModelError(fmt::format("{}: the grid is empty", who));
-        if (lattice.size[i] > VoxelGrid::most_along_axis)
+        if (lattice.size[i] > VoxelGrid::max_along_axis)
             throw ModelError(fmt::format("{}: the grid has {} voxels along an axis; the limit is {}", who,
-                                         lattice.size[i], VoxelGrid::most_along_axis));
+                                         lattice.size[i], VoxelGrid::max_along_axis));
         const auto axis = static_cast<glm::length_t>(i);
         if (!(lattice.spacing[axis] >= 1e-9 && lattice.spacing[axis] <= 1e6) || !(std::abs(lattice.first[axis]) <= 1e9))
             throw ModelError(
@@ -69,7 +69,7 @@ void check(std::string_view who, const VoxelLattice& lattice) {
 
 ModelError too_many_values(std::string_view who) {
     return ModelError(fmt::format("{}: the grid has more than {} values that differ from their neighbours", who,
-                                  VoxelGrid::most_values));
+                                  VoxelGrid::max_values));
 }
 
 ModelError too_many_blocks(std::string_view who, const std::array<int, 3>& size, std::size_t count, std::size_t most) {
@@ -118,7 +118,7 @@ VoxelGrid empty_grid(std::string_view who, const VoxelLattice& lattice) {
     check(who, lattice);
     VoxelGrid grid{lattice, head_of(lattice)};
     // A directory takes at most 180 MB.
-    constexpr std::size_t most_blocks = VoxelGrid::most_values / 8;
+    constexpr std::size_t most_blocks = VoxelGrid::max_values / 8;
     const std::size_t count = Blocks(lattice.size).count();
     if (count > most_blocks) throw too_many_blocks(who, lattice.size, count, most_blocks);
     grid.table.resize(voxels::head + voxels::entry * count);
@@ -153,7 +153,7 @@ VoxelGrid VoxelGrid::make(std::string_view who, const VoxelLattice& lattice, con
         const bool is_kept = enter(range, kept, &grid.table[voxels::head + voxels::entry * i]);
         if (!is_kept) continue;
         ++kept;
-        if (kept * kept_values > most_values) throw too_many_values(who);
+        if (kept * kept_values > max_values) throw too_many_values(who);
         grid.table.insert(grid.table.end(), values.begin(), values.end());
     }
     keep_some_block(grid.table, kept);
@@ -193,7 +193,7 @@ VoxelGrid VoxelGrid::of_values(std::string_view who, const VoxelLattice& lattice
         }
         if (enter(ranges[i], kept.size(), &grid.table[voxels::head + voxels::entry * i])) kept.push_back(i);
     }
-    if (kept.size() * kept_values > most_values) throw too_many_values(who);
+    if (kept.size() * kept_values > max_values) throw too_many_values(who);
     const std::size_t begin = grid.table.size();
     grid.table.resize(begin + kept.size() * kept_values);
     tbb::parallel_for(std::size_t{0}, kept.size(), [&](std::size_t i) {

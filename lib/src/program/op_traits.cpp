@@ -8,7 +8,7 @@ namespace phasetree::program {
 
 namespace {
 
-static_assert(first_placed + Primitives::size <= most_operations);
+static_assert(first_placed + Primitives::size <= max_operations);
 
 constexpr std::uint16_t half_instructions_of_short = 3;  // rough estimates
 constexpr std::uint16_t typical_half_instructions = 120;
@@ -67,7 +67,7 @@ constexpr void set_maps(TypeList<Ms...>, auto& all) {
 }
 
 constexpr auto all_traits() {
-    std::array<OpTraits, most_operations> all{};
+    std::array<OpTraits, max_operations> all{};
     const auto of = [&](Op op) -> OpTraits& { return all[static_cast<std::size_t>(op)]; };
     of(Op::input) = {.operands = 0, .gives_point = true};
     for (const Op op : {Op::add, Op::subtract, Op::minimum, Op::maximum, Op::far_bound, Op::far_bound_inside,
@@ -88,6 +88,6 @@ constexpr auto all_traits() {
 }
 }  // namespace
 
-constexpr std::array<OpTraits, most_operations> op_traits = all_traits();
+constexpr std::array<OpTraits, max_operations> op_traits = all_traits();
 
 }  // namespace phasetree::program

@@ -27,9 +27,9 @@ struct OpTraits {
     bool is_specialised = false;  ///< the form that a LocalPrimitive takes in a small box
 };
 /// The maximum number of operations, including those of fused.hpp.
-inline constexpr std::size_t most_operations = 256;
+inline constexpr std::size_t max_operations = 256;
 /// The properties of all operations, indexed by operation.
-extern const std::array<OpTraits, most_operations> op_traits;
+extern const std::array<OpTraits, max_operations> op_traits;
 
 inline const OpTraits& traits(Op op) {
     return op_traits[static_cast<std::size_t>(op)];

@@ -21,7 +21,7 @@ constexpr float first_stretch = 1024, shortest_stretch = 256;
 constexpr std::uint64_t batches_to_enclose = 32;
 // The number of batches per walk, and the number of batches of a search after which steps become longer than the
 // resolution.
-constexpr std::uint64_t batches_of_walk = 256, most_batches = 524'288;
+constexpr std::uint64_t batches_of_walk = 256, max_batches = 524'288;
 // A ray farther than this from an interface, in resolutions, does not creep.
 constexpr float away = 16;
 // The length of a step of a walk, in resolutions. It is below 1 because positions are rounded.
@@ -42,7 +42,7 @@ class Creep {
                 pass_enclosed();
             } while (walk(step));
             // The search has taken too long, and neither stretches nor walks have advanced by a step.
-            if (spent_ > most_batches && !(t_ - previous > step) && !leap(step)) return false;
+            if (spent_ > max_batches && !(t_ - previous > step) && !leap(step)) return false;
             rest.t_begin = t_;
             const bool is_hit = active_kernel().visit(rest, crossing_);
             spend(crossing_.batches);
@@ -107,7 +107,7 @@ class Creep {
     // step is doubled first. It returns to one resolution once the ray is away from the interface. Returns whether the
     // ray still creeps, so that enclosing another stretch may help.
     bool walk(float& step) {
-        if (spent_ > most_batches) step *= 2;
+        if (spent_ > max_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;
         float begin = t_;
         for (std::uint64_t n = 0; n < batches_of_walk; ++n) {

@@ -16,7 +16,7 @@
 // errors, the kernel takes over, at three resolutions per batch.
 //
 // So the work is bounded by the length of the creep. At the resolution chosen for an object, the longest ray through it
-// has half a million resolutions. Finer resolutions allow more. Once a search has taken more than most_batches batches,
+// has half a million resolutions. Finer resolutions allow more. Once a search has taken more than max_batches batches,
 // the step doubles with each further walk (of at most 256 batches), so that every ray terminates. Once the ray is away
 // from the interface, steps are a resolution again. The kernel searches what follows a walk at the resolution.
 #pragma once

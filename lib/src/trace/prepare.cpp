@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 
 namespace phasetree {
 
@@ -28,9 +29,7 @@ constexpr float poor = 1e-3f;
 TraceableObject prepare_to_trace(const Phased& object, float wanted) {
     const Bounds b = phasetree::bounds(object);
     if (b.empty()) throw ModelError("the object is empty");
-    if (!b.finite())
-        throw ModelError(
-            "the object is unbounded; cut it to size with {\"intersect_shape\": {\"of\": …, \"shape\": …}}");
+    if (!b.finite()) throw UnboundedError(unbounded_parts(object));
     const float farthest = std::max({std::abs(b.low.x), std::abs(b.low.y), std::abs(b.low.z), std::abs(b.high.x),
                                      std::abs(b.high.y), std::abs(b.high.z)});
     const float size = b.diagonal();

@@ -136,7 +136,7 @@ Bounds BoundsQuery::by_directions(const Handle& handle, float level) {
     PreparationTogether::pay("bounds", 120);
     const typename Memory::DirectedKey key{{handle.node(), memory_->rounded_level(handle.node(), level)}, directions_};
     if (const auto found = memory_->directed.find(key); found != memory_->directed.end()) return found->second;
-    if (++memory_->asked > most_asked) {
+    if (++memory_->asked > max_directed) {
         way_ = Way::by_boxes;
         const Bounds box = by_boxes(handle, level);
         way_ = Way::by_directions;

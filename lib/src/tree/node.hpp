@@ -25,11 +25,11 @@ decltype(auto) access(Node& node, T Class::*member) {
     return (node.*member);
 }
 
-/// Calls visit(value, parameter) for each parameter of a node.
+/// Calls visit(value, parameter) for each parameter of a node. The parameter is a Parameter or derived from it.
 template <class Node, class Visit>
 void for_each_parameter(Node& node, Visit&& visit) {
     std::remove_const_t<Node>::parameters(
-        [&](auto member, const Parameter& parameter) { visit(access(node, member), parameter); });
+        [&](auto member, const auto& parameter) { visit(access(node, member), parameter); });
 }
 
 /// Calls visit(child) for each child, a Field or a Phased, in the order of the parameters.

@@ -102,6 +102,20 @@ void remove_abandoned(const fs::path& target) {
     });
 }
 
+/// Closes a descriptor when it goes out of scope, unless it is −1.
+class Descriptor {
+  public:
+    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+    ~Descriptor() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+  private:
+    int descriptor_;
+};
+
 /// Whether an open file still has that name.
 bool has_name(int file, const fs::path& name) {
     struct stat of_file {};
@@ -145,15 +159,17 @@ void WholeFile::write(std::span<const std::byte> bytes) {
     }
 }
 
-void WholeFile::finish() {
-    const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);  // so that it is locked until it has its name
-    std::error_code error;
+void WholeFile::close() {
     // Network file systems report a full disk only here.
-    if (::close(std::exchange(descriptor_, -1)) != 0)
-        error.assign(errno, std::generic_category());
-    else
-        fs::rename(temporary_, target_, error);
-    if (lock >= 0) ::close(lock);
+    if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0) throw FileError(errno);
+}
+
+void WholeFile::finish() {
+    // The file is locked until it has its name.
+    const Descriptor lock(descriptor_ >= 0 ? ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0) : -1);
+    close();
+    std::error_code error;
+    fs::rename(temporary_, target_, error);
     if (error) throw FileError(error.value());
     is_renamed_ = true;
 }

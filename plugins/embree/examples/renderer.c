@@ -10,7 +10,7 @@
 
 #include "scene.h"
 
-enum { WIDTH = 480, HEIGHT = 320, MOST_CROSSINGS = 64 };
+enum { WIDTH = 480, HEIGHT = 320, MAX_CROSSINGS = 64 };
 
 static const float sun[3] = {0.41f, -0.62f, 0.67f};
 
@@ -71,7 +71,7 @@ static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
         media[i].instPrimID = 0;
 #endif
     }
-    for (int crossing = 0; crossing < MOST_CROSSINGS; ++crossing) {
+    for (int crossing = 0; crossing < MAX_CROSSINGS; ++crossing) {
         const float before = ray.ray.tnear;
         float normal[3] = {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, color[3], point[3];
         ray.ray.tfar = INFINITY;

@@ -104,7 +104,7 @@ phase, or of all phases except the vacuum, is a manifold."""
     names: np.ndarray
     spacing: np.ndarray
     crossings: np.ndarray
-    passed_over: np.ndarray
+    skipped: np.ndarray
 
 class Field:
     r"""A signed distance, negative inside. Immutable.
@@ -1030,7 +1030,7 @@ class Scene:
         r"""Writes a scene file, from which load() makes an equal scene.
 
 Files within the folder of the scene file are named relative to it."""
-    def render(self, *, progress=..., threads=..., crop=..., quality=..., most_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
+    def render(self, *, progress=..., threads=..., crop=..., quality=..., max_bytes=..., planes=..., denoise=..., time_limit=..., at=..., **image):
         r"""Path-traces the scene. Returns an Image, which does not depend on the number of threads. Ctrl-C ends it.
 
 image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
@@ -1380,13 +1380,13 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
     height: Height of white; black is at z = 0. (number in m; positive)
     """
 
-def mesh(file: str | PathLike[str], rule: str | Expression | None = ...) -> Field:
+def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", "non_zero"] | None = ...) -> Field:
     r"""The solid inside a surface of triangles; exact.
 
         ± min over the triangles of |p − nearest point|
 
-    file: Mesh file: OBJ, PLY or STL, in metres. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged; materials, normals and the like are ignored. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
-    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. The default is "winding_number". All three are the same for a closed mesh whose parts do not overlap. (text; default "")
+    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:

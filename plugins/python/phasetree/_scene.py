@@ -214,7 +214,7 @@ class Scene(Value):
             raise
 
     def render(
-        self, *, progress=None, threads=0, crop=None, quality="medium", most_bytes=0, planes=(), denoise=False,
+        self, *, progress=None, threads=0, crop=None, quality="medium", max_bytes=0, planes=(), denoise=False,
         time_limit=None, at=0.0, **image,
     ):  # fmt: skip
         """Path-traces the scene. Returns an Image, which does not depend on the number of threads. Ctrl-C ends it.
@@ -236,7 +236,7 @@ class Scene(Value):
                 raise Error(f'the phase "{p.name}" has no material: pt.phase("{p.name}", pt.clear(ior=1.5))')
         settings = _parts.image(**{**(self.image.parameters() if self.image else {}), **image}).parameters()
         request = _render_request(quality, denoise, time_limit, [planes] if isinstance(planes, str) else planes)
-        request.crop, request.threads, request.most_bytes = crop, threads, most_bytes
+        request.crop, request.threads, request.max_bytes = crop, threads, max_bytes
         request.samples = None if image.get("samples") is None else int(image["samples"])
         request.seconds_at = _moment(at)
         tell = _line if progress is True else progress or None

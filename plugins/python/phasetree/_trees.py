@@ -77,7 +77,7 @@ class PhaseMesh(NamedTuple):
     names: tuple  #: the names of the phases
     spacing: float  #: the distance between grid points
     crossings: int  #: the number of crossings along the lines of the grid
-    passed_over: int  #: how many are missing: at edges, and where a phase is thinner than the spacing
+    skipped: int  #: how many are missing: at edges, and where a phase is thinner than the spacing
 
     def surface(self, *phases):
         """The surface around some phases together, each given as a Phase or by name. Returns (vertices, triangles).

@@ -30,7 +30,7 @@ py::tuple mesh(const embree::PreparedObject& object, float spacing, const py::ob
         behind.mutable_data()[i] = t.behind.index;
         front.mutable_data()[i] = t.front.index;
     }
-    return py::make_tuple(vertices, triangles, behind, front, mesh.spacing, mesh.crossings, mesh.passed_over);
+    return py::make_tuple(vertices, triangles, behind, front, mesh.spacing, mesh.crossings, mesh.skipped);
 }
 
 }  // namespace

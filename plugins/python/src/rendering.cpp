@@ -32,7 +32,7 @@ struct RenderRequest {
     std::optional<std::array<int, 4>> crop;
     int threads = 0;
     bool is_quick = false;
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     std::vector<std::string> planes;
     std::optional<std::string> denoise;
     double seconds_at = 0;    // the time at which the scene is read
@@ -109,7 +109,7 @@ Rendering sampled(const Scene& scene, const RenderRequest& request, const std::o
     const World world(scene, WorldOptions{.quality = request.is_quick ? BuildQuality::low : BuildQuality::medium,
                                           .cancelled = cancelled,
                                           .progress = [&](float share) { progress("preparing", share); },
-                                          .most_bytes = request.most_bytes});
+                                          .max_bytes = request.max_bytes});
     RenderJob job;
     job.pixels = pixels_of(scene, request);
     job.threads = threads.count();
@@ -226,7 +226,7 @@ void add_rendering(py::module_& module) {
         .def_readwrite("crop", &RenderRequest::crop)
         .def_readwrite("threads", &RenderRequest::threads)
         .def_readwrite("is_quick", &RenderRequest::is_quick)
-        .def_readwrite("most_bytes", &RenderRequest::most_bytes)
+        .def_readwrite("max_bytes", &RenderRequest::max_bytes)
         .def_readwrite("planes", &RenderRequest::planes)
         .def_readwrite("denoise", &RenderRequest::denoise)
         .def_readwrite("seconds_at", &RenderRequest::seconds_at)

@@ -67,10 +67,10 @@ TEST_CASE("carving refuses what it cannot do, and can be ended") {
     CHECK(phasetreeCarveTree(tree.get(), 1, nullptr, planes, &count, nullptr) == PHASETREE_ERROR_INVALID_ARGUMENT);
     CHECK(phasetreeCarveTree(tree.get(), PHASETREE_ALL_PHASES, nullptr, planes, nullptr, nullptr) ==
           PHASETREE_ERROR_INVALID_ARGUMENT);
-    options.mostPlanes = 5;
+    options.maxPlanes = 5;
     CHECK(phasetreeCarveTree(tree.get(), PHASETREE_ALL_PHASES, &options, planes, &count, nullptr) ==
           PHASETREE_ERROR_INVALID_ARGUMENT);
-    options.mostPlanes = 6;
+    options.maxPlanes = 6;
     options.tolerance = 0;
     CHECK(phasetreeCarveTree(tree.get(), PHASETREE_ALL_PHASES, &options, planes, &count, nullptr) ==
           PHASETREE_ERROR_INVALID_ARGUMENT);

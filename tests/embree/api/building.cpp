@@ -181,7 +181,8 @@ TEST_CASE("empty and unbounded trees are rejected with a message") {
         const embree::Tree t = embree::Tree::from_text(std::string(R"({"phases": {"a": 0}, "tree": )") + tree + "}");
         return phasetreeNewGeometry(PHASETREE_API_VERSION, device, t.get(), nullptr, &geometry);
     };
-    expect_error(make(R"({"set": {"phase": "a", "of": {"plane": {}}}})"), PHASETREE_ERROR_INVALID_TREE, "unbounded");
+    expect_error(make(R"({"set": {"phase": "a", "of": {"plane": {}}}})"), PHASETREE_ERROR_INVALID_TREE,
+                 "unbounded because of its \"plane\" (at set.of.plane)");
     expect_error(
         make(R"({"set": {"phase": "a", "of": {"offset": {"of": {"sphere": {"radius": 1}}, "distance": -2}}}})"),
         PHASETREE_ERROR_INVALID_TREE, "empty");

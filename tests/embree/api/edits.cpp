@@ -91,7 +91,7 @@ TEST_CASE("options of cells and resolution") {
     coarse.cellDivisions = 1;
     const Placed fine(tree), few(tree, coarse);
     CHECK(few.geometry.statistics().cells < fine.geometry.statistics().cells);
-    CHECK(few.geometry.statistics().mostInstructions >= fine.geometry.statistics().mostInstructions);
+    CHECK(few.geometry.statistics().maxInstructions >= fine.geometry.statistics().maxInstructions);
     const auto of_quality = [](RTCBuildQuality quality) {
         PhasetreeGeometryOptions options = embree::default_options();
         options.buildQuality = quality;

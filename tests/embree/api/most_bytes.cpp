@@ -1,4 +1,4 @@
-// PhasetreeGeometryOptions::mostBytes: cells keep to the memory that they may take, and what rays find is the same.
+// PhasetreeGeometryOptions::maxBytes: cells keep to the memory that they may take, and what rays find is the same.
 #include <atomic>
 
 #include "embree/api/api.hpp"
@@ -22,7 +22,7 @@ constexpr const char* blocks = R"({
 
 PhasetreeGeometryOptions within(std::size_t bytes) {
     PhasetreeGeometryOptions options = embree::default_options();
-    options.mostBytes = bytes;
+    options.maxBytes = bytes;
     return options;
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("the bytes are those of the C++ library, whose cells tell that they ar
     Device device;
     for (const std::size_t bytes : {std::size_t{0}, 16 * all, all / 8}) {
         CAPTURE(bytes);
-        const CellStatistics expected = InterfaceCells(object, {.most_bytes = bytes}).statistics();
+        const CellStatistics expected = InterfaceCells(object, {.max_bytes = bytes}).statistics();
         CHECK(expected.is_coarser == (bytes == all / 8));
         const PhasetreeGeometryStatistics found = embree::Geometry(device, tree, within(bytes)).statistics();
         CHECK(found.cells == expected.cells);

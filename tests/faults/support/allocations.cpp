@@ -1,5 +1,5 @@
-// operator new for the whole process. That of the project's own code can be told to fail: an allocation belongs to
-// whoever called the standard library, which is found by going up the stack.
+// Replaces operator new for the whole process. Allocations by the project's own code can be made to fail. An allocation
+// belongs to the code that called the standard library, which is found by walking up the stack.
 #include <dlfcn.h>
 #include <link.h>
 #include <unwind.h>

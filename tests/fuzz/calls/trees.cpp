@@ -88,9 +88,9 @@ void Calls::ask_tree() {
     check_with(of, phasetreeGetTreeBounds(of, c_.or_null(&bounds)));
     PhasetreeCarveOptions options;
     phasetreeInitCarveOptions(&options);
-    options.mostPlanes = c_.below(12);
+    options.maxPlanes = c_.below(12);
     options.tolerance = 0.02f;
-    options.mostEvaluations = c_.below(300);
+    options.maxEvaluations = c_.below(300);
     PhasetreePlane planes[12];
     unsigned count = 0;
     PhasetreeCarvedBounds carved;

@@ -1,5 +1,4 @@
-// Fonts, by the reader of the node `text`: of what is read a text can be made and has distances, and everything else is
-// refused.
+// Fonts, read as for the node `text`. A font is either rejected, or a text can be set in it and has distances.
 #include <cmath>
 #include <memory>
 #include <stdexcept>

@@ -26,9 +26,9 @@ void check_solids(const tracer::gltf::GltfFile& file) {
 }  // namespace
 
 void run_gltf(Bytes input) {
-    constexpr std::size_t most_triangles = 100'000;
+    constexpr std::size_t max_triangles = 100'000;
     const tracer::gltf::Limits limits{
-        .triangles = most_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000, .moves = 1'000'000};
+        .triangles = max_triangles, .primitives = 10'000, .materials = 100, .pixels = 10'000'000, .moves = 1'000'000};
     const std::string_view content = text_of(input);
     // The last bits of a file are of its images, or of no meaning.
     const unsigned last = content.empty() ? 0 : static_cast<unsigned char>(content.back());
@@ -44,7 +44,7 @@ void run_gltf(Bytes input) {
             tracer::gltf::read_gltf(content, {.materials = materials, .clear = clear, .limits = limits}, files);
         check_solids(file);
         for (const tracer::gltf::Part& part : file.parts) {
-            promised(!part.mesh.triangles.empty() && part.mesh.triangles.size() <= most_triangles,
+            promised(!part.mesh.triangles.empty() && part.mesh.triangles.size() <= max_triangles,
                      "there are triangles, and no more than are wanted");
             const std::size_t vertices = part.mesh.vertices.size();
             promised(part.normals.empty() || part.normals.values.size() == vertices, "each vertex has a normal");

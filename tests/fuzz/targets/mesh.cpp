@@ -34,7 +34,7 @@ void promise_corners(const MeshFile& file, const AtCorners<T>& values) {
 void run_mesh(Bytes input) {
     try {
         const std::filesystem::path& path = written(input);
-        const MeshFile read = read_mesh_file(path, text_of(input), TriangleMesh::most_triangles);
+        const MeshFile read = read_mesh_file(path, text_of(input), TriangleMesh::max_triangles);
         promise_corners(read, read.normals);
         promise_corners(read, read.texture);
         promise_corners(read, read.colors);

@@ -16,8 +16,8 @@ namespace phasetree::fuzz {
 
 namespace {
 
-constexpr std::size_t most_instructions = 300;  // of what is traced: an input is to take milliseconds
-constexpr int most_questions = 60;              // whether building is cancelled: one for each box that is divided
+constexpr std::size_t max_instructions = 300;  // of what is traced: an input is to take milliseconds
+constexpr int most_questions = 60;             // whether building is cancelled: one for each box that is divided
 
 const FileReaders readers = tests::example_readers();
 
@@ -74,7 +74,7 @@ void trace(const InterfaceTracer& tracer, const glm::vec3& origin, const glm::ve
 void cut(const Phased& object) {
     int questions = 0;
     CellOptions options;
-    options.deepest = 6;
+    options.max_depth = 6;
     options.quality = BuildQuality::low;
     options.cancelled = [&] { return ++questions > most_questions; };
     try {
@@ -111,7 +111,7 @@ void run_scene(Bytes input) {
         const Evaluator evaluator(record(tree.object, 20'000));
         const FlushSubnormals flush;
         evaluate(evaluator, tree.object);
-        if (evaluator.program().instructions.size() > most_instructions) return;
+        if (evaluator.program().instructions.size() > max_instructions) return;
         const InterfaceTracer tracer(tree.object);
         const float size = b.diagonal();
         trace(tracer, b.centre() - size * glm::vec3(0, 0, 1), {0, 0, 1});

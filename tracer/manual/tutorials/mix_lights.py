@@ -1,9 +1,9 @@
 """Mix the light groups of the tutorial "a picture for print" in Blender's compositor.
 
-    blender --background --python mix_lights.py
+    blender --background --factory-startup --python-exit-code 1 --python mix_lights.py
 
-Reads cup.light_key.exr, cup.light_rim.exr and cup.light_fill.exr from the working directory, and writes
-evening0001.png there. For Blender 4.
+Reads cup.light_key.exr, cup.light_rim.exr and cup.light_fill.exr from the working directory, and writes evening.png
+there. For Blender 3.4 to 4.
 """
 
 import os
@@ -35,7 +35,9 @@ total = None
 for name, factors in layers.items():
     image = nodes.new("CompositorNodeImage")
     image.image = bpy.data.images.load(os.path.abspath(f"cup.light_{name}.exr"))
-    image.image.colorspace_settings.name = "Linear Rec.709"
+    color_space = image.image.colorspace_settings
+    color_spaces = color_space.bl_rna.properties["name"].enum_items.keys()
+    color_space.name = "Linear Rec.709" if "Linear Rec.709" in color_spaces else "Linear"  # the name before Blender 4
     light = mixed("MULTIPLY", image.outputs["Image"], factors)
     total = mixed("ADD", total, light) if total else light
 

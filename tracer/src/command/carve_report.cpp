@@ -21,9 +21,9 @@ nlohmann::ordered_json numbers(const glm::dvec3& v) {
 
 }  // namespace
 
-std::vector<CarvedPart> carve_parts(const SceneTree& tree, int most_planes) {
+std::vector<CarvedPart> carve_parts(const SceneTree& tree, int max_planes) {
     CarveOptions options;
-    options.most_planes = most_planes;
+    options.max_planes = max_planes;
     std::vector<CarvedPart> parts;
     const auto add = [&](std::string name, PhaseSet of) {
         const auto start = std::chrono::steady_clock::now();

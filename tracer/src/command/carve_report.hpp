@@ -18,7 +18,7 @@ struct CarvedPart {
 
 /// Carves the whole object and each of its phases. An object of one phase is carved only as a whole. Throws as carve()
 /// does.
-std::vector<CarvedPart> carve_parts(const SceneTree& tree, int most_planes);
+std::vector<CarvedPart> carve_parts(const SceneTree& tree, int max_planes);
 
 void add_carved(nlohmann::ordered_json& json, const std::vector<CarvedPart>& parts);
 void print_carved(const std::vector<CarvedPart>& parts);

@@ -48,10 +48,13 @@ int check_without_camera(const Document& document, const std::string& shown) {
     const Evaluator evaluator(record_tree(document, tree.object));
     std::string uses = "eval, info, trace and other programs";
     const Bounds b = bounds(tree.object);
-    if (!b.empty() && b.finite())
+    if (!b.empty() && b.finite()) {
         print_warning(shown, made_of_tree(document, [&] { return prepare_to_trace(tree.object); }).warning);
-    else if (!b.empty())
-        uses = "eval and info, but not traced, because it is unbounded";
+    } else if (!b.empty()) {
+        const SceneError e = unbounded_error(document);
+        uses = fmt::format("eval and info, but not traced, because the node in line {}, column {} makes it unbounded",
+                           e.line(), e.column());
+    }
     if (is_empty(tree.object, evaluator)) say("{}\n", empty_object_warning(document));
     put("{}: the tree is valid and can be used by {}; without a \"camera\" the scene cannot be rendered\n", shown,
         uses);

@@ -87,7 +87,7 @@ int export_page(const SceneFile& file, const ExportOptions& chosen) {
     }
     GlslOptions options;
     options.phase_names = tree.phases.names;
-    options.most_numbers_in_text = 0;
+    options.max_numbers_in_text = 0;
     options.steps = 256;
     options.cancelled = [] { return interrupted(); };
     const float resolution = std::max(traceable.resolution, bracket_on_page * bounds.diagonal());
@@ -208,7 +208,7 @@ void add_export(CLI::App& app, Run& run) {
         ->add_option("--phase", options->mesh.phases,
                      "Triangles: write only this phase; may be repeated (default: all but the vacuum)")
         ->option_text("NAME");
-    add_max_memory(*command, options->mesh.most_bytes);
+    add_max_memory(*command, options->mesh.max_bytes);
     command->callback([=, &run] {
         run = [=] {
             const std::string extension = std::filesystem::path(options->output).extension().string();

@@ -138,7 +138,7 @@ void say_what_is_lost(const MeshedObject& object) {
             object.looks[static_cast<std::size_t>(i)].name, mesh.spacing);
     });
     const double share =
-        mesh.crossings > 0 ? static_cast<double>(mesh.passed_over) / static_cast<double>(mesh.crossings) : 0;
+        mesh.crossings > 0 ? static_cast<double>(mesh.skipped) / static_cast<double>(mesh.crossings) : 0;
     if (share > share_of_edges)
         say("phasetree: warning: {:.0f} % of the crossings along the grid were missed, at edges and where phases are "
             "thinner than the spacing of {:.4g}; reduce --spacing\n",
@@ -155,7 +155,7 @@ MeshedObject meshed(const SceneFile& file, const MeshExport& wanted, const Docum
     check_overwrites(file, document, outputs_of(wanted, object.chosen, tree.phases));
     CellOptions cells;
     cells.quality = BuildQuality::low;
-    cells.most_bytes = wanted.most_bytes;
+    cells.max_bytes = wanted.max_bytes;
     cells.cancelled = [] { return interrupted(); };
     LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
     cells.progress = [&](float done) { preparing.tell(done); };

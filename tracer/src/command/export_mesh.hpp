@@ -16,7 +16,7 @@ struct MeshExport {
     float scale = 1;                  // written lengths per scene length
     std::vector<std::string> phases;  // names of the phases to export; empty for all but the vacuum
     std::optional<std::string> object;
-    std::size_t most_bytes = 0;  // memory limit of the prepared object; 0 for the default
+    std::size_t max_bytes = 0;  // memory limit of the prepared object; 0 for the default
 };
 
 // Whether files with this extension contain triangles.

@@ -31,22 +31,24 @@ struct ImportOptions {
     gltf_import::ImportChoices choices{};
 };
 
-// Removes the files and the folder that it was given, unless they are kept.
-class CreatedFiles {
+// A folder that is removed again if it was created and is still empty.
+class CreatedFolder {
   public:
-    CreatedFiles() = default;
-    CreatedFiles(const CreatedFiles&) = delete;
-    CreatedFiles& operator=(const CreatedFiles&) = delete;
-    ~CreatedFiles() {
-        std::error_code ignored;
-        for (const path& file : paths_) std::filesystem::remove(file, ignored);
+    explicit CreatedFolder(const path& folder) : folder_(folder) {
+        std::error_code problem;
+        is_new_ = std::filesystem::create_directory(folder, problem);
+        if (problem) throw OutputError(fmt::format("cannot create {}: {}", folder.string(), problem.message()));
     }
-    // Later ones are removed first; a folder only if it is empty then.
-    void add(const path& file) { paths_.insert(paths_.begin(), file); }
-    void keep() { paths_.clear(); }
+    ~CreatedFolder() {
+        std::error_code ignored;
+        if (is_new_) std::filesystem::remove(folder_, ignored);
+    }
+    CreatedFolder(const CreatedFolder&) = delete;
+    CreatedFolder& operator=(const CreatedFolder&) = delete;
 
   private:
-    std::vector<path> paths_;
+    path folder_;
+    bool is_new_ = false;
 };
 
 path beside(const path& scene, const std::string& file) {
@@ -72,30 +74,35 @@ void check_outputs(const ImportOptions& options, const std::vector<NamedFile>& o
                                          output.path.string()));
 }
 
-// False if a signal arrived; then nothing that was written is left.
+// Returns false if a signal arrived. Existing files are then unchanged, and no new file is left.
 bool write(const ImportOptions& options, const gltf_import::ImportedScene& scene) {
-    CreatedFiles created;
-    const auto write_new = [&](const std::string& bytes, const path& file) {
-        std::error_code ignored;
-        const bool is_new = !std::filesystem::exists(file, ignored);
-        write_file(bytes, file);
-        if (is_new) created.add(file);
-    };
-    if (!scene.meshes.empty()) {
-        const path folder = beside(options.output, scene.meshes.front().file).parent_path();
-        std::error_code problem;
-        if (std::filesystem::create_directory(folder, problem)) created.add(folder);
-        if (problem) throw OutputError(fmt::format("cannot create {}: {}", folder.string(), problem.message()));
-    }
+    std::optional<CreatedFolder> folder;  // outlives the files in it
+    if (!scene.meshes.empty()) folder.emplace(beside(options.output, scene.meshes.front().file).parent_path());
+    FilesTogether files;
     for (const gltf_import::ImportedMesh& mesh : scene.meshes) {
         if (interrupted()) return false;
-        write_new(mesh.bytes, beside(options.output, mesh.file));
+        files.add(mesh.bytes, beside(options.output, mesh.file));
     }
+    // The scene is renamed last, so that everything it needs exists when it appears.
+    files.add(scene.text, options.output);
     if (interrupted()) return false;
-    // The scene is written last, so that everything it needs exists when it appears.
-    write_new(scene.text, options.output);
-    created.keep();
+    files.finish();
     return true;
+}
+
+// A scene names its meshes and its glTF file relative to its own folder. Behind a link into another folder, they would
+// be found either from the link or from the scene, but not from both.
+void check_is_in_its_folder(const std::string& scene) {
+    std::error_code problem;
+    if (!std::filesystem::is_symlink(std::filesystem::symlink_status(scene, problem))) return;
+    path target = path(scene).parent_path() / std::filesystem::read_symlink(scene, problem);
+    const path folder = path(scene).has_parent_path() ? path(scene).parent_path() : ".";
+    if (problem || std::filesystem::is_symlink(std::filesystem::symlink_status(target, problem)) ||
+        !std::filesystem::equivalent(folder, target.has_parent_path() ? target.parent_path() : ".", problem))
+        throw UsageError(fmt::format(
+            "--output: {} is a symbolic link to another folder, where the scene would not find its files; give the "
+            "path of the scene itself, {}",
+            scene, target.lexically_normal().string()));
 }
 
 gltf_import::ImportedScene imported(const ImportOptions& options) {
@@ -115,6 +122,7 @@ int import_file(const ImportOptions& options) {
             fmt::format("cannot import \"{}\": the name of the file must end in .glb or .gltf; export the "
                         "scene as glTF",
                         options.input));
+    check_is_in_its_folder(options.output);
     const InterruptGuard guard;
     gltf_import::ImportedScene scene;
     {

@@ -14,6 +14,7 @@
 #include "command/objects_report.hpp"
 #include "command/streams.hpp"
 #include "output/late_progress.hpp"
+#include "output/utf8_name.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/handle.hpp"
@@ -33,7 +34,7 @@ glm::vec3 unsigned_zeroes(const glm::vec3& v) {
 struct InfoOptions {
     bool as_json = false, with_cells = false, with_carving = false;
     std::optional<std::string> object;
-    int most_planes = CarveOptions().most_planes;
+    int max_planes = CarveOptions().max_planes;
     CellOptions cells;
 };
 
@@ -79,6 +80,7 @@ int info_of_meshes(const SceneFile& file, const InfoOptions& chosen, const Docum
 }
 
 int info(const SceneFile& file, const InfoOptions& chosen) {
+    if (chosen.as_json) require_utf8(file.shown());
     const AvailableThreads threads;
     const Document document = read_document(file);
     if (has_meshes_alone(document)) return info_of_meshes(file, chosen, document);
@@ -109,7 +111,7 @@ int info(const SceneFile& file, const InfoOptions& chosen) {
     const bool nothing_left = is_empty(tree.object, evaluator);
     std::vector<CarvedPart> carved;
     if (chosen.with_carving && !nothing_left)
-        carved = made_of_tree(document, [&] { return carve_parts(tree, chosen.most_planes); });
+        carved = made_of_tree(document, [&] { return carve_parts(tree, chosen.max_planes); });
 
     if (chosen.as_json) {
         nlohmann::ordered_json json;
@@ -170,10 +172,10 @@ void add_info(CLI::App& app, Run& run) {
         command->add_flag("--cells", options->with_cells,
                           "Also build the cells in which a render traces rays, and print their statistics");
     add_build_quality(*command, options->cells.quality)->needs(with_cells);
-    add_max_memory(*command, options->cells.most_bytes)->needs(with_cells);
+    add_max_memory(*command, options->cells.max_bytes)->needs(with_cells);
     auto* const with_carving = command->add_flag(
         "--carve", options->with_carving, "Also carve convex bounds around the object and each phase, and print them");
-    command->add_option("--planes", options->most_planes, "Maximum number of planes of each bound (default: 40)")
+    command->add_option("--planes", options->max_planes, "Maximum number of planes of each bound (default: 40)")
         ->check(CLI::Range(6, 256))
         ->option_text("N")
         ->needs(with_carving);

@@ -8,6 +8,7 @@
 #include "output/display.hpp"
 #include "phasetree/program/program.hpp"
 #include "scene/scene.hpp"
+#include "scene/unbounded_error.hpp"
 
 namespace phasetree::tracer {
 
@@ -42,13 +43,13 @@ void make_one_tree(const Document&, Scene&);
 Value model_in(const Document&);
 
 // Returns what `make` makes of the document's tree. If the object does not allow it (it is unbounded or too large), the
-// exception becomes an error at "tree".
+// exception becomes an error at the node responsible, or at "tree".
 template <class F>
 auto made_of_tree(const Document& document, F&& make) {
     try {
         return make();
     } catch (const ModelError& e) {
-        throw document.error(model_in(document), e.what());
+        throw object_error(document, model_in(document), e);
     }
 }
 

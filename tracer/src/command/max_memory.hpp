@@ -32,12 +32,12 @@ inline std::optional<std::size_t> bytes_of(std::string_view text) {
     return static_cast<std::size_t>(bytes);
 }
 
-inline CLI::Option* add_max_memory(CLI::App& command, std::size_t& most_bytes) {
-    const auto choose = [&most_bytes](const std::string& text) {
+inline CLI::Option* add_max_memory(CLI::App& command, std::size_t& max_bytes) {
+    const auto choose = [&max_bytes](const std::string& text) {
         const std::optional<std::size_t> bytes = bytes_of(text);
         if (!bytes)
             throw CLI::ValidationError("--max-memory", "must be a size such as 512M or 2G, but is \"" + text + "\"");
-        most_bytes = *bytes;
+        max_bytes = *bytes;
     };
     return command
         .add_option_function<std::string>(

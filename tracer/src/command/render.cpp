@@ -29,6 +29,7 @@
 #include "film_file/read.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
+#include "output/utf8_name.hpp"
 #include "phasetree/cells/file.hpp"
 #include "render/threads.hpp"
 #include "scene/meshes_alone.hpp"
@@ -108,7 +109,10 @@ std::vector<std::string> checked_outputs(const RenderOptions& options, const Doc
         throw UsageError(
             "--planes needs an output that can store planes: an .exr or .part file, or for alpha alone a .png or .tif "
             "file");
-    if (options.stats) check_file_writable(*options.stats);
+    if (options.stats) {
+        require_utf8(options.scene->shown());
+        check_file_writable(*options.stats);
+    }
     if (options.checkpoint) check_file_writable(*options.checkpoint);
     check_overwrites(options, document, outputs);
     return outputs;
@@ -226,7 +230,7 @@ bool prepare(std::optional<World>& world, const RenderOptions& options, const Sc
         world.emplace(scene, WorldOptions{.quality = options.quality,
                                           .cancelled = job.cancelled,
                                           .progress = [&](float done) { progress.tell(static_cast<double>(done)); },
-                                          .most_bytes = options.most_bytes,
+                                          .max_bytes = options.max_bytes,
                                           .kept_cells = options.cells});
     };
     try {

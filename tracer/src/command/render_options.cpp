@@ -169,7 +169,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                     "Number of threads (default: one per core); the picture does not depend on it")
         ->check(CLI::Range(1, 1024));
     add_build_quality(command, o.quality);
-    add_max_memory(command, o.most_bytes);
+    add_max_memory(command, o.max_bytes);
     command.add_option("--cells", o.cells,
                        "Keep the prepared object in this file for the next run. The file is read if it belongs to this "
                        "object and this build, and otherwise written");

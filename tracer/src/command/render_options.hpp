@@ -23,7 +23,7 @@ struct RenderOptions {
     std::optional<std::string> crop;
     int threads = 0;
     BuildQuality quality = BuildQuality::medium;
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     std::optional<std::uint32_t> seed;
     std::optional<float> exposure, detail;
     std::optional<std::string> display, view, stats, cells, planes;

@@ -25,7 +25,7 @@ struct ViewOptions {
 
     ViewedFile file() const { return {*scene, display, view}; }
     int threads = 0, port = 0;
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     bool opens = false;
 };
 
@@ -52,7 +52,7 @@ int view_scene(const ViewOptions& options) {
     const view::SessionOptions session_options{
         .name = options.scene->shown(),
         .threads = threads.count(),
-        .most_bytes = options.most_bytes,
+        .max_bytes = options.max_bytes,
         .samples = options.samples,
         .width = options.width,
         .write_camera = [&](const std::string& camera) { file.write_camera(camera); },
@@ -94,7 +94,7 @@ void add_view(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, 8192));
     command->add_option("--threads", o->threads, "Number of threads (default: one per core)")
         ->check(CLI::Range(1, 1024));
-    add_max_memory(*command, o->most_bytes);
+    add_max_memory(*command, o->max_bytes);
     command->add_option("--display", o->display, "OpenColorIO display (default: that of the configuration)");
     command->add_option("--view", o->view, "OpenColorIO view (default: that of the scene or the configuration)");
     command->callback([o, &run] { run = [o] { return view_scene(*o); }; });

@@ -19,9 +19,9 @@ namespace phasetree::tracer::gltf {
 
 class Accessors {
   public:
-    /// Refers to the document. `most_triangles` bounds what a compressed primitive may have.
-    Accessors(const Document& document, std::size_t most_triangles)
-        : document_(document), most_triangles_(most_triangles) {}
+    /// Refers to the document. `max_triangles` bounds what a compressed primitive may have.
+    Accessors(const Document& document, std::size_t max_triangles)
+        : document_(document), most_triangles_(max_triangles) {}
 
     const Document& document() const { return document_; }
     Accessor read(std::size_t index, const Item& from) { return Accessor(*this, index, from); }

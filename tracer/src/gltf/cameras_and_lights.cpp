@@ -1,10 +1,15 @@
 #include "gltf/cameras_and_lights.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <string>
+#include <vector>
+
+#include "gltf/names.hpp"
 
 namespace phasetree::tracer::gltf {
 
@@ -19,18 +24,29 @@ glm::dvec3 axis(const glm::dmat4& placement, int column, const glm::dvec3& other
     return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
+// The name of a camera or a light in quotes, or its number if it has none.
+std::string name_of(const Item& item, std::size_t number) {
+    const std::string name = clean_name(item.text("name"));
+    return name.empty() ? fmt::format("{}", number) : fmt::format("\"{}\"", name);
+}
+
 bool is_usable(const glm::dvec3& position) {
     return std::abs(position.x) <= most_magnitude && std::abs(position.y) <= most_magnitude &&
            std::abs(position.z) <= most_magnitude;
 }
 
-}  // namespace
-
-std::optional<Camera> camera_of(const Document& document, const PlacedMeshes& placed) {
+std::optional<Camera> camera_of(const Document& document, const PlacedMeshes& placed,
+                                std::vector<std::string>& not_shown) {
+    std::optional<Camera> first;
     for (const PlacedElement& element : placed.cameras) {
         const Item item = document.element("cameras", element.number, document.root());
         const auto perspective = item.item("perspective");
-        if (item.text("type") != "perspective" || !perspective) continue;
+        if (item.text("type") == "orthographic")
+            not_shown.push_back(
+                fmt::format("the camera {} is orthographic and left out; write it into the scene by "
+                            "hand, as an \"orthographic\" camera",
+                            name_of(item, element.number)));
+        if (first || item.text("type") != "perspective" || !perspective) continue;
         Camera camera{.position = glm::dvec3(element.placement[3]),
                       .forward = -axis(element.placement, 2, {0, 0, 1}),
                       .up = axis(element.placement, 1, {0, 1, 0}),
@@ -40,12 +56,21 @@ std::optional<Camera> camera_of(const Document& document, const PlacedMeshes& pl
         if (!is_usable(camera.position)) item.fail("is too far away");
         const float aspect = perspective->number("aspectRatio", 0);
         if (aspect > 0) camera.aspect_ratio = aspect;
-        return camera;
+        first = camera;
     }
-    return std::nullopt;
+    return first;
 }
 
-std::vector<PunctualLight> lights_of(const Document& document, const PlacedMeshes& placed) {
+// What keeps a light from emitting; empty if it emits.
+std::string why_dark(const glm::vec3& color, float intensity) {
+    if (intensity < 0) return "a negative intensity";
+    if (intensity == 0) return "the intensity 0";
+    if (!(color.x > 0 || color.y > 0 || color.z > 0)) return "a black or negative colour";
+    return {};
+}
+
+std::vector<PunctualLight> lights_of(const Document& document, const PlacedMeshes& placed,
+                                     std::vector<std::string>& not_shown) {
     std::vector<PunctualLight> lights;
     if (placed.lights.empty()) return lights;
     const auto extension = document.root().extension("KHR_lights_punctual");
@@ -54,9 +79,10 @@ std::vector<PunctualLight> lights_of(const Document& document, const PlacedMeshe
         if (element.number >= items.size()) document.root().fail("has a node with a light that does not exist");
         const Item& item = items[element.number];
         const std::string type = item.text("type");
+        const glm::vec3 color = item.vec3("color", glm::vec3(1));
         PunctualLight light{.position = glm::dvec3(element.placement[3]),
                             .forward = -axis(element.placement, 2, {0, 0, 1}),
-                            .color = glm::max(item.vec3("color", glm::vec3(1)), glm::vec3(0)),
+                            .color = glm::max(color, glm::vec3(0)),
                             .intensity = item.number("intensity", 1)};
         if (type == "directional") {
             light.kind = PunctualLight::Kind::directional;
@@ -69,9 +95,26 @@ std::vector<PunctualLight> lights_of(const Document& document, const PlacedMeshe
             item.fail("must have the \"type\" \"directional\", \"point\" or \"spot\"");
         }
         if (!is_usable(light.position)) item.fail("is too far away");
-        if (light.intensity > 0 && light.color != glm::vec3(0)) lights.push_back(light);
+        const std::string dark = why_dark(color, light.intensity), name = name_of(item, element.number);
+        if (!dark.empty()) {
+            not_shown.push_back(fmt::format("the light {} has {} and is left out", name, dark));
+            continue;
+        }
+        if (light.color != color)
+            not_shown.push_back(
+                fmt::format("the light {} has a colour with negative components, which become 0", name));
+        lights.push_back(light);
     }
     return lights;
+}
+
+}  // namespace
+
+CamerasAndLights cameras_and_lights(const Document& document, const PlacedMeshes& placed) {
+    CamerasAndLights all;
+    all.camera = camera_of(document, placed, all.not_shown);
+    all.lights = lights_of(document, placed, all.not_shown);
+    return all;
 }
 
 }  // namespace phasetree::tracer::gltf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gltf/placed_meshes.hpp"
@@ -9,10 +10,13 @@
 
 namespace phasetree::tracer::gltf {
 
-/// The first perspective camera, if there is one. Throws GltfError.
-std::optional<Camera> camera_of(const Document&, const PlacedMeshes&);
+struct CamerasAndLights {
+    std::optional<Camera> camera{};        ///< the first perspective camera
+    std::vector<PunctualLight> lights{};   ///< those that emit
+    std::vector<std::string> not_shown{};  ///< sentences about orthographic cameras and about other lights
+};
 
-/// The lights that emit. Throws GltfError.
-std::vector<PunctualLight> lights_of(const Document&, const PlacedMeshes&);
+/// Throws GltfError.
+CamerasAndLights cameras_and_lights(const Document&, const PlacedMeshes&);
 
 }  // namespace phasetree::tracer::gltf

@@ -87,8 +87,10 @@ class Reader {
         for (auto& [key, begun] : parts_) finish(begun);
         if (clear_ == ReadClear::as_solids) {
             std::ranges::stable_sort(file_.solids, {}, &ClearSolid::placed_mesh);
-            file_.camera = camera_of(document_, all);
-            file_.lights = lights_of(document_, all);
+            CamerasAndLights seen = cameras_and_lights(document_, all);
+            file_.camera = std::move(seen.camera);
+            file_.lights = std::move(seen.lights);
+            for (const std::string& sentence : seen.not_shown) say(sentence);
         }
         if (file_.parts.empty() && file_.solids.empty()) throw GltfError(why_there_is_nothing(all));
         say_which_extensions_are_not_read();

@@ -10,7 +10,7 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-constexpr std::size_t most_points = 4096;                // of one surface, for one pair
+constexpr std::size_t max_points = 4096;                 // of one surface, for one pair
 constexpr std::size_t most_distances = 4'000'000;        // of all pairs
 constexpr float widest_gap = 0.02f;                      // of the smaller solid's diagonal
 constexpr float least_depth = 1e-5f, least_gap = 1e-6f;  // of the smaller solid's diagonal; rounding is less
@@ -148,7 +148,7 @@ std::vector<Contact> contacts_of(const std::vector<Solid>& solids) {
     constexpr std::size_t fewest_points = 64;
     const std::vector<Pair> pairs = near_pairs(solids);
     if (pairs.empty()) return {};
-    const Finder finder(solids, std::clamp(most_distances / (2 * pairs.size()), fewest_points, most_points));
+    const Finder finder(solids, std::clamp(most_distances / (2 * pairs.size()), fewest_points, max_points));
     std::vector<Contact> contacts;
     for (const Pair& pair : pairs) {
         const Contact contact = finder.find(pair);

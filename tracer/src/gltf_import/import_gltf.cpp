@@ -18,6 +18,7 @@
 #include "gltf_import/surroundings.hpp"
 #include "mesh_file/file_name.hpp"
 #include "mesh_file/ply.hpp"
+#include "output/utf8_name.hpp"
 #include "phasetree/io/kind.hpp"
 #include "phasetree/model/phase.hpp"
 #include "scene/gltf_files.hpp"
@@ -122,6 +123,7 @@ class Importer {
 
     void write_meshes() {
         const std::string folder = scene_.stem().string() + ".meshes/";
+        require_utf8(folder);
         std::set<std::string> taken;  // in lower case, because some file systems do not distinguish them
         const auto is_new = [&](std::string name) {
             std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
@@ -171,7 +173,10 @@ class Importer {
         std::error_code problem;
         const path folder = scene_.has_parent_path() ? scene_.parent_path() : ".";
         const path relative = std::filesystem::relative(gltf_, folder, problem);
-        return (problem || relative.empty() ? std::filesystem::absolute(gltf_) : relative).generic_string();
+        const std::string name =
+            (problem || relative.empty() ? std::filesystem::absolute(gltf_) : relative).generic_string();
+        require_utf8(name);
+        return name;
     }
 
     SceneJson mesh() const {

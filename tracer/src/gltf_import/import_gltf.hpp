@@ -25,7 +25,7 @@ struct ImportChoices {
 };
 
 /// Imports a .gltf or .glb file for a scene file of that name. Reads files, and writes none. Throws ParameterError for
-/// "file", whose message names the file.
+/// "file", whose message names the file, and OutputNameError if the scene cannot name its files.
 ImportedScene import_gltf(const std::filesystem::path& gltf, const std::filesystem::path& scene, const ImportChoices&);
 
 }  // namespace phasetree::tracer::gltf_import

@@ -1,6 +1,7 @@
 #include "output/file.hpp"
 
 #include <fmt/format.h>
+#include <system_error>
 
 #include "output/error.hpp"
 #include "phasetree_support/whole_file.hpp"
@@ -22,6 +23,41 @@ void write_file(std::span<const unsigned char> bytes, const std::filesystem::pat
     } catch (const support::FileError& error) {
         throw failure(path, error);
     }
+}
+
+struct FilesTogether::File {
+    explicit File(const std::filesystem::path& name) : path(name), content(name) {
+        std::error_code ignored;
+        is_new = !std::filesystem::exists(path, ignored);
+    }
+
+    std::filesystem::path path;
+    support::WholeFile content;
+    bool is_new = false;
+};
+
+FilesTogether::FilesTogether() = default;
+FilesTogether::~FilesTogether() = default;
+
+void FilesTogether::add(std::string_view bytes, const std::filesystem::path& path) {
+    try {
+        support::WholeFile& content = files_.emplace_back(path).content;
+        content.write(std::as_bytes(std::span(bytes)));
+        content.close();
+    } catch (const support::FileError& error) {
+        throw failure(path, error);
+    }
+}
+
+void FilesTogether::finish() {
+    for (auto file = files_.begin(); file != files_.end(); ++file) try {
+            file->content.finish();
+        } catch (const support::FileError& error) {
+            std::error_code ignored;
+            for (auto renamed = files_.begin(); renamed != file; ++renamed)
+                if (renamed->is_new) std::filesystem::remove(renamed->path, ignored);
+            throw failure(file->path, error);
+        }
 }
 
 void check_file_writable(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <list>
 #include <span>
 #include <string_view>
 
@@ -14,6 +15,25 @@ void write_file(std::span<const unsigned char> bytes, const std::filesystem::pat
 inline void write_file(std::string_view text, const std::filesystem::path& path) {
     write_file(std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()), path);
 }
+
+/// Several files that replace existing ones together. Each is written under a temporary name by add(), and all are
+/// renamed by finish(), in the order in which they were added. Without finish(), or if it throws, existing files stay
+/// as they are and no new file is left, except that renaming itself may fail after some existing files were replaced.
+class FilesTogether {
+  public:
+    FilesTogether();
+    ~FilesTogether();
+    FilesTogether(const FilesTogether&) = delete;
+    FilesTogether& operator=(const FilesTogether&) = delete;
+
+    /// Both throw OutputError.
+    void add(std::string_view bytes, const std::filesystem::path& path);
+    void finish();
+
+  private:
+    struct File;
+    std::list<File> files_;
+};
 
 /// Throws the OutputError that write_file would, as far as it can be predicted. Leaves the directory unchanged.
 void check_file_writable(const std::filesystem::path& path);

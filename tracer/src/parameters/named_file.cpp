@@ -9,13 +9,13 @@
 
 namespace phasetree::tracer {
 
-std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit) {
+std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t max_bytes, std::string_view limit) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
         throw ParameterError("file", fmt::format("no such file {}", path.string()));
     if (!std::filesystem::is_regular_file(path, ignored))
         throw ParameterError("file", fmt::format("{} is not a regular file", path.string()));
-    if (std::filesystem::file_size(path, ignored) > most_bytes)
+    if (std::filesystem::file_size(path, ignored) > max_bytes)
         throw ParameterError("file", fmt::format("{} is larger than {}", path.string(), limit));
     std::ifstream stream(path, std::ios::binary);
     std::ostringstream text;

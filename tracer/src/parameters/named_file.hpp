@@ -8,7 +8,7 @@
 namespace phasetree::tracer {
 
 /// Reads a whole file. Throws ParameterError for "file" if it is not a regular file, cannot be read, or is larger than
-/// `most_bytes`, which the message calls `limit`.
-std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t most_bytes, std::string_view limit);
+/// `max_bytes`, which the message calls `limit`.
+std::string read_whole_file(const std::filesystem::path& path, std::uintmax_t max_bytes, std::string_view limit);
 
 }  // namespace phasetree::tracer

@@ -16,7 +16,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::size_t most_triangles = 100'000'000;
+constexpr std::size_t max_triangles = 100'000'000;
 
 // Merges equal vertices. In STL files each triangle has its own.
 void join_corners(Mesh& mesh) {
@@ -57,7 +57,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     check_without_file(ending);
     MeshFile read;
     try {
-        read = read_mesh_file(file, read_whole_file(file, most_bytes_of_mesh, "1 GiB"), most_triangles);
+        read = read_mesh_file(file, read_whole_file(file, most_bytes_of_mesh, "1 GiB"), max_triangles);
     } catch (const SceneError& e) {
         throw ParameterError("file", e.what());
     }

@@ -17,7 +17,7 @@ namespace {
 // Few per pair of objects, so that overlaps of one pair do not hide those of another.
 constexpr std::size_t most_found = 12, most_found_of_objects = 3;
 constexpr std::size_t most_pairs = 200'000, most_evaluations_of_pair = 4096;
-constexpr std::size_t most_evaluations = 4'000'000;
+constexpr std::size_t max_evaluations = 4'000'000;
 // Copies beyond these are ignored.
 constexpr std::uint32_t most_looked_at = 2'000'000;
 // As a fraction of the smaller box's diagonal.
@@ -85,7 +85,7 @@ class Search {
             result_.has_more = true;
             return true;
         }
-        if (pairs_ < most_pairs && evaluations_ < most_evaluations) return false;
+        if (pairs_ < most_pairs && evaluations_ < max_evaluations) return false;
         result_.is_cut_short = true;
         return true;
     }

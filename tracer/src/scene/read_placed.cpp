@@ -13,11 +13,13 @@
 #include "phasetree/io/suggest.hpp"
 #include "phasetree/model/renumber.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "phasetree/tree/unbounded.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/placed.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/read_transform.hpp"
+#include "scene/unbounded_error.hpp"
 
 namespace phasetree::tracer {
 
@@ -50,10 +52,10 @@ class ObjectsReader {
         read_groups();
         if (const auto list = root_.find("instances")) read_instances(*list, "\"instances\"", model_.placed.instances);
         add_default_instances();
-        if (model_.placed.copies() > most_copies)
+        if (model_.placed.copies() > max_copies)
             throw document_.error(root_,
                                   fmt::format("groups and instances produce {} copies of objects; the limit is {}",
-                                              model_.placed.copies(), most_copies));
+                                              model_.placed.copies(), max_copies));
         return std::move(model_);
     }
 
@@ -188,11 +190,27 @@ class ObjectsReader {
                 found.object.tree = with_numbers(found.object.tree, std::span(numbers).first(found.names.names.size()));
             found.object.tree = with_bounds(found.object.tree);
             (void)prepare_to_trace(found.object.tree);  // only checks whether the tree can be traced
+        } catch (const UnboundedError&) {
+            throw unbounded_error(found);
         } catch (const ModelError& e) {
             throw document_.error(found.at, fmt::format("\"{}\": {}", found.object.name, e.what()));
         }
         object_numbers_.emplace(found.object.name, static_cast<std::uint32_t>(model_.placed.objects.size()));
         model_.placed.objects.push_back(found.object);
+    }
+
+    // Reads the object's tree again to find the positions of its nodes.
+    SceneError unbounded_error(const Found& found) const {
+        NodePlaces places;
+        Phased tree;
+        if (!found.from.empty()) {
+            tree = read_tree(found.document, file_readers(), &places).object;
+        } else {
+            const Value own = found.at.find(name_of_tree).value_or(found.at);
+            tree =
+                phasetree::read_objects(document_, model_.phases, std::span(&own, 1), file_readers(), &places).front();
+        }
+        return tracer::unbounded_error(found.document, tree, places, fmt::format("\"{}\": ", found.object.name));
     }
 
     // Renumbers the phases. The nodes' positions in the text do not change.
@@ -235,10 +253,10 @@ class ObjectsReader {
             if (instance.is_group) made.depth = std::max(made.depth, 1 + model_.placed.groups[instance.of].depth);
         require_depth(made.depth);
         made.copies = model_.placed.copies_of(made.instances);
-        if (made.copies > most_copies)
+        if (made.copies > max_copies)
             throw document_.error(group.key_offset(),
                                   fmt::format("the group \"{}\" has {} copies of objects; the limit is {}", name,
-                                              made.copies, most_copies));
+                                              made.copies, max_copies));
         open_.pop_back();
         const auto number = static_cast<std::uint32_t>(model_.placed.groups.size());
         model_.placed.groups.push_back(std::move(made));

@@ -9,6 +9,7 @@
 #include "scene/meshes_alone.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/read_parts.hpp"
+#include "scene/unbounded_error.hpp"
 
 namespace phasetree::tracer {
 
@@ -189,7 +190,7 @@ Scene read_scene(const Document& document, NodePlaces* places) {
         if (scene.object) (void)prepare_to_trace(scene.object);
         find_glowing_parts(scene);
     } catch (const ModelError& e) {
-        throw document.error(document.root().find("tree").value_or(document.root()), e.what());
+        throw object_error(document, document.root().find("tree").value_or(document.root()), e);
     }
     scene.lights.cluster_lamps();
     return scene;

@@ -28,7 +28,7 @@ struct SessionOptions {
     std::string name;  ///< of the scene, for display
     int threads = 0;
     BuildQuality quality = BuildQuality::medium;  ///< of the cells used to refine the picture
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     std::optional<int> samples;  ///< instead of the scene's
     std::optional<int> width;    ///< width of the picture, instead of the scene's; the height is scaled
     /// Writes a camera to the scene's file. Throws SceneError and OutputError.

@@ -63,7 +63,7 @@ bool Session::draw(const DesiredState& desired) {
         prepared_ =
             std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
                                                                   .cancelled = [&] { return is_stale(desired); },
-                                                                  .most_bytes = options_.most_bytes,
+                                                                  .max_bytes = options_.max_bytes,
                                                                   .surfaces = surfaces_});
     }
     if (!draw_whole(desired, file.settings.samples)) return false;

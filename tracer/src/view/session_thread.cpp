@@ -137,7 +137,7 @@ void Session::build(const DesiredState& desired) {
                                  const bool is_over = Clock::now() - begun > first_cells_deadline;
                                  return is_of_another_reading(desired) || (is_over && is_of_another_object(desired));
                              },
-                         .most_bytes = options_.most_bytes,
+                         .max_bytes = options_.max_bytes,
                          .surfaces = surfaces_};
     std::shared_ptr<Scene> scene;
     try {

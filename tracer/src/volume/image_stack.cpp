@@ -59,8 +59,8 @@ std::vector<fs::path> layers_of_stack(const fs::path& path) {
     (void)support::each_entry(folder, [&](const fs::path& file) {
         if (const long n = pattern.number_in(file.filename().string()); n >= 0) {
             found.emplace(n, file);
-            if (found.size() > static_cast<std::size_t>(VoxelGrid::most_along_axis))
-                throw std::runtime_error(fmt::format("there are more than {} images", VoxelGrid::most_along_axis));
+            if (found.size() > static_cast<std::size_t>(VoxelGrid::max_along_axis))
+                throw std::runtime_error(fmt::format("there are more than {} images", VoxelGrid::max_along_axis));
         }
         return true;
     });

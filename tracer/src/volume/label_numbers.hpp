@@ -18,8 +18,8 @@ class LabelNumbers {
         if (number == last_ && !grid_.numbers.empty()) return last_index_;
         const auto [at, is_new] = indices_.emplace(number, static_cast<std::uint8_t>(grid_.numbers.size()));
         if (is_new) {
-            if (grid_.numbers.size() == LabelGrid::most_numbers)
-                throw std::runtime_error(fmt::format("it has more than {} different numbers", LabelGrid::most_numbers));
+            if (grid_.numbers.size() == LabelGrid::max_numbers)
+                throw std::runtime_error(fmt::format("it has more than {} different numbers", LabelGrid::max_numbers));
             grid_.numbers.push_back(number);
         }
         last_ = number;
@@ -38,15 +38,15 @@ class LabelNumbers {
 inline std::size_t checked_count(const std::array<int, 3>& size) {
     std::size_t count = 1;
     for (const int n : size) {
-        if (n < 1 || n > VoxelGrid::most_along_axis || count > LabelGrid::most_voxels)
+        if (n < 1 || n > VoxelGrid::max_along_axis || count > LabelGrid::max_voxels)
             throw std::runtime_error(
                 fmt::format("it has {} × {} × {} voxels; the limits are {} along an axis and {} in total", size[0],
-                            size[1], size[2], VoxelGrid::most_along_axis, LabelGrid::most_voxels));
+                            size[1], size[2], VoxelGrid::max_along_axis, LabelGrid::max_voxels));
         count *= static_cast<std::size_t>(n);
     }
-    if (count > LabelGrid::most_voxels)
+    if (count > LabelGrid::max_voxels)
         throw std::runtime_error(fmt::format("it has {} × {} × {} voxels; the limit is {} in total", size[0], size[1],
-                                             size[2], LabelGrid::most_voxels));
+                                             size[2], LabelGrid::max_voxels));
     return count;
 }
 

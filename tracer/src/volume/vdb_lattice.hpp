@@ -45,9 +45,9 @@ inline std::array<int, 3> size_of(const openvdb::CoordBBox& box) {
     std::array<int, 3> size{};
     for (int i = 0; i < 3; ++i) {
         const long long n = static_cast<long long>(box.max()[i]) - box.min()[i] + 1;
-        if (n > VoxelGrid::most_along_axis)
+        if (n > VoxelGrid::max_along_axis)
             throw std::runtime_error(
-                fmt::format("it has {} voxels along an axis; the limit is {}", n, VoxelGrid::most_along_axis));
+                fmt::format("it has {} voxels along an axis; the limit is {}", n, VoxelGrid::max_along_axis));
         size[static_cast<std::size_t>(i)] = static_cast<int>(n);
     }
     return size;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t magic = 0x56444220;
 constexpr std::uint32_t oldest = 222;  // has compression by masks
-constexpr std::uint64_t most_bytes = std::uint64_t{4} << 30;
+constexpr std::uint64_t max_bytes = std::uint64_t{4} << 30;
 constexpr std::uint32_t zip = 1, active_mask = 2, blosc = 4;  // a grid's compression flags
 
 class Bytes {
@@ -265,8 +265,8 @@ class TreeWalk {
     }
     void pay(std::uint64_t bytes) {
         paid_ += bytes;
-        if (paid_ > most_bytes)
-            throw std::runtime_error(fmt::format("one of its grids needs more than {} GB of memory", most_bytes >> 30));
+        if (paid_ > max_bytes)
+            throw std::runtime_error(fmt::format("one of its grids needs more than {} GB of memory", max_bytes >> 30));
     }
 
     Bytes& file_;

@@ -42,8 +42,8 @@ std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, 
         return {wanted.kept_cells ? kept_cells(*wanted.kept_cells, scene.object, options)
                                   : std::make_shared<const InterfaceCells>(scene.object, options)};
     const auto& objects = scene.placed.objects;
-    const std::size_t most_bytes = wanted.most_bytes > 0 ? wanted.most_bytes : default_cell_bytes();
-    options.most_bytes = std::max<std::size_t>(most_bytes / objects.size(), 1);
+    const std::size_t max_bytes = wanted.max_bytes > 0 ? wanted.max_bytes : default_cell_bytes();
+    options.max_bytes = std::max<std::size_t>(max_bytes / objects.size(), 1);
     std::vector<std::shared_ptr<const InterfaceCells>> cells;
     for (const PlacedObject& object : objects) {
         if (wanted.progress)
@@ -91,11 +91,11 @@ CellOptions cell_options(const Scene& scene, const WorldOptions& wanted) {
     options.quality = wanted.quality;
     if (wanted.is_first_look) {
         options.quality = BuildQuality::low;
-        options.deepest = divisions_for_first_look;
+        options.max_depth = divisions_for_first_look;
     }
     options.cancelled = wanted.cancelled;
     options.progress = wanted.progress;
-    options.most_bytes = wanted.most_bytes;
+    options.max_bytes = wanted.max_bytes;
     options.opaque = opaque_phases(scene.materials);
     return options;
 }
@@ -283,7 +283,7 @@ CellStatistics TracedGeometry::statistics() const {
         all.bytes += one.bytes;
         all.median_instructions = std::max(all.median_instructions, one.median_instructions);
         all.percentile90_instructions = std::max(all.percentile90_instructions, one.percentile90_instructions);
-        all.most_instructions = std::max(all.most_instructions, one.most_instructions);
+        all.max_instructions = std::max(all.max_instructions, one.max_instructions);
         all.build_seconds += one.build_seconds;
         all.is_coarser |= one.is_coarser;
     }

@@ -19,7 +19,7 @@ struct WorldOptions {
     bool is_first_look = false;
     std::function<bool()> cancelled{};
     std::function<void(float)> progress{};
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
     /// Cells that may be those of the scene's one tree. If they are, they are not rebuilt.
     std::shared_ptr<const InterfaceCells> known_cells{};
     /// A cache of surfaces, which this scene extends.

@@ -25,7 +25,7 @@ struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 for a default; see InterfaceTracer
     /// The maximum number of divisions from the bounds to the smallest cell. A box in which meshes or listed balls
     /// would have to be searched at each sample may be divided three more times, unless this is less than the default.
-    int deepest = 14;
+    int max_depth = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that rays never enter because they are opaque. Interfaces between two of them are not searched for and
     /// have no cells. Results for a ray inside one of these phases are meaningless.
@@ -38,10 +38,10 @@ struct CellOptions {
     /// default_cell_bytes(). To stay below it, boxes whose division saves little are left undivided. Rays then find the
     /// same crossings more slowly. The memory for a single cell is always granted. The cells do not depend on the
     /// number of threads.
-    std::size_t most_bytes = 0;
+    std::size_t max_bytes = 0;
 };
 
-/// The default of CellOptions::most_bytes: two gigabytes, or a quarter of the memory of the machine or available to
+/// The default of CellOptions::max_bytes: two gigabytes, or a quarter of the memory of the machine or available to
 /// this process if that is less.
 std::size_t default_cell_bytes();
 
@@ -50,9 +50,9 @@ struct CellStatistics {
     std::size_t cells = 0;
     std::size_t routines = 0;  ///< distinct programs of the cells
     std::size_t bytes = 0;     ///< of cells, routines and their shared constants
-    std::size_t median_instructions = 0, percentile90_instructions = 0, most_instructions = 0;
+    std::size_t median_instructions = 0, percentile90_instructions = 0, max_instructions = 0;
     double build_seconds = 0;
-    bool is_coarser = false;  ///< whether CellOptions::most_bytes left boxes undivided
+    bool is_coarser = false;  ///< whether CellOptions::max_bytes left boxes undivided
 };
 
 }  // namespace phasetree

@@ -22,11 +22,11 @@ struct CarveOptions {
     /// Outward normals of the planes, of any nonzero length, in addition to the six sides of the box: a k-DOP. If
     /// empty, directions are chosen by the object's shape, as many as are worthwhile.
     std::vector<glm::dvec3> directions{};
-    int most_planes = 40;     ///< maximum number of planes if chosen, including the six sides of the box; at least 6
+    int max_planes = 40;      ///< maximum number of planes if chosen, including the six sides of the box; at least 6
     double tolerance = 1e-3;  ///< target distance of the planes from the object, as a fraction of its diagonal
     /// Maximum number of evaluations, of eight points each. When they run out, the volume is larger than necessary, but
     /// it still contains the solid.
-    std::size_t most_evaluations = 50'000;
+    std::size_t max_evaluations = 50'000;
     std::function<bool()> cancelled{};  ///< polled; return true to cancel
 };
 

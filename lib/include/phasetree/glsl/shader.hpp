@@ -27,10 +27,10 @@ struct GlslOptions {
     /// The name of each phase, for the comment at the top.
     std::span<const std::string> phase_names{};
     /// If there are more numbers than this, they go into a texture.
-    std::size_t most_numbers_in_text = 1024;
+    std::size_t max_numbers_in_text = 1024;
     /// Programs with at most this many instructions are written as calls, longer ones as a table that a loop
     /// interprets. The time of shader compilers grows much faster than the length of the text.
-    std::size_t most_calls = 128;
+    std::size_t max_calls = 128;
     /// The number of boxes along the longest side of the bounds; 0 for no grid. The program is pruned in each box, so
     /// rays through large objects evaluate only what is near them.
     int grid = 0;
@@ -46,10 +46,10 @@ struct GlslOptions {
 /// resolution  the length of the longest bracket. Shaders round more often, so it should be at least 10⁻⁵ of the
 ///             bounds' diagonal.
 ///
-/// prepare_to_trace() returns both. Throws ModelError if the program is longer than longest_glsl_program.
+/// prepare_to_trace() returns both. Throws ModelError if the program is longer than max_glsl_instructions.
 GlslShader make_glsl(const Program&, const Bounds&, float resolution, const GlslOptions& = {});
 
 /// The maximum number of instructions. The numbers of longer programs would exceed what a web page or a driver accepts.
-inline constexpr std::size_t longest_glsl_program = 100'000;
+inline constexpr std::size_t max_glsl_instructions = 100'000;
 
 }  // namespace phasetree

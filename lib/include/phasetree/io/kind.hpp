@@ -46,11 +46,6 @@ struct RgbParameter : Parameter {};
 /// A glm::vec3 of which only the direction matters. It must not be zero.
 struct DirectionParameter : Parameter {};
 
-/// A std::string that is one of a list of names.
-struct ChoiceParameter : Parameter {
-    std::vector<std::string_view> (*choices)() = nullptr;
-};
-
 /// Thrown by a kind's own code if a parameter is within its limits but conflicts with others, or refers to something
 /// unusable. The reader reports the parameter's position in the file, or that it is required if it is missing.
 class ParameterError : public std::runtime_error {

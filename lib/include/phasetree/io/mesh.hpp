@@ -39,7 +39,7 @@ struct MeshFile {
 ///
 /// path            the file's name, for the format and for messages.
 /// content         the whole file.
-/// most_triangles  maximum number of triangles.
+/// max_triangles  maximum number of triangles.
 ///
 /// Faces with more than three corners are split into triangles; faces with fewer are skipped. Vertices with invalid
 /// numbers are rejected only if a face uses them. Throws SceneError for other formats, malformed files, and files with
@@ -49,9 +49,9 @@ struct MeshFile {
 /// * PLY: from "vertex", x y z, nx ny nz, red green blue, and s t, u v or texture_u texture_v; from "face", the list
 ///   vertex_indices or vertex_index, and the list texcoord with two numbers per corner. Integer colours are divided by
 ///   the maximum of their type.
-MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view content, std::size_t most_triangles);
+MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles);
 
-/// Read only the triangles, at most TriangleMesh::most_triangles, from a file. Throws SceneError.
+/// Read only the triangles, at most TriangleMesh::max_triangles, from a file. Throws SceneError.
 TriangleMesh read_mesh(const std::filesystem::path&);
 
 }  // namespace phasetree

@@ -63,14 +63,14 @@ struct PhaseMesh {
     /// the grid whose ends have different labels shows one of its crossings. All others are missing: further crossings
     /// of such an edge, and all crossings of edges whose ends have the same label, whether they had it at first or only
     /// after mesh_of changed labels.
-    std::size_t crossings = 0, passed_over = 0;
+    std::size_t crossings = 0, skipped = 0;
 
     /// The phases that have triangles.
     PhaseSet phases() const;
 };
 
 /// The maximum number of cubes along a side of the bounds.
-inline constexpr int most_cubes_along = 1024;
+inline constexpr int max_cubes_along = 1024;
 
 /// Mesh the interfaces within the bounds.
 ///
@@ -80,7 +80,7 @@ inline constexpr int most_cubes_along = 1024;
 /// Uses all threads of TBB's arena; the mesh does not depend on their number. Labels take one byte per point of the
 /// grid, 1.1 GB for the finest grid.
 ///
-/// Throws ModelError if the bounds are empty or infinite, if the spacing needs more than most_cubes_along cubes along a
+/// Throws ModelError if the bounds are empty or infinite, if the spacing needs more than max_cubes_along cubes along a
 /// side, or if it is finer than the precision of floats at the bounds' coordinates. Throws MeshingCancelled.
 ///
 /// The method is dual contouring (Ju, Losasso, Schaefer & Warren, *Dual Contouring of Hermite Data*, SIGGRAPH 2002),

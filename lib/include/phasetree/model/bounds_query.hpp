@@ -101,7 +101,7 @@ class BoundsQuery {
     static constexpr Directions along_axes{{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     /// The maximum number of subtrees of a root that are bounded by directions; the rest are bounded by boxes. A shape
     /// used in many places needs different directions in each, which would be slow.
-    static constexpr std::size_t most_asked = 20'000;
+    static constexpr std::size_t max_directed = 20'000;
 
     /// A box from six supports, as described above.
     static Bounds gathered(const Supports&);

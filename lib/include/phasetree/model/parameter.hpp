@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace phasetree {
 
@@ -48,6 +49,11 @@ struct Parameter {
     /// For a list of numbers: whether a single number may be written instead of a list with one item. The node and the
     /// description say what that means.
     bool one_for_all = false;
+};
+
+/// A std::string that is one of a list of names.
+struct ChoiceParameter : Parameter {
+    std::vector<std::string_view> (*choices)() = nullptr;
 };
 
 /// The description of a node in the reference.

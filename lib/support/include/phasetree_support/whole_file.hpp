@@ -20,6 +20,9 @@ class WholeFile {
     WholeFile& operator=(const WholeFile&) = delete;
 
     void write(std::span<const std::byte>);
+    /// Ends the writing, but does not rename the file yet. A closed file uses no descriptor, so there can be many.
+    /// Closed files are not locked: another process that writes the same file removes the temporary file.
+    void close();
     void finish();
     /// The same, and the file is on the disk and not only in the system's memory, so that it outlives a loss of power.
     void finish_on_disk();

@@ -24,7 +24,7 @@ double largest_stretch(const glm::dmat3& m) {
 
 namespace {
 
-constexpr int most_batches = 1 << 14;  // of batch_size points each
+constexpr int max_batches = 1 << 14;  // of batch_size points each
 
 // Distances in world space.
 class Metric {
@@ -113,7 +113,7 @@ class Search {
         if (cells_.bounds().contains(point_)) guess_from_distances();
         left_.push({metric_.below(cells_.bounds()), cells_.bounds()});
         nearest_undivided_ = nearest_;
-        for (int batches = 0; !is_done() && batches < most_batches; ++batches) divide_nearest();
+        for (int batches = 0; !is_done() && batches < max_batches; ++batches) divide_nearest();
         const double rest = left_.empty() ? nearest_undivided_ : std::min(left_.top().below, nearest_undivided_);
         best_.empty_radius = static_cast<float>(std::max(lower_, std::min(rest, nearest_)));
         best_.distance = static_cast<float>(nearest_);

@@ -59,7 +59,7 @@ class Reference {
     Handle handle_ = nullptr;
 };
 
-/// A convex volume around some phases: their points are behind all planes.
+/// A convex volume around some phases: their points lie behind every plane.
 struct CarvedBounds : PhasetreeCarvedBounds {
     std::vector<PhasetreePlane> planes;
 };
@@ -70,7 +70,7 @@ struct Mesh {
     std::vector<unsigned> indices;
     std::vector<unsigned char> behind, front;
     float spacing = 0;
-    std::size_t crossings = 0, passed_over = 0;
+    std::size_t crossings = 0, skipped = 0;
 };
 
 inline PhasetreeMeshOptions default_mesh_options() {
@@ -142,7 +142,7 @@ class Tree {
     CarvedBounds carved(PhasetreePhaseSet phases = PHASETREE_ALL_PHASES,
                         const PhasetreeCarveOptions& options = default_carve_options()) const {
         CarvedBounds carved{};
-        carved.planes.resize(options.mostPlanes);
+        carved.planes.resize(options.maxPlanes);
         unsigned count = 0;
         check(phasetreeCarveTree(get(), phases, &options, carved.planes.data(), &count, &carved));
         carved.planes.resize(count);
@@ -218,7 +218,7 @@ class Geometry {
                           {m->front, m->front + m->triangleCount},
                           m->spacing,
                           m->crossings,
-                          m->passedOver};
+                          m->skipped};
             } catch (...) {
                 c.failed = std::current_exception();
             }

@@ -16,14 +16,14 @@ CarveOptions checked(const PhasetreeCarveOptions* given) {
     PhasetreeCarveOptions o;
     phasetreeInitCarveOptions(&o);
     if (given) o = *given;
-    if (o.mostPlanes < 6 || o.mostPlanes > PHASETREE_MAX_PLANES)
-        throw invalid("options->mostPlanes is {}; it must be 6 … {}", o.mostPlanes, PHASETREE_MAX_PLANES);
+    if (o.maxPlanes < 6 || o.maxPlanes > PHASETREE_MAX_PLANES)
+        throw invalid("options->maxPlanes is {}; it must be 6 … {}", o.maxPlanes, PHASETREE_MAX_PLANES);
     if (!(o.tolerance > 0 && o.tolerance <= 1))
         throw invalid("options->tolerance is {}; it must be more than 0 and at most 1", o.tolerance);
     CarveOptions options;
-    options.most_planes = static_cast<int>(o.mostPlanes);
+    options.max_planes = static_cast<int>(o.maxPlanes);
     options.tolerance = static_cast<double>(o.tolerance);
-    options.most_evaluations = o.mostEvaluations;
+    options.max_evaluations = o.maxEvaluations;
     if (o.cancelled) options.cancelled = [o] { return o.cancelled(o.cancelledUserPtr); };
     return options;
 }

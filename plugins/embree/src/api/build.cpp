@@ -52,8 +52,8 @@ CellOptions cell_options(const PhasetreeGeometryOptions& options) {
     cells.resolution = options.resolution;
     cells.quality = *quality_of(options.buildQuality);
     cells.opaque = {options.opaquePhases};
-    if (options.cellDivisions > 0) cells.deepest = static_cast<int>(options.cellDivisions);
-    cells.most_bytes = options.mostBytes;
+    if (options.cellDivisions > 0) cells.max_depth = static_cast<int>(options.cellDivisions);
+    cells.max_bytes = options.maxBytes;
     // Set by either of the application's two ways to end a build.
     const auto is_ended = std::make_shared<std::atomic<bool>>(false);
     if (options.cancelled || options.progress)

@@ -64,7 +64,7 @@ PhasetreeError phasetreeMakeGeometryMesh(PhasetreeGeometry geometry, const Phase
         }
         const PhasetreeMesh handed{vertices.data(), indices.data(),       behind.data(),
                                    front.data(),    mesh.vertices.size(), mesh.triangles.size(),
-                                   mesh.spacing,    mesh.crossings,       mesh.passed_over};
+                                   mesh.spacing,    mesh.crossings,       mesh.skipped};
         receive(&handed, user_pointer);
     });
 }

@@ -15,7 +15,7 @@ PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry, Phaset
                        s.bytes,
                        cells.whole().program().instructions.size(),
                        s.median_instructions,
-                       s.most_instructions,
+                       s.max_instructions,
                        cells.resolution(),
                        static_cast<float>(s.build_seconds)};
     });

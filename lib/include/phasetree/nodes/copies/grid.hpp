@@ -23,7 +23,7 @@ struct Grid : Copies<Grid<Child>, Child> {
         v(&Grid::count_z, Parameter{"count_z", "", "Number of copies along z.", counts, true});
     }
     void prepare() const {
-        if (static_cast<double>(count_x) * count_y * count_z > detail::most_copies)
+        if (static_cast<double>(count_x) * count_y * count_z > detail::max_copies)
             throw ModelError("grid: too many copies");
         if (!(glm::length(placement(many() - 1).map.by) < 1e9f)) throw ModelError("grid: the spacing is too large");
     }

@@ -24,7 +24,7 @@ struct Instances : Copies<Instances<Child>, Child> {
                                         limits::positive, true, true});
     }
     void prepare() const {
-        if (positions.size() > static_cast<std::size_t>(detail::most_copies))
+        if (positions.size() > static_cast<std::size_t>(detail::max_copies))
             throw ModelError("instances: too many positions");
         const auto fits = [&](const std::vector<float>& list) {
             return list.size() <= 1 || list.size() == positions.size();

@@ -139,7 +139,7 @@ struct Copies {
 namespace detail {
 inline constexpr Parameter copied{"of", "", "The field or object to copy."};
 /// More copies would exceed the limit of instructions anyway.
-inline constexpr int most_copies = 500'000;
+inline constexpr int max_copies = 500'000;
 }  // namespace detail
 
 }  // namespace phasetree

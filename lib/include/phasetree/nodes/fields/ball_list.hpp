@@ -13,7 +13,7 @@ namespace phasetree {
 /// list outside the file.
 struct BallList {
     /// Limit of readers and nodes. The hierarchy over the balls counts its nodes in floats, which are exact up to 2²⁴.
-    static constexpr std::size_t most_balls = 16'000'000;
+    static constexpr std::size_t max_balls = 16'000'000;
 
     std::vector<glm::vec3> centres;
     std::vector<float> radii;

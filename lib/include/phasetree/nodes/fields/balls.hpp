@@ -29,9 +29,9 @@ struct Balls {
     static constexpr NodeInfo info{"balls", "", "min over i of |p − cᵢ| − rᵢ",
                                    "The union of up to sixteen million balls: grains, drops, atoms. Exact outside."};
     /// The maximum number of balls listed for a box.
-    static constexpr std::size_t most_in_box = 96;
+    static constexpr std::size_t max_in_box = 96;
     /// The maximum number of balls in shaders, which have no search.
-    static constexpr std::size_t most_of_shader = 2000;
+    static constexpr std::size_t max_in_shader = 2000;
 
     std::vector<glm::vec3> centres{};
     std::vector<float> radii{};
@@ -92,7 +92,7 @@ struct Balls {
     /// See RequiredDataPrimitive. Values above `farthest` may be wrong as long as they stay above it.
     static bool specialise(const float* data, const PointRange& range, double farthest, std::span<const float> of,
                            std::vector<float>& floats) {
-        return balls::Tree::balls_in(data, {range, farthest, most_in_box}, of, floats);
+        return balls::Tree::balls_in(data, {range, farthest, max_in_box}, of, floats);
     }
 
     double support(const glm::dvec3& d, float level) const { return balls::Tree::support(table.data(), d, level); }

@@ -35,7 +35,7 @@ enum class Op : std::uint8_t {
     smooth_minimum,   ///< smooth_min(a, b, r), where r is the float stored instead of c
 };
 
-inline constexpr std::size_t most_operations = 128;
+inline constexpr std::size_t max_operations = 128;
 /// A term starts with two floats: the number of operations, and the factor 1/λ of the result.
 inline constexpr std::size_t header = 2;
 /// An operation is four floats: its Op, a, b and c.
@@ -146,7 +146,7 @@ struct Formula {
         std::span<const float> data() const { return values; }
         template <class T>
         static T distance(const float* data, const Vec3<T>& p) {
-            std::array<T, formula::most_operations> value;
+            std::array<T, formula::max_operations> value;
             formula::run(data, p, value.data());
             return value[static_cast<std::size_t>(data[0]) - 1] * data[1];
         }

@@ -28,32 +28,39 @@ struct Mesh {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
                                    "The solid inside a surface of triangles; exact."};
-    static constexpr std::size_t most_pieces_in_box = 64;
+    static constexpr std::size_t max_pieces_in_box = 64;
 
     FromFile<TriangleMesh> file{};
-    std::string rule{};
+    std::string rule{"winding_number"};
     std::vector<float> table{};        ///< derived: a PieceTree
     std::vector<glm::vec3> corners{};  ///< derived: the vertices of the repaired surface; empty if the file is clean
     Bounds box{};                      ///< derived
 
     template <class V>
     static void parameters(V&& v) {
-        v(&Mesh::file, Parameter{"file", "",
-                                 "Mesh file: OBJ, PLY or STL, in metres. Triangles are counter-clockwise seen from "
-                                 "outside. Vertices that differ only by rounding are merged; materials, normals and "
-                                 "the like are ignored. Holes are closed, parts that intersect are joined, and parts "
-                                 "that are inside out are turned; only a mesh that encloses nothing is rejected. Walls "
-                                 "and gaps thinner than a millionth of the mesh's size may be confused."});
+        v(&Mesh::file,
+          Parameter{
+              "file", "",
+              "Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place "
+              "the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up "
+              "needs {\"rotate\": {\"axis\": [1, 0, 0], \"angle\": 90, \"of\": …}}. Materials, colours, normals and "
+              "texture coordinates of the file are ignored: the phases define the materials. Triangles are "
+              "counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are "
+              "closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh "
+              "that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may "
+              "be confused."});
         v(&Mesh::rule,
-          Parameter{.name = "rule",
-                    .unit = "",
-                    .description = "Which points are inside, by how often the surface winds around them: "
-                                   "\"winding_number\": at least once, the union of all parts; \"even_odd\": an odd "
-                                   "number of times, so a part within another is a cavity; \"non_zero\": any number of "
-                                   "times, in either direction. The default is \"winding_number\". All three are the "
-                                   "same for a closed mesh whose parts do not overlap.",
-                    .optional = true});
+          ChoiceParameter{{.name = "rule",
+                           .unit = "",
+                           .description = "Which points are inside, by how often the surface winds around them: "
+                                          "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
+                                          "odd number of times, so a part within another is a cavity; \"non_zero\": "
+                                          "any number of times, in either direction. All three are the same for a "
+                                          "closed mesh whose parts do not overlap.",
+                           .optional = true},
+                          rules});
     }
+    static std::vector<std::string_view> rules() { return {"winding_number", "even_odd", "non_zero"}; }
     /// Throws ModelError if the numbers are bad or the surface encloses nothing.
     void prepare();
 
@@ -71,7 +78,7 @@ struct Mesh {
 
     /// The data, if a loop over all pieces is acceptable; otherwise throws ModelError.
     static const float* few_pieces(const float* data);
-    static constexpr std::size_t most_pieces_of_shader = 2000;
+    static constexpr std::size_t max_pieces_in_shader = 2000;
 
     /// See LocalDataPrimitive.
     struct Specialised {
@@ -104,7 +111,7 @@ struct Mesh {
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {
-        return mesh::PieceTree::pieces_in(data, range, of, most_pieces_in_box, floats);
+        return mesh::PieceTree::pieces_in(data, range, of, max_pieces_in_box, floats);
     }
 
     double support(const glm::dvec3& d, float level) const;

@@ -11,10 +11,10 @@ namespace phasetree::detail {
 /// left, the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such reflections, [0, π/n] is
 /// left.
 struct PolygonMirrors {
-    static constexpr int most_folds = 6;  ///< enough for 64 sides
+    static constexpr int max_folds = 6;  ///< enough for 64 sides
     float folds = 0;
-    float cosine[most_folds] = {};
-    float sine[most_folds] = {};
+    float cosine[max_folds] = {};
+    float sine[max_folds] = {};
 
     static PolygonMirrors of(float sides) {
         PolygonMirrors result;

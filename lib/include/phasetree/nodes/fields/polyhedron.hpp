@@ -16,7 +16,7 @@ struct Polyhedron {
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"polyhedron", "", "max over i of nᵢ·p − hᵢ",
                                    "A convex polyhedron: the intersection of half-spaces."};
-    static constexpr std::size_t most_planes = 256;
+    static constexpr std::size_t max_planes = 256;
     std::vector<glm::vec3> normals{};
     std::vector<float> offsets{};
     std::vector<float> table{};  ///< derived: the number of planes, and for each a unit normal n and h
@@ -30,7 +30,7 @@ struct Polyhedron {
                     limits::any, false, true});
     }
     void prepare() {
-        if (normals.size() > most_planes) throw ModelError("polyhedron: more than 256 planes");
+        if (normals.size() > max_planes) throw ModelError("polyhedron: more than 256 planes");
         if (offsets.size() != 1 && offsets.size() != normals.size())
             throw ModelError("polyhedron: \"offsets\" needs one entry per normal, or one for all");
         table = {static_cast<float>(normals.size())};

@@ -9,7 +9,7 @@ namespace phasetree {
 /// Triangles in space, as read from a file. Corners are indices of vertices, counterclockwise as seen from outside.
 struct TriangleMesh {
     /// Limit of readers and nodes.
-    static constexpr std::size_t most_triangles = 2'000'000;
+    static constexpr std::size_t max_triangles = 2'000'000;
 
     std::vector<glm::vec3> vertices;
     std::vector<glm::uvec3> triangles;

@@ -39,8 +39,8 @@ struct VoxelGrid {
     static constexpr int block_side = 8, kept_side = 10;
     static constexpr std::size_t kept_values = 1000;
     /// Limits of readers and nodes: stored values, half a gigabyte, and voxels along an axis.
-    static constexpr std::size_t most_values = 120'000'000;
-    static constexpr int most_along_axis = 8192;
+    static constexpr std::size_t max_values = 120'000'000;
+    static constexpr int max_along_axis = 8192;
 
     VoxelLattice lattice{};
     std::vector<float> table{};

@@ -16,7 +16,7 @@ struct Bezier {
                                    "for a line, less half of its thickness",
                                    "A shape with an outline of quadratic Bézier curves, or a line along them, for "
                                    "extruding and revolving; the same at every z, exact."};
-    static constexpr std::size_t most_points = 2048;
+    static constexpr std::size_t max_points = 2048;
     std::vector<glm::vec2> points{};
     float thickness = 0;
     /// Derived; the data of OutlineInBox.
@@ -33,7 +33,7 @@ struct Bezier {
                     limits::non_negative, true});
     }
     void prepare() {
-        if (points.size() > most_points) throw ModelError("bezier: more than 2048 points");
+        if (points.size() > max_points) throw ModelError("bezier: more than 2048 points");
         const bool closed = points.size() % 2 == 0;
         if (points.size() < (closed ? 4u : 3u))
             throw ModelError("bezier: fewer than three points, or four for a closed curve");

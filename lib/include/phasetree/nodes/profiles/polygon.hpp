@@ -15,7 +15,7 @@ struct Polygon {
     static constexpr NodeInfo info{"polygon", "", "± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|",
                                    "A polygon with straight edges, for extruding and revolving; the same at every z, "
                                    "exact."};
-    static constexpr std::size_t most_points = 4096;
+    static constexpr std::size_t max_points = 4096;
     std::vector<glm::vec2> points{};
     std::vector<float> table{};  ///< derived; the data of OutlineInBox
 
@@ -26,7 +26,7 @@ struct Polygon {
                                       "joined to the first, and edges must not cross."});
     }
     void prepare() {
-        if (points.size() > most_points) throw ModelError("polygon: more than 4096 points");
+        if (points.size() > max_points) throw ModelError("polygon: more than 4096 points");
         points.erase(std::unique(points.begin(), points.end()), points.end());
         while (points.size() > 1 && points.front() == points.back()) points.pop_back();
         if (points.size() < 3) throw ModelError("polygon: at least three different points are required");

@@ -18,7 +18,7 @@ struct Text {
         "text", "", "min over the letters of ± min over their curves of |p − B(t)|",
         "Text in a font, for extruding; the same at every z, exact where no two letters overlap. The baseline of the "
         "first line is at y = 0, and further lines follow below."};
-    static constexpr std::size_t most_strokes = 4096, most_pieces = 1 << 16;
+    static constexpr std::size_t max_strokes = 4096, max_pieces = 1 << 16;
 
     /// The primitive of one stroke, a filled outline.
     struct Stroke {

@@ -19,10 +19,10 @@ typedef struct PhasetreePlane {
 
 /* Options of phasetreeCarveTree. Initialise them with phasetreeInitCarveOptions. */
 typedef struct PhasetreeCarveOptions {
-    unsigned int mostPlanes; /* 6 … PHASETREE_MAX_PLANES; includes the six sides of the box */
-    float tolerance;         /* target distance between planes and object, as a fraction of the object's diagonal */
+    unsigned int maxPlanes; /* 6 … PHASETREE_MAX_PLANES; includes the six sides of the box */
+    float tolerance;        /* target distance between planes and object, as a fraction of the object's diagonal */
     /* Budget, in evaluations of eight points; if it runs out, the volume is looser, but valid. */
-    size_t mostEvaluations;
+    size_t maxEvaluations;
     /* Polled by the calling thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
@@ -30,9 +30,9 @@ typedef struct PhasetreeCarveOptions {
 
 /* Sets the defaults. */
 static inline void phasetreeInitCarveOptions(PhasetreeCarveOptions* options) {
-    options->mostPlanes = 40;
+    options->maxPlanes = 40;
     options->tolerance = 1e-3f;
-    options->mostEvaluations = 50000;
+    options->maxEvaluations = 50000;
     options->cancelled = NULL;
     options->cancelledUserPtr = NULL;
 }
@@ -51,7 +51,7 @@ typedef struct PhasetreeCarvedBounds {
  * phases      the phases to enclose; PHASETREE_ALL_PHASES means all but the vacuum, which is always ignored. The tree
  *             must have at least one of them.
  * options     NULL for the defaults.
- * planes      receives up to options->mostPlanes planes, or NULL. The phases lie behind every plane.
+ * planes      receives up to options->maxPlanes planes, or NULL. The phases lie behind every plane.
  * planeCount  receives the number of planes, 0 if the phases are empty. May be NULL if planes is NULL.
  * bounds      receives the other properties, or NULL.
  *

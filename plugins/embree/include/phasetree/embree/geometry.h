@@ -15,8 +15,8 @@ typedef uint64_t PhasetreePhaseSet;
 /* Bits of PhasetreeGeometryOptions.flags. */
 typedef enum PhasetreeGeometryFlags {
     PHASETREE_GEOMETRY_FLAG_NONE = 0,
-    /* Every ray query that can reach the geometry uses a PhasetreeRayContext as its context. Without this flag, the
-     * geometry reads nothing but Embree's own members of a context. */
+    /* Promises that every ray query that can reach the geometry uses a PhasetreeRayContext as its context. Without this
+     * flag, the geometry reads nothing but Embree's own members of a context. */
     PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT = 1 << 0,
     /* Promises that neither the geometry nor any query has a filter function. Filter functions are then not called, and
      * occlusion rays may stop at any crossing instead of the first one along the ray. */
@@ -31,9 +31,8 @@ typedef enum PhasetreeGeometryFlags {
      *   - all phases must be shown;
      *   - the object can only be moved by instances.
      * The number of primitives in the application's scene grows by the number of cells, and changes with
-     * phasetreeSetGeometryTree. A scene of the geometry's own is still built on the first call of
-     * phasetreeFindClosestInterface, or of phasetreeDecodeHit for a hit whose primID does not name the cell in which it
-     * lies. */
+     * phasetreeSetGeometryTree. The geometry's own scene is still built when it is first needed: by
+     * phasetreeFindClosestInterface, or by phasetreeDecodeHit if the hit's primID is not the cell that contains it. */
     PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 
@@ -55,7 +54,7 @@ typedef struct PhasetreeGeometryOptions {
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
      * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
-    size_t mostBytes;
+    size_t maxBytes;
     /* Phases to show. A crossing between two phases is skipped if neither is in the set. The vacuum never counts as
      * shown. To hide one phase, leave it out. */
     PhasetreePhaseSet shownPhases;
@@ -71,10 +70,10 @@ typedef struct PhasetreeGeometryOptions {
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
     /* Receives the fraction of cells built, an estimate that never decreases and is 1 when the cells are complete;
-     * Embree's BVH over them is built after that. As with Embree's progress monitor, return false to cancel with
-     * PHASETREE_ERROR_CANCELLED, after which it is not called again. Called from any building thread, one at a time,
-     * while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the call,
-     * and not at all if cells are read from a file. */
+     * Embree's BVH over them is built after that. Return false to cancel with PHASETREE_ERROR_CANCELLED,
+     * as with Embree's progress monitor; the function is then not called again. Called from any building thread, one at
+     * a time, while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the
+     * call, and not at all if cells are read from a file. */
     RTCProgressMonitorFunction progress;
     void* progressUserPtr;
 } PhasetreeGeometryOptions;
@@ -85,7 +84,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
     options->resolution = 0;
     options->buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     options->cellDivisions = 0;
-    options->mostBytes = 0;
+    options->maxBytes = 0;
     options->shownPhases = PHASETREE_ALL_PHASES;
     options->opaquePhases = 0;
     options->cancelled = NULL;
@@ -106,15 +105,16 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * the application limits their number for the whole process.
  *
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or empty: nothing is left of it, or all of it is vacuum. The
- *                               message says which. Call phasetreeGetTreeBounds to find out beforehand.
+ *                               message says which, and names the nodes that make the tree unbounded. Call
+ *                               phasetreeGetTreeBounds to find out beforehand.
  * Clears Embree's error code of the calling thread (rtcGetDeviceError).
  *
- * A hit is a change of phase along a ray:
- *     tfar         where the ray leaves the phase that it is in
- *     Ng           the interface's unit normal, on the side the ray comes from, in geometry space
- *     u, v         the index of the phase left and of the phase entered
- *     primID       the cell
- *     geomID, instID, instPrimID   as usual
+ * A hit is a change of phase along a ray. Embree's members of the ray and the hit are set as follows.
+ *     tfar         Where the ray leaves the phase that it is in.
+ *     Ng           The interface's unit normal, on the side the ray comes from, in geometry space.
+ *     u, v         The index of the phase left, and of the phase entered.
+ *     primID       The cell.
+ *     geomID, instID, instPrimID   As usual.
  * The ray is in the phase at its start, at tnear, unless its context says otherwise (PhasetreeRayContext). Directions
  * may have any length. Rays with numbers that are not finite hit nothing.
  *
@@ -211,7 +211,7 @@ PHASETREE_API PhasetreeError phasetreeWriteGeometryCells(PhasetreeGeometry geome
  * to the last bit. Embree's BVH over them is built as usual.
  *
  * tree, options  must match those for which the cells were built: the same shapes (names and materials may differ),
- *                resolution, buildQuality, cellDivisions and opaquePhases. mostBytes must not be smaller than it was;
+ *                resolution, buildQuality, cellDivisions and opaquePhases. maxBytes must not be smaller than it was;
  *                if it made the cells coarser, it must be equal. Other options may differ.
  *
  * PHASETREE_ERROR_CELLS_FILE  the file does not exist, is not a cell file, or is damaged (its size, checksums and
@@ -230,9 +230,9 @@ PHASETREE_API PhasetreeError phasetreeNewGeometryFromCells(unsigned int apiVersi
 typedef struct PhasetreeGeometryStatistics {
     size_t cells; /* number of cells; primID of a hit is less than this */
     size_t bytes; /* memory of the cells and their programs, without Embree's BVH */
-    size_t wholeInstructions, medianInstructions, mostInstructions; /* whole object; median and maximum over cells */
-    float resolution;                                               /* in use; a distance in the tree's space */
-    float buildSeconds;                                             /* time to build or read the cells */
+    size_t wholeInstructions, medianInstructions, maxInstructions; /* whole object; median and maximum over cells */
+    float resolution;                                              /* in use; a distance in the tree's space */
+    float buildSeconds;                                            /* time to build or read the cells */
 } PhasetreeGeometryStatistics;
 
 /* Returns statistics of a built geometry. */

@@ -41,7 +41,7 @@ typedef struct PhasetreeMesh {
     float spacing; /* the spacing used */
     /* The number of crossings along the grid's lines, and of those that the mesh does not show: at edges of the object,
      * and where a phase is thinner than the spacing. */
-    size_t crossings, passedOver;
+    size_t crossings, skipped;
 } PhasetreeMesh;
 
 /* Meshes the interfaces of a geometry by tracing rays through its cells. phasetree/meshing/phase_mesh.hpp describes the

@@ -75,8 +75,8 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, con
 /* Returns the material of a phase as JSON: the phase's member of the scene's "phases" as written, but without comments.
  * Returns NULL for the vacuum, for a phase whose member is not an object, and for trees built in C++.
  *
- * The library does not interpret materials; they are between the scene's author and the application. The scene file
- * reference (scenes/reference) describes the path tracer's. The string is valid as long as the tree. Edits may change
+ * The library does not interpret materials: that is up to the application. The scene file reference
+ * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. Edits may change
  * it, like any other part of the text ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
