@@ -1,6 +1,6 @@
 // Measuring: intervals contain what is known in closed form, whatever the object's place and orientation; boxes say
-// only what is true of random points in them, for every kind of node; results do not depend on threads; bad input is
-// refused in words.
+// only what is true of random points in them, for every kind of node; areas agree with closed forms; results do not
+// depend on threads; bad input is rejected in words.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -12,6 +12,7 @@
 #include "measuring/divide.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
+#include "phasetree/measuring/areas.hpp"
 #include "phasetree/measuring/measure.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
@@ -100,7 +101,6 @@ bool is_near(const Measured& m, double v, double error) {
     return m.low <= v + error && v - error <= m.high;
 }
 
-// Removes the time, so that the result depends on nothing but the object.
 MeasureOptions to(double tolerance) {
     return {.tolerance = tolerance};
 }
@@ -377,7 +377,44 @@ TEST_CASE("a phase that is hidden has a volume of zero") {
     CHECK(is_near(volume_of(r, second), 4 * pi / 3, rounding));
 }
 
-TEST_CASE("bad input is refused in words") {
+TEST_CASE("areas of phases and contacts are within a few standard errors of closed forms") {
+    // A ball whose lower half is replaced by a block around it.
+    const Phased object =
+        Under{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
+                     Set{.phase = second, .of = warped(Translate{.by = {0, 0, -1}}, Box{.size = {3, 3, 2}})}}};
+    const InterfaceTracer tracer(object);
+    const LineTracer lines = line_tracer(tracer);
+    const AreaOptions options{.tolerance = 0.02};
+    const AreaResult found = estimate_areas(tracer.bounds(), lines, options);
+    const auto is_right = [](const EstimatedArea& a, double area) {
+        return std::abs(a.area - area) < 5 * a.standard_error + 1e-6 && a.standard_error < 0.05 * area;
+    };
+    CHECK(found.is_within_tolerance);
+    REQUIRE(found.phases.size() == 2);
+    CHECK(is_right(found.phases[0], 3 * pi));
+    CHECK(is_right(found.phases[1], 2 * 9 + 4 * 6));
+    REQUIRE(found.contacts.size() == 3);
+    CHECK(is_right(found.contacts[0], 2 * pi));              // vacuum and the ball
+    CHECK(is_right(found.contacts[1], 2 * 9 + 4 * 6 - pi));  // vacuum and the block
+    CHECK(is_right(found.contacts[2], pi));                  // ball and block
+    CHECK(found.contacts[2].first == first);
+    CHECK(found.contacts[2].second == second);
+
+    tbb::task_arena one(1);
+    const AreaResult again = one.execute([&] { return estimate_areas(tracer.bounds(), lines, options); });
+    CHECK(again.lines == found.lines);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(again.contacts[i].area == found.contacts[i].area);
+        CHECK(again.contacts[i].standard_error == found.contacts[i].standard_error);
+    }
+    CHECK_THROWS_WITH_AS(estimate_areas(Bounds::everything(), lines), doctest::Contains("unbounded"), ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.tolerance = 0}), doctest::Contains("tolerance"),
+                         ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.seconds = -1}), doctest::Contains("time"),
+                         ModelError);
+}
+
+TEST_CASE("bad input is rejected in words") {
     const Phased ball = Set{.phase = first, .of = Sphere{.radius = 1}};
     const Phased half_space = Set{.phase = first, .of = Plane{}};
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The bounds are divided into at least this many parts in doubt, unless there are fewer after so many levels.
+// The bounds are divided into at least this many parts in doubt, unless there are fewer after this number of levels.
 constexpr std::size_t enough_parts = 256;
 constexpr int most_levels_of_parts = 4;
 // A volume is compared with the tolerance as if it were at least this fraction of the object's.
@@ -235,7 +235,7 @@ class Measurement {
         return m.high[0] - m.low[0];
     }
     bool is_precise(Phase p) const { return width(p) <= allowed(p); }
-    // Whether most of the doubt is where smaller boxes would say no more, and is too much to reach the tolerance.
+    // Whether most of the doubt is where smaller boxes would not help, and is too much to reach the tolerance.
     bool is_at_end(Phase p) const {
         const double final_doubt = total_[p].final_doubt;
         return final_doubt > allowed(p) && width(p) < 1.5 * final_doubt;

@@ -12,7 +12,7 @@ namespace phasetree::measuring {
 struct PhaseSums {
     Moments low{}, high{}, estimate{}, magnitude{};
     std::array<double, 3> inner_low, inner_high, outer_low, outer_high;
-    double final_doubt = 0;  ///< the doubt in boxes whose division would say no more
+    double final_doubt = 0;  ///< the doubt in boxes whose division would not help
 
     PhaseSums() {
         inner_low.fill(std::numeric_limits<double>::infinity());

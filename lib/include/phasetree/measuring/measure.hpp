@@ -64,7 +64,7 @@ struct MeasureOptions {
 /// Why measuring ended.
 enum class MeasureEnd {
     tolerance,  ///< all volumes are as precise as requested
-    precision,  ///< smaller boxes would say no more, because of the rounding errors of 32-bit coordinates
+    precision,  ///< smaller boxes would not help, because of the rounding errors of 32-bit coordinates
     seconds,    ///< the time is over
     boxes,      ///< MeasureOptions::most_boxes
     cancelled   ///< MeasureOptions::cancelled returned true
