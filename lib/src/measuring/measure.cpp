@@ -270,7 +270,9 @@ class Measurement {
     MeasureEnd divide_parts(double progress) {
         const std::size_t most_of_part =
             std::max<std::size_t>(1024, options_.most_boxes / std::max<std::size_t>(1, parts_.size()));
-        for (;;) {
+        // Each pass lowers thresholds at least fourfold, so after these they are below any volume that matters.
+        constexpr int most_passes = 40;
+        for (int pass = 0; pass < most_passes; ++pass) {
             bool are_precise = true, are_done = true;
             for_each_solid([&](Phase p) {
                 are_precise = are_precise && is_precise(p);
@@ -289,6 +291,7 @@ class Measurement {
             add_up();
             progress = std::max(progress, progress_of_doubt());
         }
+        return MeasureEnd::precision;
     }
     // False if it was stopped. Parts that were not finished keep what was known of them.
     bool divide_once(std::size_t most_of_part, double from, double to) {
