@@ -1,6 +1,7 @@
 """Measures: what is known in closed form lies in the intervals, and the command and Python agree."""
 
 import json
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -52,8 +53,32 @@ class Measures(unittest.TestCase):
 
     def test_progress(self):
         told = []
-        self.object.measure(tolerance=0.05, progress=lambda stage, share: told.append((stage, share)))
-        self.assertEqual(told[-1], ("measuring", 1))
+        self.object.measure(tolerance=0.003, progress=lambda stage, share: told.append((stage, share)))
+        self.assertTrue(told)
+        shares = [share for stage, share in told if stage]
+        self.assertEqual({stage for stage, share in told if stage} - {"measuring"}, set())
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(all(0 < share <= 1 for share in shares))
+
+    def test_an_interruption_prints_what_is_known(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(self.object.to_json())
+            file.flush()
+            run = subprocess.Popen(
+                [COMMAND, "measure", file.name, "--tolerance", "1e-9", "--time", "5m", "--json"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            )
+            # The first line of progress appears once signals are handled and the work goes on for more than a second.
+            self.assertIn("%", run.stderr.readline())
+            run.send_signal(signal.SIGINT)
+            out, err = run.communicate(timeout=120)
+        self.assertEqual(run.returncode, 130)
+        self.assertIn("interrupted", err)
+        found = json.loads(out)
+        self.assertEqual(found["stopped"], "interrupted")
+        for phase in found["phases"]:
+            self.assertLessEqual(phase["volume"]["low"], self.volumes[phase["name"]])
+            self.assertGreaterEqual(phase["volume"]["high"], self.volumes[phase["name"]])
 
     def test_the_command_agrees(self):
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
