@@ -304,11 +304,12 @@ bool is_for_pictures_alone(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("eval, trace, info and export refuse the scenes that check refuses, in the same words") {
+TEST_CASE("eval, trace, info, measure and export refuse the scenes that check refuses, in the same words") {
     const Shell shell;
     const std::vector<std::vector<std::string>> commands{{"eval", "scene.json"},
                                                          {"trace", "scene.json"},
                                                          {"info", "scene.json"},
+                                                         {"measure", "scene.json"},
                                                          {"export", "scene.json", "-o", "a.glsl"}};
     std::size_t count = 0;
     const auto check_same = [&](const std::string& name, const std::string& text, bool all) {
@@ -370,7 +371,7 @@ TEST_CASE("eval, trace, info and export refuse the scenes that check refuses, in
     check_same("a wrong camera", version_and_ball + R"(, "camera": {"position": [0, 0, 0]}})", true);
 }
 
-TEST_CASE("eval, trace and info do not need the files of lights, meshes, textures and voxels") {
+TEST_CASE("eval, trace, info, measure and export do not need the files of lights, meshes, textures and voxels") {
     const Shell shell;
     write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {
         "glass": {"clear": {"ior": 1.5, "scattering": [1, 1, 1], "emission": [1, 1, 1],
@@ -387,6 +388,7 @@ TEST_CASE("eval, trace and info do not need the files of lights, meshes, texture
     CHECK(points.out == "x,y,z,phase,phi.vacuum,phi.glass,phi.wood\n0,0,0,glass,1,-1,\n");
     CHECK(shell.run({"trace", "scene.json"}, "0 0 5 0 0 -1\n").code == 0);
     CHECK(shell.run({"info", "scene.json", "--cells"}).code == 0);
+    CHECK(shell.run({"measure", "scene.json", "--tolerance", "0.5"}).code == 0);
     CHECK(shell.run({"export", "scene.json", "-o", "a.glsl"}).code == 0);
 }
 

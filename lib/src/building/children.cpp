@@ -4,40 +4,25 @@
 #include <cmath>
 #include <memory>
 
-#include "evaluation/batch_of_points.hpp"
-#include "evaluation/target.hpp"
+#include "building/values_at_points.hpp"
 #include "pruning/jumps.hpp"
 #include "rewriting/features.hpp"
-#include "rewriting/readable_steps.hpp"
 
 namespace phasetree::building {
 
-using evaluation::active_kernel, evaluation::BatchOfPoints, evaluation::ValuesAtPoint;
+using evaluation::ValuesAtPoint;
 using pruning::finest_jump, pruning::may_jump, pruning::prune, pruning::RangesInBall, pruning::slopes_in_ball;
-using rewriting::ArenaScope, rewriting::finest_pattern, rewriting::readable_steps, rewriting::ReadableSteps,
-    rewriting::specialised;
+using rewriting::ArenaScope, rewriting::finest_pattern;
 
 namespace {
 
 // Evaluates a node's program at the centres of boxes, one per lane. The result reads lane 0, which holds the values for
 // the first box; Children::prepare() reads the lanes of the others.
 ValuesAtPoint values_at_centres(const BuildNode& node, const SubBoxes& boxes, Worker& worker) {
-    SharedConstants& constants = worker.pool.constants();
-    std::size_t count = 0;
-    for (const Specialisation& s : node.specialisations) count += s.data.size();
-    worker.specialised.clear();
-    const WorkingProgram program = specialised(node.program, node.specialisations, worker.specialised, worker.scratch,
-                                               constants.first_behind(worker.number, count));
-    const ReadableSteps steps = readable_steps(program, worker.scratch);
     static_assert(batch_size >= SubBoxes::most, "each child has a lane of its own");
     std::array<glm::vec3, SubBoxes::most> centres;
     for (std::size_t i = 0; i < boxes.count; ++i) centres[i] = boxes.box[i].centre();
-    const auto points = BatchOfPoints::of(std::span(centres).first(boxes.count));
-    const std::span<BatchOfFloats> registers = worker.scratch.allocate<BatchOfFloats>(steps.slots);
-    const float* const all = constants.with(worker.specialised, worker.number, worker.constants);
-    active_kernel().evaluate(steps.routine(all), points.x.lane.data(), points.y.lane.data(), points.z.lane.data(),
-                             registers.data()->lane.data(), nullptr);
-    return {registers.data(), steps.slot, 0};
+    return values_at_points(node.program, node.specialisations, std::span(centres).first(boxes.count), worker);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ from phasetree._parts import cameras, lights, materials, meshes, numbers, textur
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
-from phasetree._trees import Closest, Crossings, Field, Hits, Object, PhaseMesh
+from phasetree._trees import Closest, Crossings, Field, Hits, Measures, Object, PhaseMesh
 from phasetree._view import View, view
 
 __version__ = _phasetree.version
@@ -39,7 +39,7 @@ voxels = _parts.voxels
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Measures", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
     "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.

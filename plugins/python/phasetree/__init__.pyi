@@ -106,6 +106,21 @@ phase, or of all phases except the vacuum, is a manifold."""
     crossings: np.ndarray
     skipped: np.ndarray
 
+class Measures(NamedTuple):
+    r"""Volumes, masses and moments of the phases of an object; see Object.measure.
+
+    The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
+    are in the unit of the scene, usually metres."""
+    names: np.ndarray
+    volume: np.ndarray
+    mass: np.ndarray
+    centre: np.ndarray
+    inertia: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    stopped: np.ndarray
+    boxes: np.ndarray
+
 class Field:
     r"""A signed distance, negative inside. Immutable.
 
@@ -530,6 +545,19 @@ progress: called with "preparing" and the fraction done, up to 1."""
         r"""The closest interface to each point, within a radius. Returns Closest.
 
 tolerance: the accepted relative error of the distance."""
+    def measure(self, tolerance=..., seconds=..., densities=..., progress=...):
+        r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
+
+Each number comes with an interval that certainly contains it, apart from rounding errors that exceed half a
+resolution.
+
+tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds:
+measuring also ends after this time, by default never. densities: a dict from phases, or their names, to
+densities, for masses; phases that are not in it have a density of 1. progress: called with "measuring" and a
+guess of the fraction done, up to 1.
+
+Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
+an argument is out of its range."""
     @property
     def bounds(self):
         r"""A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""

@@ -99,6 +99,24 @@ class PhaseMesh(NamedTuple):
         return self.vertices[used], numbers.reshape(triangles.shape).astype(np.uint32)
 
 
+class Measures(NamedTuple):
+    """Volumes, masses and moments of the phases of an object; see Object.measure.
+
+    The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
+    are in the unit of the scene, usually metres.
+    """
+
+    names: tuple  #: the names of the N phases, without the vacuum
+    volume: np.ndarray  #: float64 (N, 3)
+    mass: np.ndarray  #: float64 (N, 3): the volume times the density, which is 1 by default
+    centre: np.ndarray  #: float64 (N, 3, 3): x, y and z of the centre of mass; infinite if the phase may be empty
+    inertia: np.ndarray  #: float64 (N, 3, 3, 3): the tensor of inertia about the centre of mass
+    low: np.ndarray  #: float64 (N, 3, 3): the smallest x, y and z of the phase
+    high: np.ndarray  #: float64 (N, 3, 3): the largest x, y and z of the phase
+    stopped: str  #: "tolerance", "precision" (32-bit coordinates allow no better), "time" or "boxes" (too many)
+    boxes: int  #: the number of boxes examined
+
+
 def node_of(handle, phases):
     """The JSON of a field's node, with references to shapes expanded."""
     scene = _phasetree.value_of(handle.text(phases))
@@ -410,6 +428,30 @@ class Object(Value):
             raise Error(f"the spacing is {spacing}; it must be a length")
         made = _phasetree.mesh(self._prepared, spacing, progress)
         return PhaseMesh(*made[:4], self.names, *made[4:])
+
+    def measure(self, tolerance=1e-3, seconds=None, densities=None, progress=None):
+        """Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
+
+        Each number comes with an interval that certainly contains it, apart from rounding errors that exceed half a
+        resolution.
+
+        tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds:
+        measuring also ends after this time, by default never. densities: a dict from phases, or their names, to
+        densities, for masses; phases that are not in it have a density of 1. progress: called with "measuring" and a
+        guess of the fraction done, up to 1.
+
+        Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
+        an argument is out of its range.
+        """
+        numbers = []
+        for phase, density in (densities or {}).items():
+            name = phase.name if isinstance(phase, Phase) else phase
+            if name not in self.names:
+                raise Error(f'the object has no phase {name!r}; it has {", ".join(self.names)}')
+            numbers.append((self.names.index(name), float(density)))
+        seconds = None if seconds is None else float(seconds)
+        found = _phasetree.measure(self._handle, float(tolerance), seconds, numbers, progress)
+        return Measures(tuple(self.names[i] for i in found[0]), *found[1:])
 
     @property
     def bounds(self):

@@ -20,6 +20,7 @@ void add_check(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
+void add_measure(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
 void add_import(CLI::App& app, Run& run);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "building/sub_boxes.hpp"
+#include "building/worker_pool.hpp"
+#include "measuring/cut_box.hpp"
+#include "pruning/prune.hpp"
+#include "rewriting/specialise.hpp"
+
+namespace phasetree::measuring {
+
+using building::SubBoxes, building::Worker;
+using rewriting::ProgramContext, rewriting::RequiredOfLocal, rewriting::Specialisation, rewriting::WorkingProgram;
+
+/// Constant data of a measurement.
+struct MeasureContext {
+    ProgramContext program;
+    std::array<double, 3> origin{};  ///< from which coordinates are measured
+    float resolution = 0;            ///< in the scene's unit of length
+};
+
+/// A box, with the part of the object's program that is left in it.
+struct Node {
+    Bounds box;
+    WorkingProgram program;
+    std::span<const Specialisation> specialisations{};  ///< in this box; before it is examined, in the box around it
+    std::span<const RequiredOfLocal> required{};        ///< of local primitives, in this box
+};
+
+/// A phase that may be in a box: the part of the box that it certainly contains, and the part that may contain it.
+struct PhaseInBox {
+    Phase phase;
+    PartOfBox certain, possible;
+    /// A linear function near the phase's component, and an upper bound of the difference; infinite if unknown.
+    LinearInBox component;
+    double slack = 0;
+
+    double doubt() const { return std::max(0.0, possible.moments[0] - certain.moments[0]); }
+};
+
+/// What is known of a box.
+struct ExaminedBox {
+    Node node;
+    std::optional<Phase> only{};         ///< the phase that contains all of the box, if it is known
+    std::span<PhaseInBox> phases{};      ///< otherwise, those that may be there
+    std::span<double> mean_component{};  ///< for each of these, about the mean of its component in the box
+    std::span<int> votes{};              ///< for each of these, how many of eight points in the box are in it
+    bool can_be_divided = true;          ///< whether smaller boxes may say more
+};
+
+/// The boxes into which a node's box is divided. It refers to memory in the worker's arenas.
+class Division {
+  public:
+    /// Evaluates the node's program at the centres of the boxes.
+    Division(const Node&, const MeasureContext&, Worker&);
+
+    std::size_t count() const { return boxes_.count; }
+    /// Prunes the program for a box, first in a ball around it, and encloses it there. The result is in the worker's
+    /// arena of programs.
+    ExaminedBox examine(std::size_t i) const;
+
+  private:
+    std::optional<Phase> phase_at_centre(std::size_t i) const;
+
+    const Node& parent_;
+    const MeasureContext& context_;
+    Worker& worker_;
+    SubBoxes boxes_;
+    evaluation::ValuesAtPoint values_;  // at the centre of the first box; other lanes hold those of the other boxes
+    bool has_jumps_;
+};
+
+}  // namespace phasetree::measuring

@@ -1,0 +1,92 @@
+// Volumes, masses and moments of an object's phases.
+#include <pybind11/stl.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "module.hpp"
+#include "phasetree/measuring/measure.hpp"
+
+namespace py = pybind11;
+
+namespace phasetree::python {
+
+namespace {
+
+constexpr py::ssize_t numbers_of_one = 3;  // low, high, estimate
+
+// Appends rows of [low, high, estimate].
+class Rows {
+  public:
+    Rows(py::ssize_t phases, std::vector<py::ssize_t> shape_of_one) : shape_(std::move(shape_of_one)) {
+        shape_.insert(shape_.begin(), phases);
+        shape_.push_back(numbers_of_one);
+    }
+    void add(const Measured& m) { values_.insert(values_.end(), {m.low, m.high, m.estimate}); }
+    void add(const std::array<Measured, 3>& all) {
+        for (const Measured& m : all) add(m);
+    }
+    py::array_t<double> array() const { return py::array_t<double>(shape_, values_.data()); }
+
+  private:
+    std::vector<py::ssize_t> shape_;
+    std::vector<double> values_;
+};
+
+const char* name_of(MeasureEnd end) {
+    switch (end) {
+        case MeasureEnd::tolerance:
+            return "tolerance";
+        case MeasureEnd::precision:
+            return "precision";
+        case MeasureEnd::seconds:
+            return "time";
+        case MeasureEnd::boxes:
+            return "boxes";
+        case MeasureEnd::cancelled:
+            return "cancelled";
+    }
+    return "";
+}
+
+py::tuple measures(const Phased& object, double tolerance, std::optional<double> seconds,
+                   const std::vector<std::pair<int, double>>& densities, const py::object& tell) {
+    MeasureOptions options;
+    options.tolerance = tolerance;
+    if (seconds) options.seconds = *seconds;
+    for (const auto& [phase, density] : densities)
+        options.densities.emplace_back(Phase{static_cast<std::uint8_t>(phase)}, density);
+    MeasureResult result;
+    run_beside(tell, [&](const auto& cancelled, const auto& progress) {
+        options.cancelled = cancelled;
+        options.progress = [&](float share) { progress("measuring", share); };
+        result = measure(object, options);
+    });
+    const auto count = static_cast<py::ssize_t>(result.phases.size());
+    Rows volume(count, {}), mass(count, {}), centre(count, {3}), inertia(count, {3, 3}), low(count, {3}),
+        high(count, {3});
+    py::list numbers;
+    for (const MeasuredPhase& p : result.phases) {
+        numbers.append(p.phase.index);
+        volume.add(p.body.volume);
+        mass.add(p.body.mass);
+        centre.add(p.body.centre);
+        for (const auto& row : p.body.inertia) inertia.add(row);
+        low.add(p.box_low);
+        high.add(p.box_high);
+    }
+    return py::make_tuple(numbers, volume.array(), mass.array(), centre.array(), inertia.array(), low.array(),
+                          high.array(), name_of(result.end), result.boxes);
+}
+
+}  // namespace
+
+void add_measures(py::module_& module) {
+    module.def("measure", &measures, py::arg("object"), py::arg("tolerance"), py::arg("seconds"), py::arg("densities"),
+               py::arg("tell"));
+}
+
+}  // namespace phasetree::python

@@ -1,0 +1,432 @@
+// Measuring: intervals contain what is known in closed form, whatever the object's place and orientation; boxes say
+// only what is true of random points in them, for every kind of node; areas agree with closed forms; results do not
+// depend on threads; bad input is rejected in words.
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "measuring/divide.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/math/float_mode.hpp"
+#include "phasetree/measuring/areas.hpp"
+#include "phasetree/measuring/measure.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/capped_cone.hpp"
+#include "phasetree/nodes/fields/cylinder.hpp"
+#include "phasetree/nodes/fields/intersection.hpp"
+#include "phasetree/nodes/fields/plane.hpp"
+#include "phasetree/nodes/fields/shell.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/fields/torus.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
+#include "rewriting/rewrite.hpp"
+#include "support/random_tree.hpp"
+
+namespace test_measure {
+
+using namespace phasetree;
+using namespace phasetree::tests;
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+constexpr Phase first{1}, second{2}, third{3};
+
+double cubed(double r) {
+    return r * r * r;
+}
+
+// A solid whose volume is known, symmetric about a line along z through its centre of mass. For some, the moments of
+// inertia about that line and across it are known too, for a density of 1; otherwise they are 0.
+struct Known {
+    std::string name;
+    Field field;
+    double volume = 0;
+    double centre_z = 0;
+    double inertia_along = 0, inertia_across = 0;
+};
+
+Known random_solid(Random& rng, int kind) {
+    const float a = rng.uniform(0.3f, 1.2f), b = rng.uniform(0.3f, 1.2f), c = rng.uniform(0.05f, 0.25f);
+    const double r = static_cast<double>(a), h = static_cast<double>(b), t = static_cast<double>(c);
+    switch (kind) {
+        case 0: {
+            const double m = 4 * pi / 3 * cubed(r), i = 0.4 * m * r * r;
+            return {"ball", Sphere{.radius = a}, m, 0, i, i};
+        }
+        case 1: {
+            const double outer = r + t, inner = r - t, m = 4 * pi / 3 * (cubed(outer) - cubed(inner));
+            const double i = 8 * pi / 15 * (std::pow(outer, 5) - std::pow(inner, 5));
+            return {"shell", Shell{.of = Sphere{.radius = a}, .half_thickness = c}, m, 0, i, i};
+        }
+        case 2: {
+            const double m = 2 * pi * pi * r * t * t;
+            return {"torus", Torus{.major = a, .minor = c}, m,
+                    0,       m * (r * r + 0.75 * t * t),    m * (0.5 * r * r + 0.625 * t * t)};
+        }
+        case 3: {
+            const double m = pi * r * r * h;
+            return {"cylinder",      Cylinder{.radius = a, .height = b}, m, 0,
+                    0.5 * m * r * r, m * (3 * r * r + h * h) / 12};
+        }
+        case 4: {
+            const double m = pi * h / 3 * (r * r + r * t + t * t);
+            const double z = h / 4 * (r * r + 2 * r * t + 3 * t * t) / (r * r + r * t + t * t) - h / 2;
+            return {"cone", CappedCone{.radius_bottom = a, .radius_top = c, .height = b}, m, z};
+        }
+        default: {
+            const double d = 1.2 * r, height = r - d / 2;  // of each of the two caps
+            const float off = static_cast<float>(d / 2);
+            return {"lens",
+                    Intersection{.of = {warped(Translate{.by = {0, 0, off}}, Sphere{.radius = a}),
+                                        warped(Translate{.by = {0, 0, -off}}, Sphere{.radius = a})}},
+                    2 * pi * height * height * (3 * r - height) / 3};
+        }
+    }
+}
+
+// By what fraction 32-bit parameters may change a volume.
+constexpr double rounding = 2e-6;
+
+bool is_near(const Measured& m, double v, double error) {
+    return m.low <= v + error && v - error <= m.high;
+}
+
+MeasureOptions to(double tolerance) {
+    return {.tolerance = tolerance};
+}
+
+Phased stack() {
+    const auto ball = [](Phase p, float z) {
+        return Phased(Set{.phase = p, .of = warped(Translate{.by = {0, 0, z}}, Sphere{.radius = 0.7f})});
+    };
+    return Under{.of = {ball(first, 0), ball(second, 0.5f), ball(third, 1)}};
+}
+
+const Measured& volume_of(const MeasureResult& r, Phase p) {
+    for (const MeasuredPhase& m : r.phases)
+        if (m.phase == p) return m.body.volume;
+    FAIL("no phase " << int{p.index});
+    return r.vacuum;
+}
+
+std::string message_of(const Phased& object, const MeasureOptions& options) {
+    try {
+        (void)measure(object, options);
+    } catch (const ModelError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("intervals contain volumes, centres of mass and moments of inertia in closed form") {
+    Random rng(2024);
+    for (int i = 0; i < (long_tests() ? 600 : 18); ++i) {
+        const Known known = random_solid(rng, i % 6);
+        const glm::vec3 axis = rng.direction(), by = 3.f * rng.direction();
+        const bool is_turned = i >= 6;
+        const float angle = is_turned ? rng.uniform(0, 360) : 0;
+        const Field turned = warped(Rotate{.axis = axis, .angle = angle}, known.field);
+        const double tolerance = is_turned || known.name == "cone" ? 4e-2 : 8e-3;
+        const MeasureResult r = measure(Set{.phase = second, .of = warped(Translate{.by = by}, turned)}, to(tolerance));
+        INFO(known.name << " " << i);
+        REQUIRE(r.phases.size() == 1);
+        const MeasuredPhase& p = r.phases[0];
+        const double v = known.volume, error = rounding * v;
+        CHECK(r.end == MeasureEnd::tolerance);
+        CHECK(p.body.volume.width() <= tolerance * v);
+        CHECK(is_near(p.body.volume, v, error));
+        CHECK(p.body.volume.estimate == doctest::Approx(v).epsilon(1e-2));
+        // An error of one percent is found.
+        if (tolerance < 1e-2) {
+            CHECK_FALSE(is_near(p.body.volume, 1.01 * v, error));
+            CHECK_FALSE(is_near(p.body.volume, 0.99 * v, error));
+        }
+        // Rodrigues' rotation of the z axis.
+        const double s = std::sin(double{angle} * pi / 180), c = std::cos(double{angle} * pi / 180);
+        const glm::dvec3 k = glm::normalize(glm::dvec3(axis)), z(0, 0, 1);
+        const glm::dvec3 d = z * c + glm::cross(k, z) * s + k * (glm::dot(k, z) * (1 - c));
+        for (int j = 0; j < 3; ++j) {
+            const auto a = static_cast<std::size_t>(j);
+            const double centre = double{by[j]} + known.centre_z * d[j];
+            CHECK(is_near(p.body.centre[a], centre, 4 * rounding));
+            CHECK(p.body.centre[a].estimate == doctest::Approx(centre).epsilon(1e-2));
+            for (int l = 0; known.inertia_along > 0 && l < 3; ++l) {
+                const double across = known.inertia_across, more = known.inertia_along - across;
+                const double moment = more * d[j] * d[l] + (j == l ? across : 0);
+                const Measured& found = p.body.inertia[a][static_cast<std::size_t>(l)];
+                CHECK(is_near(found, moment, 8 * rounding * v));
+                CHECK(found.estimate == doctest::Approx(moment).epsilon(2e-2).scale(v));
+            }
+        }
+    }
+}
+
+TEST_CASE("intervals contain the sides of the smallest box around a phase") {
+    const Phased object =
+        Set{.phase = first, .of = warped(Translate{.by = {1, 2, 4}}, Cylinder{.radius = 0.5f, .height = 3})};
+    const MeasuredPhase p = measure(object, to(1e-2)).phases.at(0);
+    const double low[] = {0.5, 1.5, 2.5}, high[] = {1.5, 2.5, 5.5};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(is_near(p.box_low[i], low[i], 1e-6));
+        CHECK(is_near(p.box_high[i], high[i], 1e-6));
+        CHECK(p.box_low[i].width() < 4e-2);
+        CHECK(p.box_high[i].width() < 4e-2);
+    }
+}
+
+TEST_CASE("phases of a stack and the vacuum fill the bounds") {
+    const MeasureResult r = measure(stack(), to(8e-3));
+    REQUIRE(r.phases.size() == 3);
+    const glm::dvec3 size = glm::dvec3(r.bounds.high) - glm::dvec3(r.bounds.low);
+    double low = r.vacuum.low, high = r.vacuum.high, estimate = r.vacuum.estimate;
+    for (const MeasuredPhase& p : r.phases) {
+        low += p.body.volume.low;
+        high += p.body.volume.high;
+        estimate += p.body.volume.estimate;
+    }
+    const double all = size.x * size.y * size.z;
+    CHECK(low <= all);
+    CHECK(all <= high);
+    CHECK(estimate == doctest::Approx(all).epsilon(1e-4));
+    // A ball, less the lens that it shares with the ball over it. The third ball touches the first only within the
+    // second.
+    const double radius = 0.7, ball = 4 * pi / 3 * cubed(radius), height = radius - 0.25;
+    const double lens = 2 * pi * height * height * (3 * radius - height) / 3;
+    CHECK(is_near(volume_of(r, third), ball, rounding * ball));
+    CHECK(is_near(volume_of(r, second), ball - lens, rounding * ball));
+    CHECK_FALSE(is_near(volume_of(r, second), 1.01 * (ball - lens), rounding * ball));
+}
+
+TEST_CASE("masses, and several phases as one body") {
+    const Phased two =
+        Under{.of = {Set{.phase = first, .of = warped(Translate{.by = {-1, 0, 0}}, Sphere{.radius = 0.5f})},
+                     Set{.phase = second, .of = warped(Translate{.by = {1, 0, 0}}, Sphere{.radius = 0.5f})}}};
+    MeasureOptions options = to(1e-2);
+    options.densities = {{first, 1}, {second, 3}};
+    const MeasureResult r = measure(two, options);
+    const double v = 4 * pi / 3 * cubed(0.5);
+    REQUIRE(r.all);
+    CHECK(is_near(r.all->volume, 2 * v, rounding));
+    CHECK(is_near(r.all->mass, 4 * v, rounding));
+    CHECK(r.all->mass.width() < 1e-2 * 4 * v);
+    CHECK(is_near(r.all->centre[0], 0.5, rounding));
+    // By Steiner: both balls, and their distances of 1.5 and 0.5 from the centre of mass.
+    const double own = 0.4 * 4 * v * 0.25, apart = v * 1.5 * 1.5 + 3 * v * 0.5 * 0.5;
+    CHECK(is_near(r.all->inertia[0][0], own, rounding));
+    CHECK(is_near(r.all->inertia[1][1], own + apart, rounding));
+    CHECK(r.all->inertia[1][1].width() < 0.05 * (own + apart));
+    CHECK(r.phases.at(1).has_density);
+    CHECK(is_near(r.phases.at(1).body.mass, 3 * v, rounding));
+
+    options.densities = {{second, 0}};
+    const MeasureResult massless = measure(two, options);
+    CHECK(massless.all->mass.high < 1e-9);
+    CHECK_FALSE(std::isfinite(massless.all->centre[0].high));
+}
+
+TEST_CASE("boxes say only what is true of the points in them") {
+    const FlushSubnormals flush;
+    std::size_t decided = 0, cut = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(77, kind);
+        for (int tree = 0; tree < (long_tests() ? 40 : 1); ++tree) {
+            const Phased object = kind.object(rng, 2);
+            std::optional<TraceableObject> traceable;
+            try {
+                traceable = prepare_to_trace(object);
+            } catch (const ModelError&) {
+                continue;  // unbounded or empty
+            }
+            INFO(kind.name << " " << tree);
+            Program program = record(object);
+            const Evaluator evaluator(program);
+            Evaluator::Workspace workspace;
+            rewriting::Arena arena;
+            const rewriting::WorkingProgram whole = rewriting::rewrite(program, arena);
+            const measuring::MeasureContext context{
+                {whole, program.constants, PhaseSet(), 0.5f * traceable->resolution}, {}, traceable->resolution};
+            building::CellBudget budget(std::size_t{1} << 40);
+            building::WorkerPool pool(budget, program.constants);
+            building::Worker worker{pool};
+            const auto check_points = [&](const measuring::ExaminedBox& box) {
+                for (int i = 0; i < 8; ++i) {
+                    const glm::vec3 p = rng.in(box.node.box);
+                    const Phase label = evaluator.label(p, workspace);
+                    if (box.only) {
+                        ++decided;
+                        CHECK(*box.only == label);
+                        continue;
+                    }
+                    bool is_listed = false;
+                    for (const measuring::PhaseInBox& q : box.phases) {
+                        is_listed = is_listed || q.phase == label;
+                        if (!std::isfinite(q.slack)) continue;
+                        double f = q.component.at_low;
+                        for (int j = 0; j < 3; ++j)
+                            f += q.component.change[static_cast<std::size_t>(j)] *
+                                 double{(p[j] - box.node.box.low[j]) / box.node.box.extent()[j]};
+                        const double error = 1e-6 * (1 + std::abs(f)) * double{box.node.box.diagonal()};
+                        if (f + q.slack < -error) {
+                            ++cut;
+                            CHECK(label == q.phase);
+                        }
+                        if (f - q.slack > error) {
+                            ++cut;
+                            CHECK(label != q.phase);
+                        }
+                    }
+                    CHECK(is_listed);
+                }
+            };
+            const auto descend = [&](auto&& self, const measuring::Node& node, int depth) -> void {
+                const rewriting::ArenaScope programs(worker.programs), scratch(worker.scratch);
+                const measuring::Division division(node, context, worker);
+                for (std::size_t i = 0; i < division.count(); ++i) {
+                    const measuring::ExaminedBox box = division.examine(i);
+                    check_points(box);
+                    // Deep boxes matter as much as large ones, and one child in four is enough to get there.
+                    if (!box.only && box.can_be_divided && depth < 8 && (depth < 1 || rng.chance(0.25)))
+                        self(self, box.node, depth + 1);
+                }
+            };
+            descend(descend, {traceable->bounds, whole}, 0);
+        }
+    }
+    CHECK(decided > 10'000);
+    CHECK(cut > 10'000);
+}
+
+TEST_CASE("the result is the same for any number of threads, to the last bit") {
+    std::vector<std::uint64_t> bits[3];
+    const int threads[] = {1, 2, 4};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+        tbb::task_arena arena(threads[i]);
+        const MeasureResult r = arena.execute([] { return measure(stack(), to(3e-2)); });
+        const auto add = [&](const Measured& m) {
+            for (const double v : {m.low, m.high, m.estimate}) bits[i].push_back(std::bit_cast<std::uint64_t>(v));
+        };
+        bits[i].push_back(r.boxes);
+        add(r.vacuum);
+        for (const MeasuredPhase& p : r.phases) {
+            add(p.body.volume);
+            for (std::size_t j = 0; j < 3; ++j) {
+                add(p.body.centre[j]);
+                add(p.box_low[j]);
+                for (std::size_t l = 0; l < 3; ++l) add(p.body.inertia[j][l]);
+            }
+        }
+    }
+    CHECK(bits[0] == bits[1]);
+    CHECK(bits[0] == bits[2]);
+}
+
+TEST_CASE("measuring ends as requested, with intervals that are certain") {
+    const Phased ball = Set{.phase = first, .of = Sphere{.radius = 1}};
+    const double v = 4 * pi / 3;
+    std::vector<float> told;
+    MeasureOptions options = to(1e-9);
+    options.most_boxes = 30'000;
+    options.progress = [&](float share) { told.push_back(share); };
+    const MeasureResult few = measure(ball, options);
+    CHECK(few.end == MeasureEnd::boxes);
+    CHECK(few.boxes < 300'000);
+    CHECK(few.phases.at(0).body.volume.contains(v));
+    CHECK(few.phases.at(0).body.volume.width() < 0.05);
+    REQUIRE_FALSE(told.empty());
+    CHECK(told.back() == 1);
+    CHECK(std::is_sorted(told.begin(), told.end()));
+
+    options = to(1e-9);
+    options.seconds = 0.05;
+    const MeasureResult fast = measure(ball, options);
+    CHECK(fast.end == MeasureEnd::seconds);
+    CHECK(fast.phases.at(0).body.volume.contains(v));
+
+    options = to(1e-9);
+    options.cancelled = [] { return true; };
+    const MeasureResult cancelled = measure(ball, options);
+    CHECK(cancelled.end == MeasureEnd::cancelled);
+    CHECK(cancelled.phases.at(0).body.volume.contains(v));
+
+    // The faces of a box are planes, so only its edges are in doubt, until rounding errors are all that is left.
+    const MeasureResult box = measure(Set{.phase = first, .of = Box{.size = {1, 1, 1}}}, to(1e-6));
+    CHECK(box.end == MeasureEnd::precision);
+    CHECK(box.phases.at(0).body.volume.contains(1));
+    CHECK(box.phases.at(0).body.volume.width() < 1e-4);
+}
+
+TEST_CASE("a phase that is hidden has a volume of zero") {
+    const Phased hidden = Under{
+        .of = {Set{.phase = first, .of = Sphere{.radius = 0.5f}}, Set{.phase = second, .of = Sphere{.radius = 1}}}};
+    const MeasureResult r = measure(hidden, to(1e-2));
+    CHECK(volume_of(r, first).contains(0));
+    CHECK(volume_of(r, first).high < 1e-4);
+    CHECK(is_near(volume_of(r, second), 4 * pi / 3, rounding));
+}
+
+TEST_CASE("areas of phases and contacts are within a few standard errors of closed forms") {
+    // A ball whose lower half is replaced by a block around it.
+    const Phased object =
+        Under{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
+                     Set{.phase = second, .of = warped(Translate{.by = {0, 0, -1}}, Box{.size = {3, 3, 2}})}}};
+    const InterfaceTracer tracer(object);
+    const LineTracer lines = line_tracer(tracer);
+    const AreaOptions options{.tolerance = 0.02};
+    const AreaResult found = estimate_areas(tracer.bounds(), lines, options);
+    const auto is_right = [](const EstimatedArea& a, double area) {
+        return std::abs(a.area - area) < 5 * a.standard_error + 1e-6 && a.standard_error < 0.05 * area;
+    };
+    CHECK(found.is_within_tolerance);
+    REQUIRE(found.phases.size() == 2);
+    CHECK(is_right(found.phases[0], 3 * pi));
+    CHECK(is_right(found.phases[1], 2 * 9 + 4 * 6));
+    REQUIRE(found.contacts.size() == 3);
+    CHECK(is_right(found.contacts[0], 2 * pi));              // vacuum and the ball
+    CHECK(is_right(found.contacts[1], 2 * 9 + 4 * 6 - pi));  // vacuum and the block
+    CHECK(is_right(found.contacts[2], pi));                  // ball and block
+    CHECK(found.contacts[2].first == first);
+    CHECK(found.contacts[2].second == second);
+
+    tbb::task_arena one(1);
+    const AreaResult again = one.execute([&] { return estimate_areas(tracer.bounds(), lines, options); });
+    CHECK(again.lines == found.lines);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(again.contacts[i].area == found.contacts[i].area);
+        CHECK(again.contacts[i].standard_error == found.contacts[i].standard_error);
+    }
+    CHECK_THROWS_WITH_AS(estimate_areas(Bounds::everything(), lines), doctest::Contains("unbounded"), ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.tolerance = 0}), doctest::Contains("tolerance"),
+                         ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.seconds = -1}), doctest::Contains("time"),
+                         ModelError);
+}
+
+TEST_CASE("bad input is rejected in words") {
+    const Phased ball = Set{.phase = first, .of = Sphere{.radius = 1}};
+    const Phased half_space = Set{.phase = first, .of = Plane{}};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(message_of(half_space, {}).starts_with("the object is unbounded"));
+    for (const double tolerance : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
+        CHECK(message_of(ball, {.tolerance = tolerance}).starts_with("the tolerance must be a positive number"));
+    for (const double seconds : {0.0, -1.0, nan})
+        CHECK(message_of(ball, {.seconds = seconds}).starts_with("the time must be a positive number"));
+    CHECK(message_of(ball, {.densities = {{second, 1}}}) == "the object has no phase 2, so it needs no density");
+    CHECK(message_of(ball, {.densities = {{vacuum, 1}}}) == "the vacuum has no density");
+    for (const double density : {-1.0, nan, std::numeric_limits<double>::infinity()})
+        CHECK(message_of(ball, {.densities = {{first, density}}}).starts_with("the density of phase 1 must not be"));
+}
+
+}  // namespace test_measure

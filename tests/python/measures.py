@@ -1,0 +1,106 @@
+"""Measures: what is known in closed form lies in the intervals, and the command and Python agree."""
+
+import json
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import phasetree as pt
+from support import COMMAND
+
+GLASS, WATER = pt.phase("glass"), pt.phase("water")
+
+
+class Measures(unittest.TestCase):
+    def setUp(self):
+        self.object = pt.under(GLASS(pt.sphere(1).translate([0, 0, 3])), WATER(pt.box([1, 2, 0.5])))
+        self.volumes = {"glass": 4 / 3 * np.pi, "water": 1.0}
+
+    def test_intervals_contain_closed_forms(self):
+        m = self.object.measure(tolerance=0.02)
+        self.assertEqual((m.names, m.stopped), (("glass", "water"), "tolerance"))
+        for name, (low, high, estimate) in zip(m.names, m.volume):
+            self.assertLessEqual(low, self.volumes[name] * (1 + 1e-6))
+            self.assertGreaterEqual(high, self.volumes[name] * (1 - 1e-6))
+            self.assertLess(high - low, 0.02 * self.volumes[name])
+            self.assertTrue(low <= estimate <= high)
+        self.assertEqual(m.centre.shape, (2, 3, 3))
+        self.assertEqual(m.inertia.shape, (2, 3, 3, 3))
+        self.assertTrue((m.centre[0, 2, 0] <= 3 + 1e-6) and (m.centre[0, 2, 1] >= 3 - 1e-6))
+        self.assertTrue((m.low[1, 1, 0] <= -1 + 1e-6) and (m.low[1, 1, 1] >= -1 - 1e-6))
+
+    def test_densities(self):
+        m = self.object.measure(tolerance=0.1, densities={GLASS: 2.5, "water": 0})
+        np.testing.assert_allclose(m.mass[0], 2.5 * m.volume[0], rtol=1e-12)
+        np.testing.assert_allclose(m.mass[1], 0, atol=1e-9)
+        self.assertTrue(np.isinf(m.centre[1, :, :2]).all())
+
+    def test_bad_arguments(self):
+        for arguments, message in (
+            ({"tolerance": 0}, "tolerance must be a positive number"),
+            ({"tolerance": float("nan")}, "tolerance must be a positive number"),
+            ({"seconds": -1}, "time must be a positive number"),
+            ({"densities": {"gold": 1}}, "no phase 'gold'"),
+            ({"densities": {"vacuum": 1}}, "vacuum has no density"),
+            ({"densities": {"glass": -1}}, "must not be negative"),
+        ):
+            with self.subTest(arguments), self.assertRaisesRegex(pt.Error, message):
+                self.object.measure(**arguments)
+        with self.assertRaisesRegex(pt.Error, "unbounded"):
+            GLASS(pt.plane()).measure()
+
+    def test_progress(self):
+        told = []
+        self.object.measure(tolerance=0.003, progress=lambda stage, share: told.append((stage, share)))
+        self.assertTrue(told)
+        shares = [share for stage, share in told if stage]
+        self.assertEqual({stage for stage, share in told if stage} - {"measuring"}, set())
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(all(0 < share <= 1 for share in shares))
+
+    def test_an_interruption_prints_what_is_known(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(self.object.to_json())
+            file.flush()
+            run = subprocess.Popen(
+                [COMMAND, "measure", file.name, "--tolerance", "1e-9", "--time", "5m", "--json"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            )
+            # The first line of progress appears once signals are handled and the work goes on for more than a second.
+            self.assertIn("%", run.stderr.readline())
+            run.send_signal(signal.SIGINT)
+            out, err = run.communicate(timeout=120)
+        self.assertEqual(run.returncode, 130)
+        self.assertIn("interrupted", err)
+        found = json.loads(out)
+        self.assertEqual(found["stopped"], "interrupted")
+        for phase in found["phases"]:
+            self.assertLessEqual(phase["volume"]["low"], self.volumes[phase["name"]])
+            self.assertGreaterEqual(phase["volume"]["high"], self.volumes[phase["name"]])
+
+    def test_the_command_agrees(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(self.object.to_json())
+            file.flush()
+            run = [COMMAND, "measure", file.name, "--tolerance", "0.02", "--density", "glass=2.5"]
+            found = json.loads(subprocess.run([*run, "--json"], capture_output=True, text=True, check=True).stdout)
+            table = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+            wrong = subprocess.run([*run, "--density", "glas=1"], capture_output=True, text=True)
+        m = self.object.measure(tolerance=0.02)
+        self.assertEqual([p["name"] for p in found["phases"]], list(m.names))
+        for phase, numbers in zip(found["phases"], m.volume):
+            self.assertEqual([phase["volume"][k] for k in ("low", "high", "estimate")], list(numbers))
+        areas = {p["name"]: p["area"] for p in found["phases"]}
+        for name, area in (("glass", 4 * np.pi), ("water", 7.0)):
+            self.assertLess(abs(areas[name]["estimate"] - area), 5 * areas[name]["standard_error"] + 1e-3 * area)
+            self.assertLess(areas[name]["standard_error"], 0.03 * area)
+        self.assertEqual([c["phases"] for c in found["contacts"]], [["vacuum", "glass"], ["vacuum", "water"]])
+        self.assertIn("all volumes are within the tolerance", table)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn('unknown phase "glas" (did you mean "glass"?)', wrong.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "command/commands.hpp"
+#include "command/duration.hpp"
+#include "command/errors.hpp"
+#include "command/exit_codes.hpp"
+#include "command/load.hpp"
+#include "command/measure_report.hpp"
+#include "command/number_in.hpp"
+#include "command/streams.hpp"
+#include "embree_core/line_tracer.hpp"
+#include "embree_core/prepared_object.hpp"
+#include "output/interrupt.hpp"
+#include "output/late_progress.hpp"
+#include "phasetree/io/suggest.hpp"
+#include "render/threads.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+struct MeasureCommand {
+    std::optional<std::string> object;
+    double tolerance = MeasureOptions().tolerance;
+    double seconds = 30;
+    std::vector<std::string> densities;
+    bool as_json = false;
+};
+
+// Areas may take this share of the time.
+constexpr double share_of_areas = 0.2;
+
+// Parses PHASE=VALUE. The name of a phase may contain "=", a number does not.
+std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tree) {
+    const std::size_t split = text.rfind('=');
+    double value = 0;
+    if (split == std::string::npos || !CLI::detail::lexical_cast(text.substr(split + 1), value) ||
+        !(value >= 0 && value <= 1e12))
+        throw UsageError(
+            fmt::format("--density: must be PHASE=VALUE, with a value from 0 to 1e12, but is \"{}\"", text));
+    const std::string name = text.substr(0, split);
+    const std::vector<std::string>& names = tree.phases.names;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.begin()) throw UsageError("--density: the vacuum has no density");
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || !phases(tree.object).contains(static_cast<int>(index))) {
+        const auto meant = closest(name, names);
+        throw UsageError(fmt::format("--density: unknown phase \"{}\"{}", name,
+                                     meant && *meant != name ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+    }
+    return {Phase{static_cast<std::uint8_t>(index)}, value};
+}
+
+std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree) {
+    std::vector<std::pair<Phase, double>> all;
+    for (const std::string& text : texts) {
+        const auto density = density_of(text, tree);
+        for (const auto& [phase, value] : all)
+            if (phase == density.first)
+                throw UsageError(
+                    fmt::format("--density: \"{}\" has two densities; give it one", tree.phases.names[phase.index]));
+        all.push_back(density);
+    }
+    return all;
+}
+
+// Throws BuildCancelled.
+AreaResult areas_of(const SceneFile& file, const Document& document, const SceneTree& tree,
+                    const MeasureCommand& chosen) {
+    CellOptions cells;
+    cells.quality = BuildQuality::low;
+    cells.cancelled = [] { return interrupted(); };
+    LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
+    cells.progress = [&](float done) { preparing.tell(done); };
+    const auto prepared =
+        made_of_tree(document, [&] { return std::make_unique<const embree::PreparedObject>(tree.object, cells); });
+    print_warning(file.shown(), prepared->cells().warning());
+    AreaOptions options;
+    options.tolerance = std::max(options.tolerance, chosen.tolerance);
+    options.seconds = share_of_areas * chosen.seconds;
+    options.cancelled = [] { return interrupted(); };
+    return estimate_areas(prepared->cells().bounds(), embree::line_tracer(prepared->scene()), options);
+}
+
+int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
+    const auto start = std::chrono::steady_clock::now();
+    const AvailableThreads threads;
+    const Document document = read_document(file);
+    const SceneTree tree = read_model(document, chosen.object);
+    const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree);
+    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
+    const InterruptGuard guard;
+    AreaResult areas;
+    try {
+        areas = areas_of(file, document, tree, chosen);
+    } catch (const BuildCancelled&) {
+        // Volumes of the first few boxes are known immediately.
+    }
+    MeasureOptions options;
+    options.tolerance = chosen.tolerance;
+    options.densities = densities;
+    options.cancelled = [] { return interrupted(); };
+    LateProgress progress(ProgressOutput::standard_error(false), "measuring the object");
+    options.progress = [&](float done) { progress.tell(done); };
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    options.seconds = std::max(chosen.seconds - elapsed.count(), (1 - share_of_areas) * chosen.seconds);
+    const MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
+    const MeasureReport report{file.shown(), tree.phases, result, areas};
+    if (chosen.as_json)
+        print_json(report);
+    else
+        print_table(report);
+    if (!interrupted()) return exit_code::success;
+    say("phasetree: interrupted; printed what was known by then\n");
+    return code_of_interruption(false);
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("measure", "Print volumes, masses, centres of mass and areas of phases");
+    command->footer(
+        "Prints an interval and an estimate for each number. Volumes, masses, centres of mass, moments\n"
+        "of inertia and sides of bounding boxes certainly lie in their intervals. Areas are statistical\n"
+        "estimates with a standard error.\n"
+        "\n"
+        "Lengths are in metres, masses in kilograms. With several objects, their union is measured;\n"
+        "--object chooses one. Ctrl-C prints what is known so far.\n"
+        "\n"
+        "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
+        "lights, meshes, textures and voxels are not opened.");
+    const auto file = add_scene_file(*command);
+    auto options = std::make_shared<MeasureCommand>();
+    add_object(*command, options->object);
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "Stop when each volume is known to this fraction of it (default: 0.001)")
+        ->check(number_in(1e-9, 1))
+        ->option_text("T");
+    add_duration(*command, "--time", options->seconds,
+                 "Stop after this time, whatever is known by then (default: 30s)");
+    command
+        ->add_option("--density", options->densities,
+                     "Density of a phase in kg/m³, for masses; repeat it for other phases")
+        ->option_text("PHASE=VALUE")
+        ->allow_extra_args(false);
+    command->add_flag("--json", options->as_json, "Print JSON");
+    command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });
+}
+
+}  // namespace phasetree::tracer

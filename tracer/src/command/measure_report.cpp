@@ -1,0 +1,145 @@
+#include "command/measure_report.hpp"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "command/streams.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+// The components of the tensor of inertia that are printed; the others follow by symmetry.
+constexpr std::array<std::array<std::size_t, 2>, 6> components{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+
+std::string_view reason_of(MeasureEnd end) {
+    switch (end) {
+        case MeasureEnd::tolerance:
+            return "tolerance";
+        case MeasureEnd::precision:
+            return "precision";
+        case MeasureEnd::seconds:
+            return "time";
+        case MeasureEnd::boxes:
+            return "boxes";
+        case MeasureEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
+
+std::string_view explanation_of(MeasureEnd end) {
+    switch (end) {
+        case MeasureEnd::tolerance:
+            return "all volumes are within the tolerance";
+        case MeasureEnd::precision:
+            return "32-bit coordinates allow no narrower intervals";
+        case MeasureEnd::seconds:
+            return "the time is over; allow more with --time";
+        case MeasureEnd::boxes:
+            return "the maximum number of boxes was reached";
+        case MeasureEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
+
+bool is_known(const Measured& m) {
+    return std::isfinite(m.low) && std::isfinite(m.high);
+}
+
+// One line: what it is, the estimate, and the interval.
+void print(std::string_view what, const Measured& m, std::string_view unit) {
+    if (!is_known(m)) return put("  {:<18}unknown\n", what);
+    put("  {:<18}{:>14.7g} {:<6} from {:.9g} to {:.9g}\n", what, m.estimate, unit, m.low, m.high);
+}
+
+void print_inertia(const Body& body, bool has_density) {
+    for (const auto& [i, j] : components)
+        print(fmt::format("inertia {}{}", axes[i], axes[j]), body.inertia[i][j], has_density ? "kg m²" : "m⁵");
+}
+
+void print_phase(const MeasureReport& report, const MeasuredPhase& p) {
+    put("\n{}\n", report.names[p.phase]);
+    print("volume", p.body.volume, "m³");
+    if (p.has_density) print("mass", p.body.mass, "kg");
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("centre of mass {}", axes[i]), p.body.centre[i], "m");
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("smallest {}", axes[i]), p.box_low[i], "m");
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("largest {}", axes[i]), p.box_high[i], "m");
+    print_inertia(p.body, p.has_density);
+    for (const AreaResult::OfPhase& a : report.areas.phases)
+        if (a.phase == p.phase)
+            put("  {:<18}{:>14.5g} {:<6} standard error {:.2g}\n", "area", a.area, "m²", a.standard_error);
+}
+
+Json json_of(const Measured& m) {
+    if (!is_known(m)) return nullptr;
+    return {{"low", m.low}, {"high", m.high}, {"estimate", m.estimate}};
+}
+
+Json json_of(const std::array<Measured, 3>& all) {
+    return {json_of(all[0]), json_of(all[1]), json_of(all[2])};
+}
+
+void add_body(Json& json, const Body& body, bool has_density) {
+    json["volume"] = json_of(body.volume);
+    if (has_density) json["mass"] = json_of(body.mass);
+    json["centre"] = json_of(body.centre);
+    json["inertia"] = {json_of(body.inertia[0]), json_of(body.inertia[1]), json_of(body.inertia[2])};
+}
+
+}  // namespace
+
+void print_table(const MeasureReport& report) {
+    const MeasureResult& m = report.measures;
+    put("{:<20}{}\n", "scene", report.scene);
+    put("{:<20}{}\n", "stopped because", explanation_of(m.end));
+    put("{:<20}{}\n", "boxes", m.boxes);
+    put("\nEach line has an estimate, and the interval in which the number certainly lies. Areas are statistical\n"
+        "estimates. Moments of inertia are about the centre of mass; without a density, it is taken to be 1.\n");
+    for (const MeasuredPhase& p : m.phases) print_phase(report, p);
+    if (m.all) {
+        put("\nall phases with a density\n");
+        print("volume", m.all->volume, "m³");
+        print("mass", m.all->mass, "kg");
+        for (std::size_t i = 0; i < 3; ++i) print(fmt::format("centre of mass {}", axes[i]), m.all->centre[i], "m");
+        print_inertia(*m.all, true);
+    }
+    if (report.areas.contacts.empty()) return;
+    put("\n{:<34}{:>14} {:>16}\n", "contact", "area in m²", "standard error");
+    for (const AreaResult::OfContact& c : report.areas.contacts)
+        put("{:<34}{:>14.5g} {:>16.2g}\n", fmt::format("{}, {}", report.names[c.first], report.names[c.second]), c.area,
+            c.standard_error);
+}
+
+void print_json(const MeasureReport& report) {
+    const MeasureResult& m = report.measures;
+    Json json;
+    json["scene"] = report.scene;
+    json["stopped"] = reason_of(m.end);
+    json["boxes"] = m.boxes;
+    json["lines"] = report.areas.lines;
+    Json& list = json["phases"] = Json::array();
+    for (const MeasuredPhase& p : m.phases) {
+        Json phase;
+        phase["name"] = report.names[p.phase];
+        if (p.has_density) phase["density"] = p.density;
+        add_body(phase, p.body, p.has_density);
+        phase["box"] = {{"low", json_of(p.box_low)}, {"high", json_of(p.box_high)}};
+        for (const AreaResult::OfPhase& a : report.areas.phases)
+            if (a.phase == p.phase) phase["area"] = {{"estimate", a.area}, {"standard_error", a.standard_error}};
+        list.push_back(phase);
+    }
+    if (m.all) add_body(json["all"], *m.all, true);
+    Json& contacts = json["contacts"] = Json::array();
+    for (const AreaResult::OfContact& c : report.areas.contacts)
+        contacts.push_back({{"phases", {report.names[c.first], report.names[c.second]}},
+                            {"area", {{"estimate", c.area}, {"standard_error", c.standard_error}}}});
+    put("{}\n", json.dump(2));
+}
+
+}  // namespace phasetree::tracer
