@@ -62,7 +62,7 @@ view() {
     local log=$HOME/logs/view.log address='' page i process status
     # In the background a shell ignores Ctrl-C for its children unless job control is on.
     set -m
-    "$1" view "$2" --port 0 >"$log" 2>&1 &
+    "$1" view "$2" >"$log" 2>&1 &
     process=$!
     set +m
     for ((i = 0; i < 600; ++i)); do

@@ -338,7 +338,7 @@ TEST_CASE("measuring ends as requested, with intervals that are certain") {
     const double v = 4 * pi / 3;
     std::vector<float> told;
     MeasureOptions options = to(1e-9);
-    options.most_boxes = 30'000;
+    options.max_boxes = 30'000;
     options.progress = [&](float share) { told.push_back(share); };
     const MeasureResult few = measure(ball, options);
     CHECK(few.end == MeasureEnd::boxes);

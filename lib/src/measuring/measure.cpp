@@ -80,11 +80,11 @@ class PartDivision {
   public:
     struct Stopped {};
 
-    PartDivision(const MeasureContext& context, const Thresholds& thresholds, std::size_t most_boxes, Stop& stop,
+    PartDivision(const MeasureContext& context, const Thresholds& thresholds, std::size_t max_boxes, Stop& stop,
                  Worker& worker, Part& result)
         : context_(context),
           thresholds_(thresholds),
-          most_boxes_(most_boxes),
+          most_boxes_(max_boxes),
           stop_(stop),
           worker_(worker),
           result_(result) {}
@@ -269,7 +269,7 @@ class Measurement {
 
     MeasureEnd divide_parts(double progress) {
         const std::size_t most_of_part =
-            std::max<std::size_t>(1024, options_.most_boxes / std::max<std::size_t>(1, parts_.size()));
+            std::max<std::size_t>(1024, options_.max_boxes / std::max<std::size_t>(1, parts_.size()));
         // Each pass lowers thresholds at least fourfold, so after these they are below any volume that matters.
         constexpr int most_passes = 40;
         for (int pass = 0; pass < most_passes; ++pass) {

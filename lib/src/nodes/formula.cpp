@@ -15,7 +15,7 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int most_boxes = 4000;  // examined to find the slope of a term
+constexpr int max_boxes = 4000;  // examined to find the slope of a term
 constexpr double steepest = 1e6;  // steeper formulas are rejected
 // Without bounds, the slope is determined in a large cube and in a small one, with these half sides and fewer boxes:
 // nothing needs refinement there. If it is larger in the large cube, it is assumed to grow without limit, and the
@@ -53,8 +53,8 @@ void Formula::prepare() {
     double slope = 0;
     if (box.empty()) {
         for (const TermSteps& term : division.terms) {
-            const double far = slope_in(term, cube(everywhere), most_boxes / 20, false, budget);
-            const double near = slope_in(term, cube(nearby), most_boxes / 20, false, budget);
+            const double far = slope_in(term, cube(everywhere), max_boxes / 20, false, budget);
+            const double near = slope_in(term, cube(nearby), max_boxes / 20, false, budget);
             if (far > 1.1 * near)
                 fail_in_formula(term.steps.back().offset,
                                 "the slope of the formula is unbounded far from the origin; limit it with \"bounds\": "
@@ -64,7 +64,7 @@ void Formula::prepare() {
     } else {
         const BoxOfDoubles around = around_solid(division, box_of(box), steps.size(), budget);
         for (const TermSteps& term : division.terms)
-            slope = std::max(slope, slope_in(term, around, most_boxes, true, budget));
+            slope = std::max(slope, slope_in(term, around, max_boxes, true, budget));
         for (int i = 0; i < 3; ++i) {
             const auto axis = static_cast<std::size_t>(i);
             bound.centre[i] = static_cast<float>(around.middle()[axis]);

@@ -43,7 +43,7 @@ constexpr double no_bound = 1e50;      // larger bounds count as none: Interval:
 
 }  // namespace
 
-double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes, bool has_bounds,
+double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int max_boxes, bool has_bounds,
                 model::Preparation& budget) {
     struct Candidate {
         double bound;
@@ -75,8 +75,8 @@ double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int most_boxes
         const Candidate top = open.top();
         const auto& b = top.box;
         const bool is_bounded = top.bound < no_bound;
-        if (is_bounded && (top.bound <= close_enough * seen || boxes >= most_boxes)) return top.bound * (1 + 1e-5);
-        if (!is_bounded && (boxes >= most_boxes || size(b) < smallest)) {
+        if (is_bounded && (top.bound <= close_enough * seen || boxes >= max_boxes)) return top.bound * (1 + 1e-5);
+        if (!is_bounded && (boxes >= max_boxes || size(b) < smallest)) {
             in.run(term, b);
             refuse(term, in, b, has_bounds);
         }

@@ -14,7 +14,7 @@ namespace {
 // More balls allow better aiming, but choosing among them takes longer. Halving the boxes doubles their number along a
 // rod thinner than they are, and quadruples it on a surface. Growth below 3 is taken for a rod, which may have more
 // balls because it fills smaller balls better.
-constexpr std::size_t most_boxes = 16, most_boxes_of_rod = 128;
+constexpr std::size_t max_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
 constexpr float finest = 1e-4f;  // as a fraction of the object's diagonal
 
@@ -69,7 +69,7 @@ class PhaseFinder {
             }
             if (finer.empty()) return {};
             const bool is_rod = finer.size() < growth_of_rod * boxes.size();
-            if (finer.size() > (is_rod ? most_boxes_of_rod : most_boxes)) return boxes;
+            if (finer.size() > (is_rod ? most_boxes_of_rod : max_boxes)) return boxes;
             boxes = std::move(finer);
             if (boxes.front().diagonal() < finest * bounds_.diagonal()) return boxes;
         }

@@ -52,7 +52,7 @@ struct MeasureOptions {
     /// Measuring ends after this time, whatever is known by then. Positive.
     double seconds = std::numeric_limits<double>::infinity();
     /// Measuring ends after this many boxes. Unlike the time, this limit gives equal results on all machines.
-    std::size_t most_boxes = std::size_t{1} << 26;
+    std::size_t max_boxes = std::size_t{1} << 26;
     /// Densities of phases, in units of mass per cubed unit of length. Not negative.
     std::vector<std::pair<Phase, double>> densities{};
     std::function<bool()> cancelled{};  ///< polled from any thread; return true to stop and get what is known so far
@@ -66,7 +66,7 @@ enum class MeasureEnd {
     tolerance,  ///< all volumes are as precise as requested
     precision,  ///< smaller boxes would not help, because of the rounding errors of 32-bit coordinates
     seconds,    ///< the time is over
-    boxes,      ///< MeasureOptions::most_boxes
+    boxes,      ///< MeasureOptions::max_boxes
     cancelled   ///< MeasureOptions::cancelled returned true
 };
 
