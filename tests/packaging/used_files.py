@@ -18,7 +18,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 Use = collections.namedtuple("Use", "file reader list")
 
 # Programs and modules that tests use where they are installed, and are skipped without.
-OPTIONAL_PROGRAMS = {"chromium", "chromium-browser", "google-chrome", "groff", "lintian", "setarch", "ninja-build"}
+OPTIONAL_PROGRAMS = {"blender", "chromium", "chromium-browser", "google-chrome", "groff", "lintian", "setarch", "ninja-build"}
 OPTIONAL_MODULES = {"IPython", "pip", "setuptools", "wheel", "nbconvert"}
 # Scripts beside the tests that make recordings and pictures.
 NOT_RUN_BY_TESTS = {"recording.py", "pictures.py"}

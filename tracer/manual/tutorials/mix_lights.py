@@ -2,8 +2,8 @@
 
     blender --background --factory-startup --python-exit-code 1 --python mix_lights.py
 
-Reads cup.light_key.exr, cup.light_rim.exr and cup.light_fill.exr from the working directory, and writes evening.png
-there. For Blender 3.4 to 4.
+Reads cup.light_key.exr, cup.light_rim.exr and cup.light_fill.exr, and the size of cup.beauty.exr, from the working
+directory, and writes evening.png there. Tested with Blender 3.4.
 """
 
 import os
@@ -38,16 +38,18 @@ for name, factors in layers.items():
     color_space = image.image.colorspace_settings
     color_spaces = color_space.bl_rna.properties["name"].enum_items.keys()
     color_space.name = "Linear Rec.709" if "Linear Rec.709" in color_spaces else "Linear"  # the name before Blender 4
-    light = mixed("MULTIPLY", image.outputs["Image"], factors)
+    # The only output. Its name is that of the plane, because the file's channels are light_key.R and so on.
+    light = mixed("MULTIPLY", image.outputs[0], factors)
     total = mixed("ADD", total, light) if total else light
 
-width, height = image.image.size
+width, height = bpy.data.images.load(os.path.abspath("cup.beauty.exr")).size
 scene.render.resolution_x, scene.render.resolution_y = width, height
 scene.render.resolution_percentage = 100
 scene.view_settings.view_transform = "Standard"
 output = nodes.new("CompositorNodeComposite")
 links.new(total, output.inputs["Image"])
 scene.render.image_settings.file_format = "PNG"
+scene.render.image_settings.color_mode = "RGB"
 scene.render.image_settings.color_depth = "16"
 scene.render.filepath = os.path.abspath("evening")
 bpy.ops.render.render(write_still=True)
