@@ -197,7 +197,7 @@ TEST_CASE("what cannot be exported is said in a line, and no file is written") {
     refused({"scene.json", "-o", "nowhere/shader.glsl"}, "nowhere", 1);
     refused({"scene.json", "-o", "shader.glsl", "--grid", "1000"}, "--grid");
     refused({"missing.json", "-o", "shader.glsl"}, "missing.json");
-    refused({"unbounded.json", "-o", "shader.glsl"}, "the object is unbounded");
+    refused({"unbounded.json", "-o", "shader.glsl"}, "this \"plane\" makes the object unbounded");
     refused({"no_tree.json", "-o", "shader.glsl"}, "\"tree\"");
     CHECK(bytes_of(shell.directory / "shader.glsl").empty());
 }

@@ -59,6 +59,7 @@ def examples():
         "Field": [BALL, BALL.smooth(0.2), pt.sphere(1) | pt.box((1, 2, 3)), pt.extrude(pt.polygon([(0, 0), (1, 0), (0, 1)]), 1)],
         "Hits": [BOTTLE.intersect(POINTS, UP)],
         "Image": [SCENE.render(planes=["depth"])],
+        "Measures": [BOTTLE.measure(tolerance=0.3)],
         "Object": [BOTTLE, pt.phase("bare")(BALL), BOTTLE.with_phases(WATER, GLASS)],
         "Part": [GLASS.material, SKY, FLOOR, CAMERA, SCENE.image, pt.textures.speckle((0, 0, 0), (1, 1, 1))],
         "Phase": [GLASS, pt.phase("bare"), pt.vacuum],

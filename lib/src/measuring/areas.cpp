@@ -94,7 +94,7 @@ class AreaEstimate {
             if (!trace(done, next)) break;
             done = next;
             result = areas_after(done);
-        } while (!result.is_within_tolerance && 2 * done * copies <= options_.most_lines && !is_stopped());
+        } while (!result.is_within_tolerance && 2 * done * copies <= options_.max_lines && !is_stopped());
         return result;
     }
 
