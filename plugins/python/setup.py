@@ -25,6 +25,9 @@ class BuildByCMake(build_ext):
             build = str(pathlib.Path(self.build_temp).resolve() / "cmake")
             options = {
                 "CMAKE_BUILD_TYPE": "Release",
+                # As in the presets that build everything once: half the time.
+                "CMAKE_UNITY_BUILD": "ON",
+                "CMAKE_UNITY_BUILD_BATCH_SIZE": "8",
                 "PHASETREE_BUILD_TESTS": "OFF",
                 "PHASETREE_INSTALL": "OFF",
                 "PHASETREE_WERROR": "OFF",
