@@ -15,7 +15,7 @@ namespace {
 using nodes::BoxOfDoubles, nodes::fail_in_formula, nodes::FormulaStep, nodes::FormulaTerms, nodes::slope_in,
     nodes::TermSteps;
 
-constexpr int max_boxes = 4000;  // examined to find the slope of a term
+constexpr int max_boxes = 4000;   // examined to find the slope of a term
 constexpr double steepest = 1e6;  // steeper formulas are rejected
 // Without bounds, the slope is determined in a large cube and in a small one, with these half sides and fewer boxes:
 // nothing needs refinement there. If it is larger in the large cube, it is assumed to grow without limit, and the

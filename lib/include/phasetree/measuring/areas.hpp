@@ -21,7 +21,7 @@ struct AreaOptions {
     /// Lines are traced until the standard error of each phase's area is at most this fraction of the area. Positive.
     double tolerance = 2e-3;
     double seconds = std::numeric_limits<double>::infinity();  ///< end after about this time
-    std::size_t max_lines = std::size_t{1} << 22;             ///< end after at most this many lines
+    std::size_t max_lines = std::size_t{1} << 22;              ///< end after at most this many lines
     std::function<bool()> cancelled{};  ///< polled from any thread; return true to stop and get what is known so far
 };
 
