@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "meshing/label_grid.hpp"
+#include "meshing/quad_mesh.hpp"
+
+namespace phasetree::meshing {
+
+/// Find the triangles that cross or touch others, other than in common vertices and edges, or that are hardly more than
+/// a line or a point. Only pairs are examined of which one triangle belongs to a quadrilateral in `changed`, which is
+/// in ascending order. Things touch if they are closer than `tolerance`. `cancelled` is called periodically, and may
+/// throw.
+///
+/// Returns the vertices of these triangles in ascending order. The result does not depend on the number of threads.
+std::vector<std::uint32_t> vertices_in_contact(const Grid&, const QuadMesh&, std::span<const std::uint32_t> changed,
+                                               double tolerance, const std::function<void()>& cancelled);
+
+}  // namespace phasetree::meshing
