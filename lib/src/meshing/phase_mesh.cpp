@@ -10,13 +10,13 @@
 #include <numeric>
 
 #include "meshing/active_cubes.hpp"
+#include "meshing/crossing_nearby.hpp"
 #include "meshing/cube_patches.hpp"
 #include "meshing/joined_sides.hpp"
 #include "meshing/label_grid.hpp"
 #include "meshing/separation.hpp"
 #include "meshing/vertex_in_cube.hpp"
 #include "meshing/well_composed.hpp"
-#include "phasetree/math/float_mode.hpp"
 
 namespace phasetree {
 
@@ -98,10 +98,11 @@ class Mesher {
             });
             progress_.advance();
         });
-        progress_.begin(layers_of_points, 0.8f);
+        progress_.begin(layers_of_points, 0.7f);
         add_quads(cubes, quads);
+        progress_.begin(layers_of_points, 0.95f);
+        separate({grid_, lines_, crossings_, labels_, joined, cubes}, quads, stop, [&] { progress_.advance(); });
         progress_.begin(1, 1);
-        separate({grid_, crossings_, labels_, joined, cubes}, quads, stop);
         add_triangles(quads, mesh);
         mesh.vertices = std::move(quads.vertices);
         progress_.advance();
@@ -176,24 +177,14 @@ class Mesher {
     // is none within two cubes, the vertex stays: farther away, the interface might belong to another part of the
     // object.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
-        const FlushSubnormals flush;
         const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
-        std::vector<CrossingOnLine> crossings;
         double nearest = 2;
         glm::dvec3 found = vertex;
-        for (int axis = 0; axis < 3; ++axis) {
-            glm::dvec3 start = place;
-            start[axis] = grid_.low[axis];
-            const double length = grid_.spacing * (grid_.points[axis] - 1);
-            crossings.clear();
-            lines_(glm::vec3(start), glm::vec3(along[axis]), static_cast<float>(length), crossings);
-            for (const CrossingOnLine& c : crossings) {
-                const double at = (start[axis] + static_cast<double>(c.t) - place[axis]) / grid_.spacing;
-                if (std::abs(at) >= nearest) continue;
-                nearest = std::abs(at);
-                found = vertex + (1 - apart) * at * glm::dvec3(along[axis]);
+        for (int axis = 0; axis < 3; ++axis)
+            if (const auto at = crossing_nearby(grid_, lines_, place, axis, -nearest, nearest)) {
+                nearest = std::abs(*at);
+                found = vertex + (1 - apart) * *at * glm::dvec3(along[axis]);
             }
-        }
         return found;
     }
 

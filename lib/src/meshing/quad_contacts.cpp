@@ -47,8 +47,12 @@ class MarkedCubes {
 
 class Search {
   public:
-    Search(const Grid& grid, const QuadMesh& mesh, double tolerance, const std::function<void()>& cancelled)
-        : grid_(grid), mesh_(mesh), tolerance_(tolerance), cancelled_(cancelled), is_changed_(mesh.quads.size(), 0) {}
+    Search(const Grid& grid, const QuadMesh& mesh, double tolerance, const std::function<void()>& begin_layer)
+        : grid_(grid),
+          mesh_(mesh),
+          tolerance_(tolerance),
+          begin_layer_(begin_layer),
+          is_changed_(mesh.quads.size(), 0) {}
 
     std::vector<std::uint32_t> run(std::span<const std::uint32_t> changed) {
         for (const std::uint32_t quad : changed) is_changed_[quad] = 1;
@@ -60,7 +64,7 @@ class Search {
         list_by_layer();
         std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(grid_.points.z));
         tbb::parallel_for(0, grid_.points.z, [&](int k) {
-            cancelled_();
+            begin_layer_();
             examine_layer(k, found[static_cast<std::size_t>(k)]);
         });
         std::vector<std::uint32_t> all;
@@ -76,20 +80,27 @@ class Search {
         std::uint32_t cube, quad;
         auto operator<=>(const Entry&) const = default;
     };
+    struct BoxedTriangle {
+        PlacedTriangle triangle;
+        Bounds box;
+    };
     struct BoxedQuad {
         std::uint32_t quad = 0;
         CubeRange cubes;
         Bounds box;
-        std::vector<PlacedTriangle> triangles;
+        std::vector<BoxedTriangle> triangles;
     };
 
+    Bounds box_of(const std::array<std::uint32_t, 3>& triangle) const {
+        Bounds box;
+        for (const std::uint32_t v : triangle) box = unite(box, {mesh_.vertices[v], mesh_.vertices[v]});
+        return box.inflated(static_cast<float>(tolerance_));
+    }
     Bounds box_of(std::uint32_t quad) const {
         Bounds box;
-        const auto add = [&](const std::array<std::uint32_t, 3>& t) {
-            for (const std::uint32_t v : t) box = unite(box, {mesh_.vertices[v], mesh_.vertices[v]});
-        };
+        const auto add = [&](const std::array<std::uint32_t, 3>& t) { box = unite(box, box_of(t)); };
         mesh_.for_each_triangle(quad, add);
-        return box.inflated(static_cast<float>(tolerance_));
+        return box;
     }
     CubeRange cubes_of(const Bounds& box) const {
         const auto cube_of = [&](const glm::vec3& p) {
@@ -145,9 +156,8 @@ class Search {
             q.box = box_of(q.quad);
             q.cubes = cubes_of(q.box);
             mesh_.for_each_triangle(q.quad, [&](const std::array<std::uint32_t, 3>& t) {
-                q.triangles.push_back({t,
-                                       {glm::dvec3(mesh_.vertices[t[0]]), glm::dvec3(mesh_.vertices[t[1]]),
-                                        glm::dvec3(mesh_.vertices[t[2]])}});
+                const auto at = [&](std::size_t i) { return glm::dvec3(mesh_.vertices[t[i]]); };
+                q.triangles.push_back({{t, {at(0), at(1), at(2)}}, box_of(t)});
             });
             for (int j = q.cubes.low.y; j <= q.cubes.high.y; ++j)
                 for (int i = q.cubes.low.x; i <= q.cubes.high.x; ++i)
@@ -174,11 +184,13 @@ class Search {
     // The triangles of one quadrilateral.
     static void examine(const BoxedQuad& q, TriangleContact& contact, std::vector<std::uint32_t>& found) {
         for (std::size_t i = 0; i < q.triangles.size(); ++i) {
-            if (contact.within(q.triangles[i])) add(q.triangles[i], found);
+            const PlacedTriangle& t = q.triangles[i].triangle;
+            if (contact.within(t)) add(t, found);
             for (std::size_t k = i + 1; k < q.triangles.size(); ++k) {
-                if (!contact.between(q.triangles[i], q.triangles[k])) continue;
-                add(q.triangles[i], found);
-                add(q.triangles[k], found);
+                const PlacedTriangle& s = q.triangles[k].triangle;
+                if (!contact.between(t, s)) continue;
+                add(t, found);
+                add(s, found);
             }
         }
     }
@@ -187,18 +199,20 @@ class Search {
                  std::vector<std::uint32_t>& found) const {
         if (is_changed_[a.quad] == 0 && is_changed_[b.quad] == 0) return;
         if (glm::max(a.cubes.low, b.cubes.low) != cube || intersect(a.box, b.box).empty()) return;
-        for (const PlacedTriangle& t : a.triangles)
-            for (const PlacedTriangle& s : b.triangles) {
-                if (!contact.between(t, s)) continue;
-                add(t, found);
-                add(s, found);
+        for (const BoxedTriangle& t : a.triangles) {
+            if (intersect(t.box, b.box).empty()) continue;
+            for (const BoxedTriangle& s : b.triangles) {
+                if (intersect(t.box, s.box).empty() || !contact.between(t.triangle, s.triangle)) continue;
+                add(t.triangle, found);
+                add(s.triangle, found);
             }
+        }
     }
 
     const Grid& grid_;
     const QuadMesh& mesh_;
     double tolerance_;
-    const std::function<void()>& cancelled_;
+    const std::function<void()>& begin_layer_;
     std::vector<char> is_changed_;     // for each quadrilateral
     std::vector<std::uint32_t> near_;  // those that have to be examined
     std::vector<std::size_t> starts_;  // for each layer, where its part of in_layers_ begins
@@ -209,8 +223,8 @@ class Search {
 
 std::vector<std::uint32_t> vertices_in_contact(const Grid& grid, const QuadMesh& mesh,
                                                std::span<const std::uint32_t> changed, double tolerance,
-                                               const std::function<void()>& cancelled) {
-    return Search(grid, mesh, tolerance, cancelled).run(changed);
+                                               const std::function<void()>& begin_layer) {
+    return Search(grid, mesh, tolerance, begin_layer).run(changed);
 }
 
 }  // namespace phasetree::meshing

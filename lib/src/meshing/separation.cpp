@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "meshing/crossing_nearby.hpp"
 #include "meshing/quad_contacts.hpp"
 #include "meshing/regular_points.hpp"
 
@@ -40,18 +41,23 @@ class Separation {
     Separation(const CutGrid& cut, QuadMesh& mesh, const std::function<void()>& cancelled)
         : cut_(cut), mesh_(mesh), cancelled_(cancelled), placements_(mesh.vertices.size(), Placement::free) {}
 
-    void run() {
+    void run(const std::function<void()>& advance) {
         const Grid& grid = cut_.grid;
         const double tolerance = std::min(touching_digits * grid.digit, most_touching * grid.spacing);
         std::vector<std::uint32_t> changed(mesh_.quads.size());
         std::iota(changed.begin(), changed.end(), 0u);
-        while (!changed.empty()) {
+        const std::function<void()> begin_first = [&] {
+            cancelled_();
+            advance();
+        };
+        for (bool is_first = true; !changed.empty(); is_first = false) {
             tbb::parallel_for(std::size_t{0}, changed.size(), [&](std::size_t i) {
                 if (i % 4096 == 0) cancelled_();
                 choose_diagonal(mesh_.quads[changed[i]]);
             });
             for (const std::uint32_t quad : changed) split(quad);
-            changed = raise(vertices_in_contact(grid, mesh_, changed, tolerance, cancelled_));
+            const std::function<void()>& begin_layer = is_first ? begin_first : cancelled_;
+            changed = raise(vertices_in_contact(grid, mesh_, changed, tolerance, begin_layer));
         }
     }
 
@@ -93,9 +99,10 @@ class Separation {
         const auto [cube, patch] = cut_.cubes.place_of(vertex);
         if (placements_[vertex] == Placement::inside) {
             glm::dvec3 at = in_cube(cube, vertex);
+            if (glm::clamp(at, 0.0, 1.0) == at) return;
             for (int i = 0; i < 3; ++i)
                 if (at[i] < 0 || at[i] > 1) at[i] = within_border(at[i]);
-            put(vertex, cube, at);
+            put(vertex, cube, on_interface(cube, at, -1));
         } else if (placements_[vertex] == Placement::regular) {
             const CubeLabels labels = cut_.joined.labels_of(cut_.labels, cube);
             put(vertex, cube, regular_vertex(CubePatches(labels), labels, patch));
@@ -109,9 +116,7 @@ class Separation {
         for (const std::uint32_t v : q.corners) highest = std::max(highest, placements_[v]);
         if (highest < Placement::split_edges) return;
         glm::dvec3 at(0);
-        const auto c = crossing_of(q);
-        at[q.axis] =
-            c && highest < Placement::regular ? within_border(static_cast<double>(c->at) - q.point[q.axis]) : 0.5;
+        at[q.axis] = highest < Placement::regular ? position_on_edge(q.axis, q.point) : 0.5;
         put(mesh_.centre(number), q.point, at);
         // The sides of the grid between the cubes of neighbouring corners.
         const int u = (q.axis + 1) % 3, v = (q.axis + 2) % 3;
@@ -121,19 +126,52 @@ class Separation {
             const Placement p = std::max(placements_[a], placements_[b]);
             if (p < Placement::split_sides) continue;
             const int edge = edge_number(q.axis, q.point - sides[i].cube);
-            put(mesh_.divider(a, b), sides[i].cube, on_side(sides[i], edge, a, b, p == Placement::regular));
+            put(mesh_.divider(a, b), sides[i].cube, on_side(sides[i], edge, p == Placement::regular));
         }
     }
-    // Where the segment between two vertices goes through the side between their cubes, or a regular point of the side.
-    glm::dvec3 on_side(const LowSide& side, int edge, std::uint32_t a, std::uint32_t b, bool is_regular) const {
-        const SideCut cut = cut_of_side(cut_.joined.labels_of(cut_.labels, side.cube), side.number(), edge);
+    // Where the interface crosses an edge of the grid, or near that if it is at an end.
+    double position_on_edge(int axis, const glm::ivec3& point) const {
+        const auto c = cut_.crossings[static_cast<std::size_t>(axis)].shown_on_edge(point);
+        return c ? within_border(static_cast<double>(c->at) - point[axis]) : 0.5;
+    }
+    // A point of a side between two cubes: on an interface near the mean of where interfaces cross its edges, or a
+    // regular one.
+    glm::dvec3 on_side(const LowSide& side, int edge, bool is_regular) const {
+        const CubeLabels labels = cut_.joined.labels_of(cut_.labels, side.cube);
+        const SideCut cut = cut_of_side(labels, side.number(), edge);
         if (is_regular) return cut.regular_point(side.number());
-        const glm::dvec3 from = in_cube(side.cube, std::min(a, b)), to = in_cube(side.cube, std::max(a, b));
-        const double length = to[side.axis] - from[side.axis];
-        const double share = length != 0 ? std::clamp(-from[side.axis] / length, 0.0, 1.0) : 0.5;
-        glm::dvec3 at = from + share * (to - from);
+        glm::dvec3 sum(0);
+        int count = 0;
+        for (int i = 0; i < 4; ++i) {
+            const int a = sides_of_cube[side.number()][i], b = sides_of_cube[side.number()][(i + 1) % 4];
+            if (labels.at(a) == labels.at(b) || (cut.is_wall && a != cut.corner && b != cut.corner)) continue;
+            const CubeEdge e = edge_of_cube(edge_between(a, b));
+            glm::dvec3 at(e.start);
+            at[e.axis] = position_on_edge(e.axis, side.cube + e.start);
+            sum += at;
+            ++count;
+        }
+        glm::dvec3 at = sum / static_cast<double>(count);
         for (int i = 0; i < 3; ++i) at[i] = i == side.axis ? 0 : within_border(at[i]);
+        at = on_interface(side.cube, at, side.axis);
         return cut.is_wall ? kept_at_corner(at, cut) : at;
+    }
+    // Moves a point of a cube along one of the axes, but not along `fixed_axis`, to the nearest interface, if there is
+    // one within the borders.
+    glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& at, int fixed_axis) const {
+        const glm::dvec3 place = cut_.grid.place(cube) + cut_.grid.spacing * at;
+        double nearest = 1;
+        glm::dvec3 found = at;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (axis == fixed_axis) continue;
+            const double low = std::max(from_border - at[axis], -nearest);
+            const double high = std::min(1 - from_border - at[axis], nearest);
+            if (const auto way = crossing_nearby(cut_.grid, cut_.lines, place, axis, low, high)) {
+                nearest = std::abs(*way);
+                found = at + *way * glm::dvec3(unit(axis));
+            }
+        }
+        return found;
     }
     // Beside a wall, the points of both cuts must be on the right side of the diagonal between them.
     static glm::dvec3 kept_at_corner(const glm::dvec3& at, const SideCut& cut) {
@@ -169,8 +207,9 @@ class Separation {
 
 }  // namespace
 
-void separate(const CutGrid& cut, QuadMesh& mesh, const std::function<void()>& cancelled) {
-    Separation(cut, mesh, cancelled).run();
+void separate(const CutGrid& cut, QuadMesh& mesh, const std::function<void()>& cancelled,
+              const std::function<void()>& advance) {
+    Separation(cut, mesh, cancelled).run(advance);
 }
 
 }  // namespace phasetree::meshing

@@ -29,7 +29,7 @@ namespace phasetree::meshing {
 /// What has been done about a vertex of a cube. Each step includes those before it.
 enum class Placement : std::uint8_t {
     free,         ///< where planes meet (vertex_in_cube.hpp)
-    inside,       ///< moved into the cube
+    inside,       ///< moved into the cube, onto the interface if it is found there
     split_edges,  ///< the cut edges of the cube have vertices, on the interface
     split_sides,  ///< so have the sides: each triangle with this vertex is in its cube
     regular       ///< positions that depend on labels alone (regular_points.hpp)
@@ -38,6 +38,7 @@ enum class Placement : std::uint8_t {
 /// What is known of the grid.
 struct CutGrid {
     const Grid& grid;
+    const LineTracer& lines;
     const std::array<CrossingsAlong, 3>& crossings;
     const Labels& labels;
     const JoinedSides& joined;
@@ -45,7 +46,9 @@ struct CutGrid {
 };
 
 /// Chooses the diagonals of all quadrilaterals, and moves and adds vertices until no triangles touch each other. The
-/// result does not depend on the number of threads. `cancelled` is called periodically, and may throw.
-void separate(const CutGrid&, QuadMesh&, const std::function<void()>& cancelled);
+/// result does not depend on the number of threads. `cancelled` is called periodically, and may throw. `advance` is
+/// called from any thread, once for each layer of points of the grid, while all triangles are compared; what follows
+/// takes little time.
+void separate(const CutGrid&, QuadMesh&, const std::function<void()>& cancelled, const std::function<void()>& advance);
 
 }  // namespace phasetree::meshing
