@@ -54,7 +54,7 @@ class Search {
           begin_layer_(begin_layer),
           is_changed_(mesh.quads.size(), 0) {}
 
-    std::vector<std::uint32_t> run(std::span<const std::uint32_t> changed) {
+    std::vector<VerticesInContact> run(std::span<const std::uint32_t> changed) {
         for (const std::uint32_t quad : changed) is_changed_[quad] = 1;
         if (changed.size() == mesh_.quads.size()) {
             near_.assign(changed.begin(), changed.end());
@@ -62,15 +62,14 @@ class Search {
             collect_near(changed);
         }
         list_by_layer();
-        std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(grid_.points.z));
+        std::vector<std::vector<VerticesInContact>> found(static_cast<std::size_t>(grid_.points.z));
         tbb::parallel_for(0, grid_.points.z, [&](int k) {
             begin_layer_();
             examine_layer(k, found[static_cast<std::size_t>(k)]);
         });
-        std::vector<std::uint32_t> all;
-        for (const std::vector<std::uint32_t>& some : found) all.insert(all.end(), some.begin(), some.end());
+        std::vector<VerticesInContact> all;
+        for (const std::vector<VerticesInContact>& some : found) all.insert(all.end(), some.begin(), some.end());
         std::ranges::sort(all);
-        all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
     }
 
@@ -146,7 +145,7 @@ class Search {
         }
     }
 
-    void examine_layer(int k, std::vector<std::uint32_t>& found) const {
+    void examine_layer(int k, std::vector<VerticesInContact>& found) const {
         const std::size_t first = starts_[static_cast<std::size_t>(k)], last = starts_[static_cast<std::size_t>(k) + 1];
         std::vector<BoxedQuad> quads(last - first);
         std::vector<Entry> entries;
@@ -178,33 +177,32 @@ class Search {
         }
     }
 
-    static void add(const PlacedTriangle& t, std::vector<std::uint32_t>& found) {
-        found.insert(found.end(), t.vertices.begin(), t.vertices.end());
+    static void add(const PlacedTriangle& t, const PlacedTriangle& s, std::vector<VerticesInContact>& found) {
+        const auto &a = t.vertices, &b = s.vertices;
+        found.push_back({a[0], a[1], a[2], b[0], b[1], b[2]});
     }
     // The triangles of one quadrilateral.
-    static void examine(const BoxedQuad& q, TriangleContact& contact, std::vector<std::uint32_t>& found) {
+    static void examine(const BoxedQuad& q, TriangleContact& contact, std::vector<VerticesInContact>& found) {
         for (std::size_t i = 0; i < q.triangles.size(); ++i) {
             const PlacedTriangle& t = q.triangles[i].triangle;
-            if (contact.within(t)) add(t, found);
+            if (contact.within(t)) add(t, t, found);
             for (std::size_t k = i + 1; k < q.triangles.size(); ++k) {
                 const PlacedTriangle& s = q.triangles[k].triangle;
                 if (!contact.between(t, s)) continue;
-                add(t, found);
-                add(s, found);
+                add(t, s, found);
             }
         }
     }
     // Those of two, in the first of all cubes that both boxes touch.
     void examine(const BoxedQuad& a, const BoxedQuad& b, const glm::ivec3& cube, TriangleContact& contact,
-                 std::vector<std::uint32_t>& found) const {
+                 std::vector<VerticesInContact>& found) const {
         if (is_changed_[a.quad] == 0 && is_changed_[b.quad] == 0) return;
         if (glm::max(a.cubes.low, b.cubes.low) != cube || intersect(a.box, b.box).empty()) return;
         for (const BoxedTriangle& t : a.triangles) {
             if (intersect(t.box, b.box).empty()) continue;
             for (const BoxedTriangle& s : b.triangles) {
                 if (intersect(t.box, s.box).empty() || !contact.between(t.triangle, s.triangle)) continue;
-                add(t.triangle, found);
-                add(s.triangle, found);
+                add(t.triangle, s.triangle, found);
             }
         }
     }
@@ -221,9 +219,9 @@ class Search {
 
 }  // namespace
 
-std::vector<std::uint32_t> vertices_in_contact(const Grid& grid, const QuadMesh& mesh,
-                                               std::span<const std::uint32_t> changed, double tolerance,
-                                               const std::function<void()>& begin_layer) {
+std::vector<VerticesInContact> vertices_in_contact(const Grid& grid, const QuadMesh& mesh,
+                                                   std::span<const std::uint32_t> changed, double tolerance,
+                                                   const std::function<void()>& begin_layer) {
     return Search(grid, mesh, tolerance, begin_layer).run(changed);
 }
 

@@ -77,15 +77,25 @@ class Separation {
         return u;
     }
 
-    // Raises the placement of vertices by a step. Returns the quadrilaterals that they change, in ascending order.
-    std::vector<std::uint32_t> raise(const std::vector<std::uint32_t>& vertices) {
+    // For each contact, raises the placement of those vertices by a step that have the lowest. So a vertex does not pay
+    // for all of its neighbours. Returns the quadrilaterals that change, in ascending order.
+    std::vector<std::uint32_t> raise(const std::vector<VerticesInContact>& contacts) {
         std::vector<char> is_raised(placements_.size(), 0);
+        const auto placement = [&](std::uint32_t v) {
+            return v < placements_.size() ? placements_[v] : Placement::regular;
+        };
+        for (const VerticesInContact& contact : contacts) {
+            Placement lowest = Placement::regular;
+            for (const std::uint32_t v : contact) lowest = std::min(lowest, placement(v));
+            if (lowest == Placement::regular) continue;
+            for (const std::uint32_t v : contact)
+                if (placement(v) == lowest) is_raised[v] = 1;
+        }
         bool is_any = false;
-        for (const std::uint32_t v : vertices) {
-            if (v >= placements_.size() || placements_[v] == Placement::regular) continue;
+        for (std::uint32_t v = 0; v < placements_.size(); ++v) {
+            if (is_raised[v] == 0) continue;
             placements_[v] = static_cast<Placement>(static_cast<int>(placements_[v]) + 1);
             move(v);
-            is_raised[v] = 1;
             is_any = true;
         }
         std::vector<std::uint32_t> changed;
