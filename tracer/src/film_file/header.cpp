@@ -82,7 +82,7 @@ std::string setting(const FilmFileHeader& header, std::string_view name) {
     return found == header.settings.end() ? "" : found->second;
 }
 
-// "phasetree 0.9.0+3f2a91c04d7e (commit 8f1d19c6a3b2)"
+// "phasetree 0.10.0+3f2a91c04d7e (commit 8f1d19c6a3b2)"
 std::string build_and_commit(const FilmFileHeader& header) {
     const std::string commit = printable(setting(header, "commit"));
     return fmt::format("phasetree {}{}", header.build(), commit.empty() ? "" : fmt::format(" (commit {})", commit));
