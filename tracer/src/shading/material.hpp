@@ -152,7 +152,7 @@ inline Material vacuum() {
 }
 
 /// Whether it emits; false for an emissive material whose light is black everywhere.
-inline bool glows(const Material& material) {
+inline bool has_emissive_surface(const Material& material) {
     const Glowing* glowing = std::get_if<Glowing>(&material);
     if (!glowing) return false;
     const ConstantTexture* light = std::get_if<ConstantTexture>(&glowing->light);
@@ -160,9 +160,9 @@ inline bool glows(const Material& material) {
 }
 
 /// Whether its surface emits, or the medium inside.
-inline bool shines(const Material& material) {
+inline bool is_emissive(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
-    return clear ? shines(clear->interior) : glows(material);
+    return clear ? is_emissive(clear->interior) : has_emissive_surface(material);
 }
 
 inline bool is_clear(const Material& material) {
