@@ -1,6 +1,6 @@
+// Version and build of the library. All strings are valid for the lifetime of the program.
 #pragma once
 
-/// Version and build of the library. All strings are valid for the lifetime of the program.
 namespace phasetree {
 
 /// The library's version, "major.minor.patch".
