@@ -153,7 +153,8 @@ class PhotonFlight {
             return false;
         // The BSDF is sampled as if the photon were a path from the camera, so its weight is for radiance that arrives
         // from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not scaled.
-        // Interfaces that do not disperse, rough ones or those with a film, refract all light like that of the d line.
+        // Interfaces that do not disperse, rough ones or those with a thin film, refract all light like that of the d
+        // line.
         const Wavelengths* refracted_at = surface.optics.get().disperses() ? wavelengths_ : nullptr;
         const float before = clear_at(scene_, from).ior_for(refracted_at);
         const float after = clear_at(scene_, ray_.phase).ior_for(refracted_at), ratio = after / before;
