@@ -2,12 +2,8 @@
 // plain struct of its parameters, written {"sphere": {…}}:
 //
 //     struct SphereLightParameters {
-//         static constexpr KindInfo info{"sphere", "A ball that shines."};
-//         glm::vec3 centre{};
-//         float radius = 1;
-//         glm::vec3 radiance{1.0f};
-//         template <class V>
-//         static void parameters(V&& v) {
+//         static constexpr KindInfo info{"sphere", "A ball that emits light."}; glm::vec3 centre{}; float radius = 1;
+//         glm::vec3 radiance{1.0f}; template <class V> static void parameters(V&& v) {
 //             using P = SphereLightParameters;
 //             v(&P::centre, Parameter{"centre", "m", "Its centre."});
 //             v(&P::radius, Parameter{"radius", "m", "Its radius.", limits::positive});
