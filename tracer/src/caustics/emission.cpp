@@ -36,7 +36,7 @@ constexpr std::size_t max_points_evaluated = 1 << 20;
 constexpr double even_part = 0.1;
 
 // Whether photons continue after meeting this material.
-bool continues_photons(const Material& material) {
+bool reflects_or_refracts(const Material& material) {
     if (const Clear* clear = std::get_if<Clear>(&material)) return clear->ior != 1.0f;
     return has_metal(material);
 }
@@ -64,7 +64,7 @@ float squared_ior(const Scene& scene, Phase phase) {
 
 PhotonEmission::PhotonEmission(const World& world, const Scene& scene) : world_(world), scene_(scene) {
     const Bounds& bounds = world.geometry().bounds();
-    if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, continues_photons)) return;
+    if (bounds.empty() || !bounds.finite() || std::ranges::none_of(scene.materials, reflects_or_refracts)) return;
     centre_ = bounds.centre();
     radius_ = 0.5005f * bounds.diagonal();
     for (const ListedInfiniteLight& infinite : scene.lights.infinite())
