@@ -13,7 +13,7 @@ using enclosure::Interval, enclosure::square;
 
 namespace {
 
-constexpr double unit = 0x1p-53;  // the unit roundoff of double
+constexpr double unit = 0x1p-53;
 
 // An interval widened by the rounding errors of a few operations on numbers of this magnitude.
 Interval widened(const Interval& a, double magnitude) {

@@ -219,8 +219,8 @@ class Measurement {
         total_ = known_;
         for (const Part& part : parts_) total_.add(part.sums);
     }
-    // The largest allowed width of the interval of a phase's volume. The volume may be anywhere in its interval, so the
-    // tolerance is relative to the lower bound. The object's volume, which only matters for small phases, is estimated.
+    // The largest allowed width of the interval of a phase's volume. The volume may be as small as the interval's low
+    // end, so that is what the width is compared with.
     double allowed(Phase p) const {
         double object = 0;
         for_each_phase(total_.phases().bits & ~PhaseSet::of(vacuum).bits,

@@ -121,7 +121,7 @@ void find_emissive_parts(Scene& scene) {
     else
         add_objects(scene);
     for (const Mesh& mesh : scene.meshes)
-        if (has_emissive_surface(mesh.material)) add(parts_of_mesh(mesh), Places(), scene.lights);
+        if (glows(mesh.material)) add(parts_of_mesh(mesh), Places(), scene.lights);
 }
 
 }  // namespace phasetree::tracer

@@ -182,12 +182,11 @@ std::vector<EmissiveBall> parts_of_phases(const Phased& tree, std::span<const Ma
         const Phase phase{static_cast<std::uint8_t>(i)};
         if (!is_emissive(materials[i]) || !present.contains(phase)) continue;
         if (!finder) finder.emplace(tree);
-        const Counts counts = has_emissive_surface(materials[i]) ? Counts::surface_alone : Counts::inside_too;
+        const Counts counts = glows(materials[i]) ? Counts::surface_alone : Counts::inside_too;
         const Brightness brightness(*finder, phase, materials[i]);
         for (const Bounds& box : finder->boxes_of(phase, bounds_of_light(materials[i]), counts))
-            parts.push_back(
-                part_in(box, brightness(box),
-                        has_emissive_surface(materials[i]) ? EmissivePart::Of::surface : EmissivePart::Of::medium));
+            parts.push_back(part_in(box, brightness(box),
+                                    glows(materials[i]) ? EmissivePart::Of::surface : EmissivePart::Of::medium));
     }
     return parts;
 }

@@ -152,7 +152,7 @@ inline Material vacuum() {
 }
 
 /// Whether it emits; false for an emissive material whose light is black everywhere.
-inline bool has_emissive_surface(const Material& material) {
+inline bool glows(const Material& material) {
     const Glowing* glowing = std::get_if<Glowing>(&material);
     if (!glowing) return false;
     const ConstantTexture* light = std::get_if<ConstantTexture>(&glowing->light);
@@ -162,7 +162,7 @@ inline bool has_emissive_surface(const Material& material) {
 /// Whether its surface emits, or the medium inside.
 inline bool is_emissive(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
-    return clear ? is_emissive(clear->interior) : has_emissive_surface(material);
+    return clear ? is_emissive(clear->interior) : glows(material);
 }
 
 inline bool is_clear(const Material& material) {

@@ -190,7 +190,7 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     const bool is_mesh = hit.hit.geomID != object_id;
     const Material& met =
         is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];
-    if (!is_clear(met) && !has_emissive_surface(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
+    if (!is_clear(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
     const Surface surface = is_mesh ? surface_of_mesh(ray, hit) : surface_of_object(ray, query, hit);
     if (surface.far_side) return surface;
     return blocked_by(surface);
