@@ -1,9 +1,9 @@
 // The box is mapped to the unit cube, which consists of six tetrahedra with a common diagonal. A plane cuts each of
-// them into tetrahedra, whose moments are polynomials of their corners.
+// them into tetrahedra, whose moments are polynomials of their vertices.
 //
-// Rounding errors: in the unit cube all coordinates are in [0, 1]. A corner on the plane errs by a few units of 2⁻⁵³.
-// A tetrahedron's moment is a polynomial of its corners with less than a hundred terms, each of them at most 1, and
-// there are at most 18 tetrahedra. So all errors together stay below 18 · 100 · 4 · 2⁻⁵³ < 10⁻¹².
+// Rounding errors: in the unit cube all coordinates are in [0, 1]. A computed vertex on the plane is off by a few units
+// of 2⁻⁵³. A tetrahedron's moment is a polynomial of its vertices with less than a hundred terms, each of them at most
+// 1, and there are at most 18 tetrahedra. So all errors together stay below 18 · 100 · 4 · 2⁻⁵³ < 10⁻¹².
 #include "measuring/cut_box.hpp"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // The bounds are first divided into parts. Then each part is divided by itself, depth first, until the doubt in each
-// box is below a threshold. If volumes are not precise enough, the threshold falls, and all parts are divided again
-// from the beginning. That takes less than the last division does, and memory only for one path of boxes per thread.
+// box is below a threshold. (The doubt of a phase is the volume that may or may not belong to it.) If volumes are not
+// precise enough, the threshold falls, and all parts are divided again from the beginning. All earlier divisions
+// together take less time than the last one, and memory is needed only for one path of boxes per thread.
+//
 // The sums of a part are added in the order of its division, and those of the parts in the order of the parts, so they
 // do not depend on threads.
 #include "phasetree/measuring/measure.hpp"
@@ -217,14 +219,15 @@ class Measurement {
         total_ = known_;
         for (const Part& part : parts_) total_.add(part.sums);
     }
-    // The largest width allowed of a phase's volume. A phase may be inside the interval anywhere, so the estimate is
-    // what it is compared with.
+    // The largest allowed width of the interval of a phase's volume. The volume may be as small as the interval's low
+    // end, so that is what the width is compared with.
     double allowed(Phase p) const {
         double object = 0;
         for_each_phase(total_.phases().bits & ~PhaseSet::of(vacuum).bits,
                        [&](int i) { object += total_[Phase{static_cast<std::uint8_t>(i)}].estimate[0]; });
         return options_.tolerance * std::max(total_[p].low[0], least_share * object);
     }
+    // Calls f(phase) for each phase but the vacuum.
     template <class F>
     void for_each_solid(F&& f) const {
         for_each_phase(total_.phases().bits & ~PhaseSet::of(vacuum).bits,
@@ -255,7 +258,7 @@ class Measurement {
 
     // Lowers the thresholds of phases that are not yet precise. Where components are nearly linear, the doubt in a box
     // falls with the fourth power of its size, and the doubt in all of them with the second. So the total falls with
-    // the root of the threshold.
+    // the square root of the threshold.
     void lower_thresholds() {
         for_each_solid([&](Phase p) {
             double& threshold = thresholds_[p.index];
@@ -314,7 +317,7 @@ class Measurement {
                 return;
             }
             if (next.is_full) {
-                // It was divided finely where it begins, and coarsely where it ends.
+                // The boxes ran out: the part was divided finely where the division began, and coarsely where it ended.
                 part.is_full = true;
                 if (!is_better(next.sums, part.sums)) return;
             }

@@ -59,10 +59,9 @@ struct PhaseMesh {
     std::vector<glm::vec3> vertices;
     std::vector<Triangle> triangles;
     float spacing = 0;  ///< in use
-    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. Each edge of
-    /// the grid whose ends have different labels shows one of its crossings. All others are missing: further crossings
-    /// of such an edge, and all crossings of edges whose ends have the same label, whether they had it at first or only
-    /// after mesh_of changed labels.
+    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. The mesh
+    /// shows one crossing of each edge of the grid whose ends have different labels after mesh_of has changed labels
+    /// (see there). All other crossings are missing.
     std::size_t crossings = 0, skipped = 0;
 
     /// The phases that have triangles.
