@@ -39,7 +39,7 @@ std::string_view explanation_of(MeasureEnd end) {
         case MeasureEnd::precision:
             return "32-bit coordinates allow no narrower intervals";
         case MeasureEnd::seconds:
-            return "the time is over; allow more with --time";
+            return "time ran out; allow more with --time";
         case MeasureEnd::boxes:
             return "the maximum number of boxes was reached";
         case MeasureEnd::cancelled:
