@@ -298,8 +298,11 @@ class Reader {
             if (names_.names[i] == value.string()) return Phase{static_cast<std::uint8_t>(i)};
         if (value.string() == names_.names[0])
             throw document_.error(value, fmt::format("{} must be a phase other than the vacuum", what));
-        throw document_.error(value, fmt::format("unknown phase \"{}\"", value.string()),
-                              closest(value.string(), std::span(names_.names).subspan(1)));
+        const std::span<const std::string> phases = std::span(names_.names).subspan(1);
+        const auto meant = closest(value.string(), phases);
+        throw document_.error(
+            value, fmt::format("unknown phase \"{}\"{}", value.string(), meant ? "" : valid_names("phase", phases)),
+            meant);
     }
 
     template <class Handle>

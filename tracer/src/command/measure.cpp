@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "command/commands.hpp"
 #include "command/duration.hpp"
@@ -11,11 +13,11 @@
 #include "command/measure_report.hpp"
 #include "command/number_in.hpp"
 #include "command/streams.hpp"
+#include "command/unknown_phase.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
-#include "phasetree/io/suggest.hpp"
 #include "render/threads.hpp"
 
 namespace phasetree::tracer {
@@ -46,10 +48,12 @@ std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tr
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.begin()) throw UsageError("--density: the vacuum has no density");
     const auto index = static_cast<std::size_t>(found - names.begin());
-    if (found == names.end() || !phases(tree.object).contains(static_cast<int>(index))) {
-        const auto meant = closest(name, names);
-        throw UsageError(fmt::format("--density: unknown phase \"{}\"{}", name,
-                                     meant && *meant != name ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
+    const PhaseSet there = phases(tree.object);
+    if (found == names.end() || !there.contains(static_cast<int>(index))) {
+        std::vector<std::string> valid;
+        for (std::size_t i = 1; i < names.size(); ++i)
+            if (there.contains(static_cast<int>(i))) valid.push_back(names[i]);
+        throw unknown_phase("--density", name, valid);
     }
     return {Phase{static_cast<std::uint8_t>(index)}, value};
 }
