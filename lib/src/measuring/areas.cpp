@@ -162,6 +162,7 @@ class AreaEstimate {
             result.phases.push_back({area, Phase{static_cast<std::uint8_t>(p)}});
             if (!(area.standard_error <= options_.tolerance * area.area)) result.is_within_tolerance = false;
         }
+        if (result.phases.empty()) result.is_within_tolerance = false;
         return result;
     }
 

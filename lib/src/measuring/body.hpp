@@ -21,7 +21,7 @@ struct MomentBounds {
 /// `origin`.
 Body body_of(const Measured& volume, const MomentBounds& mass, const std::array<double, 3>& origin);
 
-/// A number between two bounds. The estimate is moved into the interval if it lies outside.
+/// A number between two bounds, low ≤ high. The estimate is moved into the interval if it lies outside.
 Measured measured(double low, double high, double estimate);
 
 }  // namespace phasetree::measuring

@@ -182,30 +182,16 @@ class Measurement {
     // Divides the bounds level by level. Boxes in one phase are added at once; the others become parts.
     void make_parts() {
         const FlushSubnormals flush;
-        std::vector<Node> level{root_};
-        std::vector<ExaminedBox> boxes;
-        for (int depth = 0; depth < most_levels_of_parts && boxes.size() < enough_parts; ++depth) {
-            if (depth > 0) {
-                level.clear();
-                for (const ExaminedBox& b : boxes) {
-                    if (b.can_be_divided && !stop_())
-                        level.push_back(b.node);
-                    else
-                        parts_.push_back({b, ObjectSums(known_.phases())});
-                }
-            }
+        std::vector<ExaminedBox> boxes, level;
+        divide_into(root_, boxes);
+        for (int depth = 1; depth < most_levels_of_parts && boxes.size() < enough_parts; ++depth) {
+            level.swap(boxes);
             boxes.clear();
-            for (const Node& node : level) {
-                const ArenaScope scratch(worker_.scratch);
-                const Division division(node, context_, worker_);
-                for (std::size_t i = 0; i < division.count(); ++i) {
-                    ++boxes_;
-                    const ExaminedBox box = division.examine(i);
-                    if (box.only)
-                        known_.add(box, context_);
-                    else
-                        boxes.push_back(box);
-                }
+            for (const ExaminedBox& b : level) {
+                if (b.can_be_divided && !stop_())
+                    divide_into(b.node, boxes);
+                else
+                    parts_.push_back({b, ObjectSums(known_.phases())});
             }
         }
         for (const ExaminedBox& b : boxes) parts_.push_back({b, ObjectSums(known_.phases())});
@@ -215,6 +201,19 @@ class Measurement {
         }
     }
 
+    // Divides one box, and appends the boxes in it that are not in one phase.
+    void divide_into(const Node& node, std::vector<ExaminedBox>& boxes) {
+        const ArenaScope scratch(worker_.scratch);
+        const Division division(node, context_, worker_);
+        for (std::size_t i = 0; i < division.count(); ++i) {
+            ++boxes_;
+            const ExaminedBox box = division.examine(i);
+            if (box.only)
+                known_.add(box, context_);
+            else
+                boxes.push_back(box);
+        }
+    }
     void add_up() {
         total_ = known_;
         for (const Part& part : parts_) total_.add(part.sums);
@@ -271,8 +270,8 @@ class Measurement {
     }
 
     MeasureEnd divide_parts(double progress) {
-        const std::size_t most_of_part =
-            std::max<std::size_t>(1024, options_.max_boxes / std::max<std::size_t>(1, parts_.size()));
+        const std::size_t left = options_.max_boxes - std::min(options_.max_boxes, boxes_);
+        const std::size_t most_of_part = std::max<std::size_t>(1, left / std::max<std::size_t>(1, parts_.size()));
         // Each pass lowers thresholds at least fourfold, so after these they are below any volume that matters.
         constexpr int most_passes = 40;
         for (int pass = 0; pass < most_passes; ++pass) {
@@ -422,6 +421,22 @@ void check(const Phased& object, const MeasureOptions& options) {
 }  // namespace
 
 }  // namespace measuring
+
+std::string_view name_of(MeasureEnd end) {
+    switch (end) {
+        case MeasureEnd::tolerance:
+            return "tolerance";
+        case MeasureEnd::precision:
+            return "precision";
+        case MeasureEnd::seconds:
+            return "time";
+        case MeasureEnd::boxes:
+            return "boxes";
+        case MeasureEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
 
 MeasureResult measure(const Phased& object, const MeasureOptions& options) {
     measuring::check(object, options);

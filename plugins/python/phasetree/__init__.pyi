@@ -101,25 +101,25 @@ phase, or of all phases except the vacuum, is a manifold."""
     triangles: np.ndarray
     behind: np.ndarray
     front: np.ndarray
-    names: np.ndarray
-    spacing: np.ndarray
-    crossings: np.ndarray
-    skipped: np.ndarray
+    names: tuple[str, ...]
+    spacing: float
+    crossings: int
+    skipped: int
 
 class Measures(NamedTuple):
     r"""Volumes, masses and moments of the phases of an object; see Object.measure.
 
     The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
     are in the unit of the scene, usually metres."""
-    names: np.ndarray
+    names: tuple[str, ...]
     volume: np.ndarray
     mass: np.ndarray
     centre: np.ndarray
     inertia: np.ndarray
     low: np.ndarray
     high: np.ndarray
-    stopped: np.ndarray
-    boxes: np.ndarray
+    stopped: str
+    boxes: int
 
 class Field:
     r"""A signed distance, negative inside. Immutable.

@@ -131,8 +131,8 @@ def _class(cls, methods=""):
     if cls is _trees.Field:
         for name in _OPERATORS:
             text += f"    def {name}(self, other: Field | Expression) -> Field: ...\n"
-    for name in getattr(cls, "__annotations__", {}):
-        text += f"    {name}: np.ndarray\n"
+    for name, kind in getattr(cls, "__annotations__", {}).items():
+        text += f"    {name}: {getattr(kind, '__forward_arg__', kind)}\n"  # NamedTuple stores forward references
     return text + methods
 
 

@@ -36,22 +36,6 @@ class Rows {
     std::vector<double> values_;
 };
 
-const char* name_of(MeasureEnd end) {
-    switch (end) {
-        case MeasureEnd::tolerance:
-            return "tolerance";
-        case MeasureEnd::precision:
-            return "precision";
-        case MeasureEnd::seconds:
-            return "time";
-        case MeasureEnd::boxes:
-            return "boxes";
-        case MeasureEnd::cancelled:
-            return "cancelled";
-    }
-    return "";
-}
-
 py::tuple measures(const Phased& object, double tolerance, std::optional<double> seconds,
                    const std::vector<std::pair<int, double>>& densities, const py::object& tell) {
     MeasureOptions options;

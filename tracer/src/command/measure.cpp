@@ -32,8 +32,14 @@ struct MeasureCommand {
     bool as_json = false;
 };
 
-// Areas may take this share of the time.
-constexpr double share_of_areas = 0.2;
+// The shares of the time that preparing the object for areas may take, and tracing lines for them.
+constexpr double share_of_preparing = 0.5, share_of_areas = 0.2;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // Parses PHASE=VALUE. The name of a phase may contain "=", a number does not.
 std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tree) {
@@ -73,10 +79,10 @@ std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string
 
 // Throws BuildCancelled.
 AreaResult areas_of(const SceneFile& file, const Document& document, const SceneTree& tree,
-                    const MeasureCommand& chosen) {
+                    const MeasureCommand& chosen, Clock::time_point start) {
     CellOptions cells;
     cells.quality = BuildQuality::low;
-    cells.cancelled = [] { return interrupted(); };
+    cells.cancelled = [&] { return interrupted() || seconds_since(start) > share_of_preparing * chosen.seconds; };
     LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
     cells.progress = [&](float done) { preparing.tell(done); };
     const auto prepared =
@@ -90,18 +96,22 @@ AreaResult areas_of(const SceneFile& file, const Document& document, const Scene
 }
 
 int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
-    const auto start = std::chrono::steady_clock::now();
     const AvailableThreads threads;
     const Document document = read_document(file);
     const SceneTree tree = read_model(document, chosen.object);
     const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const InterruptGuard guard;
+    const Clock::time_point start = Clock::now();
     AreaResult areas;
     try {
-        areas = areas_of(file, document, tree, chosen);
+        areas = areas_of(file, document, tree, chosen, start);
     } catch (const BuildCancelled&) {
-        // Volumes of the first few boxes are known immediately.
+        // After an interruption, volumes of the first few boxes are known immediately.
+        if (!interrupted())
+            say("phasetree: warning: areas are left out, because preparing the object takes more than {:.0f} % of the "
+                "time; allow more with --time\n",
+                100 * share_of_preparing);
     }
     MeasureOptions options;
     options.tolerance = chosen.tolerance;
@@ -109,8 +119,8 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     options.cancelled = [] { return interrupted(); };
     LateProgress progress(ProgressOutput::standard_error(false), "measuring the object");
     options.progress = [&](float done) { progress.tell(done); };
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    options.seconds = std::max(chosen.seconds - elapsed.count(), (1 - share_of_areas) * chosen.seconds);
+    options.seconds =
+        std::max(chosen.seconds - seconds_since(start), (1 - share_of_preparing - share_of_areas) * chosen.seconds);
     const MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
     const MeasureReport report{file.shown(), tree.phases, result, areas};
     if (chosen.as_json)

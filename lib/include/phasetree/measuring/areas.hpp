@@ -21,7 +21,7 @@ struct AreaOptions {
     /// Lines are traced until the standard error of each phase's area is at most this fraction of the area. Positive.
     double tolerance = 2e-3;
     double seconds = std::numeric_limits<double>::infinity();  ///< end after about this time
-    std::size_t max_lines = std::size_t{1} << 22;              ///< end after at most this many lines
+    std::size_t max_lines = std::size_t{1} << 22;  ///< end after at most this many lines, or 2048 if that is more
     std::function<bool()> cancelled{};  ///< polled from any thread; return true to stop and get what is known so far
 };
 
@@ -35,7 +35,7 @@ struct AreaResult {
     std::vector<OfPhase> phases;      ///< the whole surfaces, in ascending order, without the vacuum
     std::vector<OfContact> contacts;  ///< the interfaces that lines have met, in ascending order
     std::size_t lines = 0;
-    bool is_within_tolerance = false;
+    bool is_within_tolerance = false;  ///< also false if no line has met an interface
 };
 
 /// Estimate the areas of all interfaces within the bounds, which must contain everything that is not vacuum.

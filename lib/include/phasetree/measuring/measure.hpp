@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct MeasuredPhase {
     double density = 1;
     bool has_density = false;
     Body body;
-    /// The sides of the smallest box around the phase. If the phase may be empty, some of the intervals are infinite.
+    /// The sides of the smallest box around the phase. If the phase may be empty, the intervals are infinite.
     std::array<Measured, 3> box_low{}, box_high{};
 };
 
@@ -51,8 +52,8 @@ struct MeasureOptions {
     double tolerance = 1e-3;
     /// Measuring ends after this time, whatever is known by then. Positive.
     double seconds = std::numeric_limits<double>::infinity();
-    /// Measuring ends after about this many boxes. Each part of the bounds is divided into at most its share of them,
-    /// or into about 1024 if that is more. Unlike the time, this limit gives equal results on all machines.
+    /// Measuring ends once a division of the object takes more than about this many boxes. Unlike the time, this limit
+    /// gives equal results on all machines.
     std::size_t max_boxes = std::size_t{1} << 26;
     /// Densities of phases, in units of mass per cubed unit of length. Not negative.
     std::vector<std::pair<Phase, double>> densities{};
@@ -70,6 +71,8 @@ enum class MeasureEnd {
     boxes,      ///< MeasureOptions::max_boxes
     cancelled   ///< MeasureOptions::cancelled returned true
 };
+/// "tolerance", "precision", "time", "boxes" or "interrupted".
+std::string_view name_of(MeasureEnd);
 
 struct MeasureResult {
     Bounds bounds;                      ///< a box around the object, with a margin of vacuum
