@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "command/commands.hpp"
+#include "command/densities.hpp"
 #include "command/duration.hpp"
-#include "command/errors.hpp"
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/measure_report.hpp"
 #include "command/number_in.hpp"
 #include "command/streams.hpp"
-#include "command/unknown_phase.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
 #include "output/interrupt.hpp"
@@ -39,42 +38,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Parses PHASE=VALUE. The name of a phase may contain "=", a number does not.
-std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tree) {
-    const std::size_t split = text.rfind('=');
-    double value = 0;
-    if (split == std::string::npos || !CLI::detail::lexical_cast(text.substr(split + 1), value) ||
-        !(value >= 0 && value <= 1e12))
-        throw UsageError(
-            fmt::format("--density: must be PHASE=VALUE, with a value from 0 to 1e12, but is \"{}\"", text));
-    const std::string name = text.substr(0, split);
-    const std::vector<std::string>& names = tree.phases.names;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.begin()) throw UsageError("--density: the vacuum has no density");
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    const PhaseSet there = phases(tree.object);
-    if (found == names.end() || !there.contains(static_cast<int>(index))) {
-        std::vector<std::string> valid;
-        for (std::size_t i = 1; i < names.size(); ++i)
-            if (there.contains(static_cast<int>(i))) valid.push_back(names[i]);
-        throw unknown_phase("--density", name, valid);
-    }
-    return {Phase{static_cast<std::uint8_t>(index)}, value};
-}
-
-std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree) {
-    std::vector<std::pair<Phase, double>> all;
-    for (const std::string& text : texts) {
-        const auto density = density_of(text, tree);
-        for (const auto& [phase, value] : all)
-            if (phase == density.first)
-                throw UsageError(
-                    fmt::format("--density: \"{}\" has two densities; give it one", tree.phases.names[phase.index]));
-        all.push_back(density);
-    }
-    return all;
 }
 
 // Throws BuildCancelled.
@@ -156,11 +119,7 @@ void add_measure(CLI::App& app, Run& run) {
         ->option_text("T");
     add_duration(*command, "--time", options->seconds,
                  "Stop after this time, whatever is known by then (default: 30s)");
-    command
-        ->add_option("--density", options->densities,
-                     "Density of a phase in kg/m³, for masses; repeat it for other phases")
-        ->option_text("PHASE=VALUE")
-        ->allow_extra_args(false);
+    add_densities(*command, options->densities);
     command->add_flag("--json", options->as_json, "Print JSON");
     command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });
 }
