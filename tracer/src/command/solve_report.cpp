@@ -36,7 +36,7 @@ std::string_view sentence_of(SolveEnd end) {
         case SolveEnd::same_side:
             return "both ends are on the same side";
         case SolveEnd::seconds:
-            return "the time is over; allow more with --time";
+            return "time ran out; allow more with --time";
         case SolveEnd::cancelled:
             return "interrupted";
     }
