@@ -301,6 +301,22 @@ void check(const SolveTarget& target, double low, double high, const SolveOption
 
 }  // namespace measuring
 
+std::string_view name_of(SolveEnd end) {
+    switch (end) {
+        case SolveEnd::width:
+            return "tolerance";
+        case SolveEnd::undecided:
+            return "undecided";
+        case SolveEnd::same_side:
+            return "same side";
+        case SolveEnd::seconds:
+            return "time";
+        case SolveEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
+
 SolveResult solve(const ObjectOf& object, const SolveTarget& target, double low, double high,
                   const SolveOptions& options) {
     measuring::check(target, low, high, options);
