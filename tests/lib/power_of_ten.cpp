@@ -1,4 +1,4 @@
-#include "phasetree/math/power_of_ten.hpp"
+#include "phasetree_support/power_of_ten.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-using phasetree::exponent_of_ten;
+using phasetree::support::exponent_of_ten;
 
 TEST_CASE("the exponent of ten changes exactly at powers of ten") {
     for (int exponent = -22; exponent <= 22; ++exponent) {

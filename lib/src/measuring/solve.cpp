@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "phasetree/math/power_of_ten.hpp"
 #include "phasetree/nodes/phased/remove.hpp"
+#include "phasetree_support/power_of_ten.hpp"
 
 namespace phasetree {
 
@@ -37,7 +37,7 @@ enum class Side { below, above, undecided };
 // The nearest number with few digits, for a bracket of this width.
 double rounded(double x, double width) {
     if (!(width > 1e-300 && width < 1e300)) return x;
-    const int exponent = exponent_of_ten(width * share_of_digit);
+    const int exponent = support::exponent_of_ten(width * share_of_digit);
     // Quotients of integers have the shortest texts; 10²² is the largest power that is exact.
     const double power = std::pow(10.0, std::abs(exponent));
     const double digits = exponent < 0 ? x * power : x / power;

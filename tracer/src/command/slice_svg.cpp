@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "command/slice_picture.hpp"
-#include "phasetree/math/power_of_ten.hpp"
+#include "phasetree_support/power_of_ten.hpp"
 
 namespace phasetree::tracer {
 
@@ -53,7 +53,7 @@ std::string path_data(const Slice& slice, Phase phase) {
 
 // The length of the scale bar: 1, 2 or 5 times a power of ten, at most a third of the picture.
 double length_of_bar(double longest) {
-    const double power = std::pow(10.0, exponent_of_ten(longest / 3));
+    const double power = std::pow(10.0, support::exponent_of_ten(longest / 3));
     double length = power;
     for (const double factor : {2.0, 5.0})
         if (factor * power <= longest / 3) length = factor * power;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace phasetree {
+namespace phasetree::support {
 
 /// The exponent of the largest power of ten that is at most x, which is positive and finite. The same on all
 /// processors.
@@ -15,4 +15,4 @@ inline int exponent_of_ten(double x) {
     return exponent;
 }
 
-}  // namespace phasetree
+}  // namespace phasetree::support
