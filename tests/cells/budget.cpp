@@ -69,10 +69,11 @@ TEST_CASE("cells with any limit of memory give the labels and crossings of the w
         std::size_t fewer = unlimited.size();
         for (const std::size_t bytes : {std::size_t{100'000}, std::size_t{20'000}, std::size_t{1}}) {
             const InterfaceCells cells(object, {.max_bytes = bytes});
+            const CellsAlongRay boxes(cells);
             CHECK(cells.size() <= fewer);
             fewer = cells.size();
             for (int i = 0; i < 60; ++i)
-                compare_ray(object, cells, tracer, {}, compared_ray(tracer, i % 3 == 2, rng, w), w, all);
+                compare_ray(object, boxes, tracer, {}, compared_ray(tracer, i % 3 == 2, rng, w), w, all);
             const Disagreements d = compare_labels(cells, 20);
             labels.points += d.points;
             labels.wrong += d.wrong;

@@ -128,6 +128,7 @@ TEST_CASE("a ray that grazes a ball beside its crease with a plate meets it") {
         const Phased object = n % 2 == 0 ? solid(Intersection{{both, Box{.size = glm::vec3(1)}}})
                                          : solid(Difference{.from = Box{.size = glm::vec3(1)}, .subtract = {both}});
         const InterfaceCells cells(object);
+        const CellsAlongRay boxes(cells);
         const InterfaceTracer tracer(object);
         const std::size_t before = all.different;
         for (int i = 0; i < 500; ++i) {
@@ -137,7 +138,7 @@ TEST_CASE("a ray that grazes a ball beside its crease with a plate meets it") {
             const glm::vec3 q = radius * (std::cos(angle) * side + std::sin(angle) * up);
             const glm::vec3 normal = glm::normalize(q), d = glm::normalize(glm::cross(normal, rng.direction()));
             const glm::vec3 o = q * (1 - std::exp2(-rng.uniform(6, 16))) - rng.uniform(0.2f, 0.8f) * radius * d;
-            compare_ray(object, cells, tracer, {}, {o, d}, w, all);
+            compare_ray(object, boxes, tracer, {}, {o, d}, w, all);
         }
         CAPTURE(n);
         CHECK(all.different == before);
@@ -168,6 +169,7 @@ TEST_CASE("a ray that grazes a dome beside its cut meets it, where the bounds of
                                          : solid(Difference{.from = Box{.size = glm::vec3(1)}, .subtract = {both}});
         // Large cells, too, in which a batch's places are far apart.
         const InterfaceCells cells(object, {.max_depth = n % 8 < 4 ? 2 : 14});
+        const CellsAlongRay boxes(cells);
         const InterfaceTracer tracer(object);
         const std::size_t before = all.different;
         for (int i = 0; i < 500; ++i) {
@@ -180,7 +182,7 @@ TEST_CASE("a ray that grazes a dome beside its cut meets it, where the bounds of
             const float chord = std::exp2(-rng.uniform(3, 8));
             const float depth = std::max(tracer.resolution(), chord * chord / (8 * radius));
             const glm::vec3 o = q - depth * normal - rng.uniform(0.2f, 0.4f) * d;
-            compare_ray(object, cells, tracer, {}, {o, d}, w, all);
+            compare_ray(object, boxes, tracer, {}, {o, d}, w, all);
         }
         CAPTURE(n);
         CHECK(all.different == before);
@@ -197,6 +199,7 @@ TEST_CASE("near edges rays take few batches, and meet what rays meet of the whol
     for (int n = 0; n < (long_tests() ? 4000 : 200); ++n) {
         const Phased object = solid(edges(rng));
         const InterfaceCells cells(object);
+        const CellsAlongRay boxes(cells);
         const InterfaceTracer tracer(object);
         for (int i = 0; i < 200; ++i) {
             const glm::vec3 p = rng.in(cells.bounds());
@@ -214,7 +217,7 @@ TEST_CASE("near edges rays take few batches, and meet what rays meet of the whol
             Compared by_hairs;
             if (expected.has_value() != nearest.has_value() ||
                 (expected && std::abs(expected->t_in - nearest->t_in) > 4 * tracer.resolution()))
-                compare_ray(object, cells, tracer, {}, {p, d}, w, by_hairs);
+                compare_ray(object, boxes, tracer, {}, {p, d}, w, by_hairs);
             different += by_hairs.different;
         }
     }

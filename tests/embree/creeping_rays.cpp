@@ -16,7 +16,7 @@ TEST_CASE("through Embree and cells, too, a ray that creeps along a surface miss
     REQUIRE(device);
     creeping::Totals totals;
     creeping::trace_along_lines(
-        212, long_tests() ? 100 : 4, [&](const Phased& a) { return CellTracer(device.get(), a, BuildQuality::low); },
+        212, long_tests() ? 100 : 2, [&](const Phased& a) { return CellTracer(device.get(), a, BuildQuality::low); },
         totals);
     creeping::check_totals(totals);
 }

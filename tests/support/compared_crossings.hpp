@@ -6,14 +6,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "phasetree/cells/cells.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/crossing.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "support/cells_along_ray.hpp"
 #include "support/random_tree.hpp"
 #include "support/set_algebra.hpp"
 
@@ -99,29 +98,13 @@ std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& orig
 }
 
 /// Over all cells, in the order in which the ray enters them.
-inline std::optional<Crossing> nearest_crossing(const InterfaceCells& cells, const glm::vec3& p, const glm::vec3& d,
+inline std::optional<Crossing> nearest_crossing(const CellsAlongRay& cells, const glm::vec3& p, const glm::vec3& d,
                                                 Phase phase, Evaluator::Workspace& w, TraceCounters& counters) {
-    struct Met {
-        float enter, leave;
-        std::size_t cell;
-    };
-    std::vector<Met> met;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const Bounds box = cells.bounds(c);
-        float enter = 0, leave = Bounds::infinity;
-        for (int i = 0; i < 3; ++i) {
-            const float a = (box.low[i] - p[i]) / d[i], b = (box.high[i] - p[i]) / d[i];
-            enter = std::max(enter, std::min(a, b) - 1e-5f);
-            leave = std::min(leave, std::max(a, b) + 1e-5f);
-        }
-        if (!(enter > leave)) met.push_back({enter, leave, c});
-    }
-    std::ranges::sort(met, {}, [](const Met& m) { return std::pair(m.enter, m.cell); });
     std::optional<Crossing> nearest;
-    for (const auto& [enter, leave, c] : met) {
+    for (const auto& [enter, leave, c] : cells.along(p, d)) {
         if (nearest && nearest->t_in < enter) break;
         const float end = std::min(leave + 1e-3f, nearest ? nearest->t_in : 1e6f);
-        const auto hit = cells.first_crossing(c, p, d, 0, end, phase, w, counters);
+        const auto hit = cells.cells().first_crossing(c, p, d, 0, end, phase, w, counters);
         if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
     }
     return nearest;
@@ -159,7 +142,7 @@ inline BuildQuality any_quality(Random& rng) {
 }
 
 /// Along a ray, until it enters an opaque phase.
-inline void compare_ray(const Phased& object, const InterfaceCells& cells, const InterfaceTracer& tracer,
+inline void compare_ray(const Phased& object, const CellsAlongRay& cells, const InterfaceTracer& tracer,
                         PhaseSet opaque, const ComparedRay& ray, Evaluator::Workspace& w, Compared& result) {
     const float tolerance = 4 * tracer.resolution();
     glm::vec3 p = ray.origin;
@@ -207,9 +190,10 @@ inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, R
                               BuildQuality quality = BuildQuality::medium) {
     Evaluator::Workspace w;
     const InterfaceCells cells(object, {.quality = quality, .opaque = opaque});
+    const CellsAlongRay boxes(cells);
     const InterfaceTracer tracer(object);
     for (int i = 0; i < rays; ++i)
-        compare_ray(object, cells, tracer, opaque, compared_ray(tracer, i % 3 == 2, rng, w), w, result);
+        compare_ray(object, boxes, tracer, opaque, compared_ray(tracer, i % 3 == 2, rng, w), w, result);
 }
 
 }  // namespace phasetree::tests

@@ -20,7 +20,7 @@ struct Target {
 
 // The kernels that this machine can run, fastest first. Highway detects what the machine supports, and honours
 // hwy::DisableTargets.
-std::vector<Target> targets() {
+std::vector<Target> detect_targets() {
     const auto machine = static_cast<std::int64_t>(hwy::SupportedTargets());
     const auto has = [&](std::int64_t target) { return (machine & target) != 0; };
     std::vector<Target> all;
@@ -34,6 +34,12 @@ std::vector<Target> targets() {
     all.push_back({"baseline", &kernel::kernel_baseline, true});
 #endif
     std::erase_if(all, [](const Target& t) { return !t.supported; });
+    return all;
+}
+
+// Detected once: the CPUID instruction is slow in virtual machines.
+const std::vector<Target>& targets() {
+    static const std::vector<Target> all = detect_targets();
     return all;
 }
 
