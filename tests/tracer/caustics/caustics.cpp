@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "sampling/warps.hpp"
 #include "shading/fresnel.hpp"
@@ -128,9 +129,10 @@ TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright
         std::string light, inside;
         int passes;  // in multiples: the sphere's photons differ most in their power
     };
-    const Case cases[] = {
-        {sun, coloured, 1}, {rectangle, coloured, 1}, {sphere, coloured, 3}, {sun, murky, 1}, {rectangle, cloudy, 1}};
-    const double significance = sidak(1e-4, std::size(cases));
+    std::vector<Case> cases{{sun, coloured, 1}, {sphere, coloured, 3}, {rectangle, cloudy, 1}};
+    // caustics_in_media.cpp has photons in what scatters.
+    if (long_form) cases.insert(cases.end(), {{rectangle, coloured, 1}, {sun, murky, 1}});
+    const double significance = sidak(1e-4, cases.size());
     for (const Case& c : cases) {
         CAPTURE(c.light);
         CAPTURE(c.inside);

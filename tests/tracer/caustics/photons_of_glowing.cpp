@@ -17,24 +17,27 @@ TEST_CASE("what glows within glass is as bright with photons as by paths alone")
                                  {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
             "[]", 1.01);
     }
-    SUBCASE("beads on a line, which stand before each other, in a shell, and a wall of another phase") {
-        check_picture_of_floor(
-            phases + R"(, "wall": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",
-            shell_around(
-                R"({"set": {"phase": "wall", "of": {"translate": {"by": [0, 0.6, 0], "of": {"box": {"size": [0.5, 0.05, 0.5]}}}}}},
+    // Forty balls of flame hide each other in the test of flames.
+    if (long_form) {
+        SUBCASE("beads on a line, which stand before each other, in a shell, and a wall of another phase") {
+            check_picture_of_floor(
+                phases + R"(, "wall": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",
+                shell_around(
+                    R"({"set": {"phase": "wall", "of": {"translate": {"by": [0, 0.6, 0], "of": {"box": {"size": [0.5, 0.05, 0.5]}}}}}},
                         {"set": {"phase": "hot", "of": {"union": {"of": [
                             {"translate": {"by": [-0.35, 0, 0.1], "of": {"sphere": {"radius": 0.18}}}},
                             {"translate": {"by": [0.05, 0, 0.1], "of": {"sphere": {"radius": 0.18}}}},
                             {"translate": {"by": [0.45, 0.1, 0.2], "of": {"sphere": {"radius": 0.18}}}}]}}}})"),
-            "[]", 1.02);
-    }
-    SUBCASE("within a boundary of clear phases of the same index") {
-        check_picture_of_floor(
-            phases + R"(, "same": {"clear": {"ior": 1.5}})",
-            R"({"over": [{"set": {"phase": "hot", "of": {"translate": {"by": [0.2, 0, 0.1], "of": {"sphere": {"radius": 0.3}}}}}},
+                "[]", 1.02);
+        }
+        SUBCASE("within a boundary of clear phases of the same index") {
+            check_picture_of_floor(
+                phases + R"(, "same": {"clear": {"ior": 1.5}})",
+                R"({"over": [{"set": {"phase": "hot", "of": {"translate": {"by": [0.2, 0, 0.1], "of": {"sphere": {"radius": 0.3}}}}}},
                                  {"set": {"phase": "same", "of": {"sphere": {"radius": 0.7}}}},
                                  {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
-            "[]", 1.02);
+                "[]", 1.02);
+        }
     }
     SUBCASE("with a lamp beside it that hides a part") {
         check_picture_of_floor(
