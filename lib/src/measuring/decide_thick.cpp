@@ -62,7 +62,7 @@ class Thickness {
     }
 
   private:
-    // If so many boxes are open, the phase is not thick; a few of them are enough to find out where.
+    // Once this many boxes are open, the phase is hardly thick, and a few of them are enough to find out where.
     static constexpr std::size_t enough_open = 512;
     static constexpr std::size_t most_candidates = 48;
 
