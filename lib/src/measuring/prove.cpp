@@ -167,6 +167,7 @@ struct CheckStatement {
     void operator()(const AreTouching& s) const { different(s.first, s.second); }
     void operator()(const IsThick& s) const {
         phase(s.phase);
+        if (s.phase == vacuum) throw ModelError("the vacuum has no walls");
         length(s.at_least, false, "the thickness");
         length(s.reach, true, "the reach");
         if (s.reach > 0 && !(s.reach > 0.5 * s.at_least))
