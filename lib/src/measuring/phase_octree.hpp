@@ -27,7 +27,7 @@ struct OctreeLeaf {
 
     std::uint64_t key = 0;           ///< of its low corner: the bits of x, y and z in turn, x last
     std::uint64_t possible = 0;      ///< bits of phases; a single bit if the box is certainly in one phase
-    std::uint64_t listed = 0;  ///< bits of the phases for which there are falls; they were possible at first
+    std::uint64_t listed = 0;        ///< bits of the phases for which there are falls; they were possible at first
     std::uint32_t falls = no_falls;  ///< index of PhaseInBox::falls of the first of them; the others follow
     std::uint8_t level = 0;
 

@@ -20,7 +20,8 @@ namespace phasetree::tracer {
 // Adds the option --unit. `files` names the files that it applies to, such as "SVG: ".
 void add_length_unit(CLI::App& command, std::optional<std::string>& name, const std::string& files = "");
 
-// The unit that the option names; else that of the scene; else the metre. Throws UsageError that begins with "--unit: ".
+// The unit that the option names; else that of the scene; else the metre. Throws UsageError that begins with "--unit:
+// ".
 LengthUnit length_unit(const std::optional<std::string>& name, const SceneModel& model);
 
 struct Quantity {
