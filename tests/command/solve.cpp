@@ -287,7 +287,7 @@ TEST_CASE("mistakes are reported in words: one error, exit code 2, or 1 if outpu
         {aim("mass(glass) = 3 ml"), "a mass needs a density"},
         {aim("volume(glas) = 3 ml"), "--until: unknown phase \"glas\" (did you mean \"glass\"?)"},
         {aim("volume(vacuum) = 3 ml"), "--until: the vacuum has no volume"},
-        {with({"--unit", "furlong"}), "--unit: unknown unit \"furlong\" (choose from mm, cm, m, in)"},
+        {with({"--unit", "furlong"}), "--unit: unknown unit \"furlong\" (choose from mm, cm, m or in)"},
         {with({"--density", "glass=-1"}), "--density: must be PHASE=VALUE"},
         {with({"--tolerance", "0"}), "--tolerance"},
         {with({"--tolerance", "nan"}), "--tolerance"},

@@ -14,7 +14,7 @@ class JsonSchema {
     explicit JsonSchema(std::string text) : document_(Document::from_text(std::move(text), "the schema")) {}
 
     Value root() const { return document_.root(); }
-    Value definition(std::string_view name) const { return *root().find("definitions")->find(name); }
+    Value definition(std::string_view name) const { return *definitions().find(name); }
 
     /// Empty if the value is as the schema says; else what is wrong, and of which key.
     std::string mistake(Value value) const { return mistake(root(), value); }
@@ -26,6 +26,14 @@ class JsonSchema {
     }
 
   private:
+    Value definitions() const { return *root().find("definitions"); }
+    // What is at a path such as "material/properties/clear".
+    static Value at_path(Value value, std::string_view path) {
+        const std::size_t end = path.find('/');
+        const Value inner = *value.find(path.substr(0, end));
+        return end == path.npos ? inner : at_path(inner, path.substr(end + 1));
+    }
+
     static bool is_of(std::string_view type, Value value) {
         if (type == "integer") return value.is_number() && value.number() == std::trunc(value.number());
         return (type == "number" && value.is_number()) || (type == "string" && value.is_string()) ||
@@ -76,7 +84,7 @@ class JsonSchema {
         if (key == "$ref") {
             const std::string_view begin = "#/definitions/";
             if (!rule.string().starts_with(begin)) throw std::logic_error("a reference to elsewhere");
-            return mistake(definition(rule.string().substr(begin.size())), value);
+            return mistake(at_path(definitions(), rule.string().substr(begin.size())), value);
         }
         if (key == "anyOf") {
             std::string all;

@@ -11,10 +11,29 @@ bool is_kind(Value member, std::string_view name) {
     return member.key() == name || is_other_spelling(member.key(), name);
 }
 
-Value member_of_kind(const Document& document, Value value, std::string_view what,
-                     std::span<const std::string_view> kinds) {
+namespace {
+
+std::string list_of(std::span<const std::string_view> kinds) {
     std::string list;
     for (const std::string_view kind : kinds) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", kind);
+    return list;
+}
+
+}  // namespace
+
+void check_kind(const Document& document, Value member, std::string_view what,
+                std::span<const std::string_view> kinds) {
+    for (const std::string_view kind : kinds)
+        if (is_kind(member, kind)) return;
+    throw document.error(
+        member.key_offset(),
+        fmt::format("{} cannot be of the kind \"{}\"; choose from {}", what, member.key(), list_of(kinds)),
+        meant_kind(member.key(), kinds));
+}
+
+Value member_of_kind(const Document& document, Value value, std::string_view what,
+                     std::span<const std::string_view> kinds) {
+    const std::string list = list_of(kinds);
     if (!value.is_object())
         throw document.error(
             value, fmt::format("{} must be an object {{\"kind\": {{…}}}}, where the kind is one of {}, but is {}", what,
@@ -23,12 +42,8 @@ Value member_of_kind(const Document& document, Value value, std::string_view wha
         throw document.error(
             value, fmt::format("{} must have one member, named after its kind, but has {}; the kinds are {}", what,
                                value.size(), list));
-    const Value member = value[0];
-    for (const std::string_view kind : kinds)
-        if (is_kind(member, kind)) return member;
-    throw document.error(member.key_offset(),
-                         fmt::format("{} cannot be of the kind \"{}\"; choose from {}", what, member.key(), list),
-                         meant_kind(member.key(), kinds));
+    check_kind(document, value[0], what, kinds);
+    return value[0];
 }
 
 SceneError located(ObjectReader& reader, const ParameterError& e) {

@@ -129,12 +129,19 @@ class Examination {
     }
     // Sets the linear function near a component, and returns the slack.
     double set_component(PhaseInBox& p, const ProgramOutput& o, const EnclosedProgram& enclosed) const {
-        const NearlyLinear linear(enclosed.of_output(o), enclosed.half);
+        const enclosure::Enclosure found = enclosed.of_output(o);
+        const NearlyLinear linear(found, enclosed.half);
         if (!(linear.slack < 1e30)) return unknown;
         const Bounds& box = enclosed.box;
         const glm::dvec3 from_centre = glm::dvec3(box.low) - glm::dvec3(box.centre());
         const glm::dvec3 size = glm::dvec3(box.high) - glm::dvec3(box.low);
         const double sign = o.negate ? -1 : 1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const enclosure::Interval& g = found.gradient[i];
+            const double least = o.negate ? -g.high : g.low, most = o.negate ? -g.low : g.high;
+            if (least >= 0) p.falls = static_cast<std::uint8_t>(p.falls | (1u << (2 * i)));
+            if (most <= 0) p.falls = static_cast<std::uint8_t>(p.falls | (2u << (2 * i)));
+        }
         p.component.at_low = sign * linear.at_centre;
         for (std::size_t i = 0; i < 3; ++i) {
             const double slope = sign * linear.normal[i];
@@ -151,10 +158,7 @@ class Examination {
         result_.votes = worker_.programs.allocate<int>(outputs.size());
         std::ranges::fill(result_.mean_component, 0.0);
         std::ranges::fill(result_.votes, 0);
-        const glm::vec3 centre = result_.node.box.centre(), half = 0.57735f * (0.5f * result_.node.box.extent());
-        std::array<glm::vec3, batch_size> points;
-        for (std::size_t i = 0; i < batch_size; ++i)
-            points[i] = centre + Bounds{-half, half}.corner(static_cast<int>(i));
+        const std::array<glm::vec3, batch_size> points = sampled_points(result_.node.box);
         ValuesAtPoint values = values_at_points(program, specialisations_, points, worker_);
         for (values.lane = 0; values.lane < batch_size; ++values.lane) {
             std::size_t least = 0;
@@ -164,6 +168,11 @@ class Examination {
                 if (v < signed_value(values, outputs[least])) least = k;
             }
             ++result_.votes[least];
+            PhaseInBox& p = result_.phases[least];
+            if (const double v = signed_value(values, outputs[least]); v < p.deepest) {
+                p.deepest = v;
+                p.deepest_at = static_cast<std::uint8_t>(values.lane);
+            }
         }
     }
 
@@ -174,6 +183,20 @@ class Examination {
 };
 
 }  // namespace
+
+bool PhaseInBox::is_possible() const {
+    if (!(slack < unknown)) return true;
+    double least = component.at_low - slack;
+    for (const double d : component.change) least += std::min(d, 0.0);
+    return least < 0;
+}
+
+std::array<glm::vec3, batch_size> sampled_points(const Bounds& box) {
+    const glm::vec3 centre = box.centre(), half = 0.57735f * (0.5f * box.extent());
+    std::array<glm::vec3, batch_size> points;
+    for (std::size_t i = 0; i < batch_size; ++i) points[i] = centre + Bounds{-half, half}.corner(static_cast<int>(i));
+    return points;
+}
 
 Division::Division(const Node& parent, const MeasureContext& context, Worker& worker)
     : parent_(parent), context_(context), worker_(worker), boxes_(parent.box), values_{}, has_jumps_(false) {

@@ -36,9 +36,20 @@ struct PhaseInBox {
     /// A linear function near the phase's component φₖ, and an upper bound of the difference; infinite if unknown.
     LinearInBox component;
     double slack = 0;
+    /// Directions in which the component does not rise anywhere in the box: bit 2i towards lower coordinates along axis
+    /// i, bit 2i + 1 towards higher ones.
+    std::uint8_t falls = 0;
+    /// The least value of the component at the sampled points that are in the phase, and the number of that point.
+    double deepest = 0;
+    std::uint8_t deepest_at = 0;
 
     double doubt() const { return std::max(0.0, possible.moments[0] - certain.moments[0]); }
+    /// Whether the phase may be in the box: false if its component is certainly positive in all of it.
+    bool is_possible() const;
 };
+
+/// The points of a box at which its components are sampled.
+std::array<glm::vec3, batch_size> sampled_points(const Bounds& box);
 
 /// What is known of a box.
 struct ExaminedBox {

@@ -56,11 +56,12 @@ class ImageSettings:
 class Phase:
     name: str
     material: Material | None
+    density: float | None
     def __call__(self, *fields: Field | Expression) -> Object: ...
 
 vacuum: Phase
 
-def phase(name: str, material: Material | None = ...) -> Phase: ...
+def phase(name: str, material: Material | None = ..., density: float | None = ...) -> Phase: ...
 
 class Crossings(NamedTuple):
     r"""Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1] − 1."""
@@ -120,6 +121,14 @@ class Measures(NamedTuple):
     high: np.ndarray
     stopped: str
     boxes: int
+
+class Proof(NamedTuple):
+    r"""What is known of a statement about an object; see Object.prove."""
+    verdict: str
+    reason: str
+    witnesses: list
+    resolution: float
+    interval: tuple | None
 
 class Solution(NamedTuple):
     r"""A number for which a measure has a value, and what is certain about it; see solve.
@@ -571,6 +580,16 @@ guess of the fraction done, up to 1.
 
 Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
 an argument is out of its range."""
+    def prove(self, *statements, unit=..., resolution=..., seconds=..., progress=...):
+        r"""What is known of statements about the object, as a list of Proof.
+
+statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. unit:
+that of the object's lengths, for volumes and masses. Masses need phases with a density. resolution: the side of
+the smallest boxes; 0 selects 1/256 of the longest side. seconds: a limit of the time, by default none.
+progress: called with "proving" and a guess of the fraction done, up to 1.
+
+Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
+rays. Raises Error if a statement is malformed, or if the object is empty or unbounded."""
     @property
     def bounds(self):
         r"""A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
@@ -1059,9 +1078,12 @@ class Scene:
     touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
     An object that is placed does not also stand where its own map puts it. groups: {name: places}.
 
+    unit: that of the lengths, "mm", "cm", "m" or "in"; it changes no picture. expect: statements, as in "expect" of a scene
+    file, which `phasetree check --prove` proves or refutes.
+
     camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
     sees instead of the lights at infinity. image: pt.image(…)."""
-    def __init__(self, object=..., camera=..., lights=..., meshes=..., background=..., image=..., name=..., *, objects=..., groups=..., instances=...):
+    def __init__(self, object=..., camera=..., lights=..., meshes=..., background=..., image=..., name=..., *, objects=..., groups=..., instances=..., unit=..., expect=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def with_(self, **parts):
         r"""The same scene with some parts replaced: scene.with_(camera=…)."""

@@ -94,13 +94,16 @@ class Scene(Value):
     touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
     An object that is placed does not also stand where its own map puts it. groups: {name: places}.
 
+    unit: that of the lengths, "mm", "cm", "m" or "in"; it changes no picture. expect: statements, as in "expect" of a scene
+    file, which `phasetree check --prove` proves or refutes.
+
     camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
     sees instead of the lights at infinity. image: pt.image(…).
     """
 
     def __init__(
         self, object=None, camera=None, lights=(), meshes=(), background=None, image=None, name="scene", *,
-        objects=None, groups=None, instances=(),
+        objects=None, groups=None, instances=(), unit=None, expect=(),
     ):  # fmt: skip
         if (object is None) == (objects is None) and (object is not None or not meshes):
             raise Error("a scene shows either an object or objects, or meshes alone")
@@ -127,11 +130,15 @@ class Scene(Value):
             _phasetree.check_part("lights", json.dumps({"background": self.background}))
         self.image = None if image is None else _part(image, "Render settings", "the image's settings")
         self.name = name
+        if unit not in (None, "mm", "cm", "m", "in"):
+            raise Error(f'the unit must be "mm", "cm", "m" or "in", but is {unit!r}')
+        self.unit = unit
+        self.expect = [expect] if isinstance(expect, dict) else list(expect)
 
     def _arguments(self):
         """The arguments with which Scene makes an equal scene."""
         shown = ("objects", "groups", "instances") if self.objects else ("object",)
-        own = ("camera", "lights", "meshes", "background", "image", "name")
+        own = ("camera", "lights", "meshes", "background", "image", "name", "unit", "expect")
         return {name: getattr(self, name) for name in (*shown, *own)}
 
     def _pickled(self):
@@ -179,6 +186,10 @@ class Scene(Value):
         settings = {**(self.image.parameters() if self.image else {}), **(image or {})}
         if settings:
             rest["render"] = settings
+        if self.unit is not None:
+            rest["unit"] = self.unit
+        if self.expect:
+            rest["expect"] = self.expect
         return rest
 
     def to_json(self, **image):
@@ -314,10 +325,17 @@ def _with_nodes(parts, phases):
 
 def _phases_of(parts):
     phases = [vacuum]
-    for name, material in parts.get("phases", {}).items():
-        is_material = isinstance(material, dict) and len(material) == 1
-        phases.append(Phase(name, _parts.part_of("Materials", material) if is_material else None))
+    for name, entry in parts.get("phases", {}).items():
+        phases.append(Phase(name, *_material_and_density(entry)))
     return tuple(phases)
+
+
+def _material_and_density(entry):
+    """What an entry of "phases" says; None for what it lacks."""
+    if not isinstance(entry, dict):
+        return None, None
+    material = {key: value for key, value in entry.items() if key != "density"}
+    return _parts.part_of("Materials", material) if len(material) == 1 else None, entry.get("density")
 
 
 def _object_with_names(entry, raw, path):
@@ -332,7 +350,8 @@ def _object_with_names(entry, raw, path):
         made, prefix = Object(handle, _phases_of(_with_nodes(parts, list(parts["phases"])))), ""
     own = entry.get("phases", {})
     phases = [
-        Phase(f"{name}.{p.name}", _parts.part_of("Materials", own[p.name])) if p.name in own else Phase(prefix + p.name, p.material)
+        Phase(f"{name}.{p.name}", *_material_and_density(own[p.name])) if p.name in own
+        else Phase(prefix + p.name, p.material, p.density)
         for p in made.phases[1:]
     ]  # fmt: skip
     return Object(made._handle, (vacuum, *phases))
@@ -406,4 +425,6 @@ def _scene_of(parts, path, **shown):
         background=parts.get("background"),
         image=None if render is None else _parts.part_of("Render settings", render),
         name=path,
+        unit=parts.get("unit"),
+        expect=parts.get("expect", ()),
     )

@@ -153,10 +153,10 @@ def text():
     out += "    message: str\n    suggestion: str | None\n\n"
     for name in _CLASSES.values():
         out += f"class {name}:\n    kind: str\n    def parameters(self) -> dict[str, Any]: ...\n\n"
-    out += "class Phase:\n    name: str\n    material: Material | None\n"
+    out += "class Phase:\n    name: str\n    material: Material | None\n    density: float | None\n"
     out += "    def __call__(self, *fields: Field | Expression) -> Object: ...\n\n"
-    out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ...) -> Phase: ...\n\n"
-    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest, _trees.PhaseMesh, _trees.Measures, _solve.Solution):
+    out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ..., density: float | None = ...) -> Phase: ...\n\n"
+    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest, _trees.PhaseMesh, _trees.Measures, _trees.Proof, _solve.Solution):
         out += _class(cls).replace(f"class {cls.__name__}:", f"class {cls.__name__}(NamedTuple):") + "\n"
     out += _class(_trees.Field, _methods(_trees.Field)) + "\n"
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])

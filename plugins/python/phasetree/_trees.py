@@ -117,6 +117,16 @@ class Measures(NamedTuple):
     boxes: int  #: the number of boxes examined
 
 
+class Proof(NamedTuple):
+    """What is known of a statement about an object; see Object.prove."""
+
+    verdict: str  #: "proved", "refuted" or "undecided"
+    reason: str  #: why, in words; may be empty
+    witnesses: list  #: points that show it: ((x, y, z), name of the phase that certainly is there)
+    resolution: float  #: the side of the smallest boxes that were looked at; 0 of volumes and masses
+    interval: tuple | None  #: (low, high) of a volume or mass, in the unit of the statement
+
+
 def node_of(handle, phases):
     """The JSON of a field's node, with references to shapes expanded."""
     scene = _phasetree.value_of(handle.text(phases))
@@ -453,6 +463,25 @@ class Object(Value):
         found = _phasetree.measure(self._handle, float(tolerance), seconds, numbers, progress)
         return Measures(tuple(self.names[i] for i in found[0]), *found[1:])
 
+    def prove(self, *statements, unit="m", resolution=0, seconds=None, progress=None):
+        """What is known of statements about the object, as a list of Proof.
+
+        statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. unit:
+        that of the object's lengths, for volumes and masses. Masses need phases with a density. resolution: the side of
+        the smallest boxes; 0 selects 1/256 of the longest side. seconds: a limit of the time, by default none.
+        progress: called with "proving" and a guess of the fraction done, up to 1.
+
+        Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
+        rays. Raises Error if a statement is malformed, or if the object is empty or unbounded.
+        """
+        densities = [(i, p.density) for i, p in enumerate(self.phases) if p.density is not None]
+        text = json.dumps({"expect": list(statements)}, ensure_ascii=False)
+        seconds = None if seconds is None else float(seconds)
+        found = _phasetree.prove(
+            self._handle, list(self.names), text, unit, densities, float(resolution), seconds, progress
+        )
+        return [Proof(*one) for one in found]
+
     @property
     def bounds(self):
         """A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
@@ -477,7 +506,13 @@ class Object(Value):
 
 
 def _material(phase):
-    return "null" if phase.material is None else json.dumps(phase.material.written(), ensure_ascii=False)
+    """The entry of a phase in a scene file: its material, and its density beside it."""
+    if phase.material is None and phase.density is None:
+        return "null"
+    entry = {} if phase.material is None else dict(phase.material.written())
+    if phase.density is not None:
+        entry["density"] = phase.density
+    return json.dumps(entry, ensure_ascii=False)
 
 
 def _listed(names):

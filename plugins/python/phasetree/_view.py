@@ -24,7 +24,7 @@ _COLOURS = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#
 def _with_materials(object):
     """The same object, with a plain diffuse material for each phase that has none."""
     phases = [
-        p if p.material else Phase(p.name, _parts.materials.diffuse(_COLOURS[i % len(_COLOURS)]))
+        p if p.material else Phase(p.name, _parts.materials.diffuse(_COLOURS[i % len(_COLOURS)]), p.density)
         for i, p in enumerate(object.phases[1:])
     ]
     return Object(object._handle, (object.phases[0], *phases))

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_phasetree, module) {
     add_rays(module);
     add_meshes(module);
     add_measures(module);
+    add_proofs(module);
     add_scenes(module);
     add_rendering(module);
     add_viewing(module);

@@ -17,6 +17,7 @@ void add_points(pybind11::module_&);
 void add_rays(pybind11::module_&);
 void add_meshes(pybind11::module_&);
 void add_measures(pybind11::module_&);
+void add_proofs(pybind11::module_&);
 void add_scenes(pybind11::module_&);
 void add_rendering(pybind11::module_&);
 void add_viewing(pybind11::module_&);

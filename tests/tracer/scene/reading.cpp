@@ -172,4 +172,16 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     CHECK(bytes_of_named_files(strict) > 0);
 }
 
+TEST_CASE("units, densities and statements change no fingerprint") {
+    const auto identity = [](const std::string& rest, const std::string& phase) {
+        return fingerprint(Document::from_text("{" + rest + R"("objects": [{"phases": {"ice": )" + phase +
+                                               R"(}}], "phases": {"glass": )" + phase + "}}"));
+    };
+    const std::uint64_t plain = identity("", R"({"clear": {"ior": 1.5, "density": "ball"}})");
+    CHECK(identity(R"("unit": "mm", "expect": [{"present": {"phase": "glass"}}], )",
+                   R"({"density": 2500, "clear": {"ior": 1.5, "density": "ball"}})") == plain);
+    CHECK(identity("", R"({"clear": {"ior": 1.4, "density": "ball"}})") != plain);
+    CHECK(identity("", R"({"clear": {"ior": 1.5, "density": "box"}})") != plain);
+}
+
 }  // namespace test_reading

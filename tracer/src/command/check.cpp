@@ -1,11 +1,14 @@
 #include "command/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <memory>
+
 #include "command/empty_object.hpp"
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/not_shown_report.hpp"
 #include "command/overlap_report.hpp"
+#include "command/prove.hpp"
 #include "command/streams.hpp"
 #include "command/unplaced_report.hpp"
 #include "command/unused_names.hpp"
@@ -90,9 +93,17 @@ void add_check(CLI::App& app, Run& run) {
     command->footer(
         "If the scene is valid, check exits with 0 and prints nothing but warnings. Otherwise it\n"
         "prints the error and exits with 2. Parts that render ignores must be valid, too. For a\n"
-        "valid scene without a camera, check prints what it can be used for and exits with 3.");
+        "valid scene without a camera, check prints what it can be used for and exits with 3.\n"
+        "\n"
+        "With --prove, it prints for each statement in \"expect\" whether it is proved, refuted, with\n"
+        "points that show it, or undecided at the resolution or in the time given. Without \"expect\", it\n"
+        "prints for each phase whether it is somewhere, and in one piece. With several objects, their\n"
+        "union is examined. The scene may lack a camera and lights. Ctrl-C prints what is known so far.");
     const auto file = add_scene_file(*command);
-    command->callback([file, &run] { run = [file] { return check(*file); }; });
+    auto prove = std::make_shared<ProveCommand>();
+    add_prove_options(*command, *prove);
+    command->callback(
+        [=, &run] { run = [=] { return prove->is_wanted ? prove_scene(*file, *prove) : check(*file); }; });
 }
 
 }  // namespace phasetree::tracer

@@ -29,12 +29,16 @@ std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tr
 }  // namespace
 
 void add_densities(CLI::App& command, std::vector<std::string>& texts) {
-    command.add_option("--density", texts, "Density of a phase in kg/m³, for masses; repeat it for other phases")
+    command
+        .add_option("--density", texts,
+                    "Density of a phase in kg/m³, for masses; repeat it for other phases (default: the scene's "
+                    "\"density\" of the phase)")
         ->option_text("PHASE=VALUE")
         ->allow_extra_args(false);
 }
 
-std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree) {
+std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree,
+                                                   const SceneModel& model) {
     std::vector<std::pair<Phase, double>> all;
     for (const std::string& text : texts) {
         const auto density = density_of(text, tree);
@@ -43,6 +47,12 @@ std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string
                 throw UsageError(
                     fmt::format("--density: \"{}\" has two densities; give it one", tree.phases.names[phase.index]));
         all.push_back(density);
+    }
+    for (std::size_t i = 1; i < model.densities.size(); ++i) {
+        const Phase phase{static_cast<std::uint8_t>(i)};
+        const auto is_phase = [&](const auto& one) { return one.first == phase; };
+        if (model.densities[i] && phases(tree.object).contains(phase) && std::ranges::none_of(all, is_phase))
+            all.emplace_back(phase, *model.densities[i]);
     }
     return all;
 }

@@ -8,6 +8,7 @@
 
 #include "phasetree/io/tree.hpp"
 #include "phasetree/model/phase.hpp"
+#include "scene/scene.hpp"
 
 namespace CLI {
 class App;
@@ -18,9 +19,11 @@ namespace phasetree::tracer {
 // Adds the option --density PHASE=VALUE, which may be repeated.
 void add_densities(CLI::App& command, std::vector<std::string>& texts);
 
-// Parses the option's values, in kg/m³. Throws UsageError if one is malformed, names a phase that the object lacks, or
-// names the same phase as another.
-std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree);
+// The densities of the object's phases in kg/m³: those of the option, which are parsed here, and those of the scene for
+// other phases. Throws UsageError if one of the option is malformed, names a phase that the object lacks, or names the
+// same phase as another.
+std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree,
+                                                   const SceneModel& model);
 
 // The phase of the object with this name. Throws UsageError that begins with the option's name.
 Phase phase_named(const std::string& name, const SceneTree& tree, const std::string& option);

@@ -16,6 +16,8 @@ inline constexpr int success = 0;
 inline constexpr int failure = 1;
 inline constexpr int usage = 2;
 inline constexpr int tree_only = 3;
+inline constexpr int refuted = 4;
+inline constexpr int undecided = 5;
 // EX_TEMPFAIL of sysexits.h, by which batch systems recognise that the job may be retried.
 inline constexpr int resumable = 75;
 // What shells report for a program ended by SIGINT.
@@ -33,6 +35,8 @@ inline constexpr std::array exit_codes{
     ExitCode{exit_code::failure, "output cannot be written, memory or threads run out, or SIGTERM or SIGHUP"},
     ExitCode{exit_code::usage, "the scene, another input or an option is wrong"},
     ExitCode{exit_code::tree_only, "check: the scene is valid but has no camera"},
+    ExitCode{exit_code::refuted, "check --prove: a statement is refuted"},
+    ExitCode{exit_code::undecided, "check --prove: a statement is undecided, and none is refuted"},
     ExitCode{exit_code::resumable, "SIGTERM or SIGHUP ended a render that --resume can continue"},
     ExitCode{exit_code::interrupted, "Ctrl-C"}};
 

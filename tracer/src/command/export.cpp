@@ -171,7 +171,8 @@ void add_export(CLI::App& app, Run& run) {
         ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface. Neighbouring phases\n"
         "share vertices, so there are no gaps or overlaps. .3mf, .obj and .glb have one coloured object\n"
         "per phase; an .obj comes with an .mtl. The unit of length is a millimetre in .3mf and a metre\n"
-        "in .glb. An .stl has the outer surface of all phases; with {phase} in its name, one file per\n"
+        "in .glb; lengths are converted to it if the scene has a \"unit\". An .stl has the outer surface of all "
+        "phases; with {phase} in its name, one file per\n"
         "phase is written. A .ply has each triangle once, with the phases on both sides. Another\n"
         "--max-memory may change the last digits of coordinates.\n"
         "\n"
@@ -201,7 +202,8 @@ void add_export(CLI::App& app, Run& run) {
     command
         ->add_option(
             "--scale", options->mesh.scale,
-            "Triangles: enlarge the object by this factor, such as 25.4 to print a scene in inches (default: 1)")
+            "Triangles: enlarge the object by this factor (default: in .3mf and .glb, what converts the scene's "
+            "\"unit\" to that of the format; else 1)")
         ->check(is_positive("a factor such as 25.4"), "", "factor")
         ->option_text("FACTOR");
     command

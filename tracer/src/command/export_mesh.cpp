@@ -185,6 +185,15 @@ void check_scale(const PhaseMesh& mesh, float scale) {
                                      farthest * scale > most ? "large" : "small"));
 }
 
+// The unit of these formats is fixed.
+float default_scale(const MeshExport& wanted, const std::optional<LengthUnit>& unit) {
+    if (!unit) return 1;
+    const std::string extension = path(wanted.output).extension().string();
+    constexpr double millimetres = 1000;
+    if (extension == ".3mf") return static_cast<float>(unit->metres * millimetres);
+    return extension == ".glb" ? static_cast<float>(unit->metres) : 1;
+}
+
 int report_interruption() {
     say("phasetree: interrupted; no file was written\n");
     return code_of_interruption(false);
@@ -202,7 +211,9 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
         throw UsageError(
             fmt::format("{} requires an .stl file; the other formats store all phases in one file", phase_in_name));
     const Document document = read_document(file);
-    const SceneTree tree = read_model(document, wanted.object);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, wanted.object);
+    const float scale = wanted.scale.value_or(default_scale(wanted, model.unit));
     const InterruptGuard guard;
     MeshedObject object;
     try {
@@ -217,9 +228,9 @@ int export_mesh(const SceneFile& file, const MeshExport& wanted) {
             fmt::format("cannot write \"{}\": there are no triangles at a spacing of {:.4g}; reduce --spacing",
                         wanted.output, object.mesh.spacing));
     say_what_is_lost(object);
-    check_scale(object.mesh, wanted.scale);
-    for (glm::vec3& v : object.mesh.vertices) v *= wanted.scale;
-    object.scale = wanted.scale;
+    check_scale(object.mesh, scale);
+    for (glm::vec3& v : object.mesh.vertices) v *= scale;
+    object.scale = scale;
     try {
         write_mesh(object, wanted, tree.phases);
     } catch (const std::length_error& e) {

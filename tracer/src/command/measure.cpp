@@ -11,7 +11,9 @@
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/measure_report.hpp"
+#include "command/metres.hpp"
 #include "command/number_in.hpp"
+#include "command/quantity.hpp"
 #include "command/streams.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
@@ -27,6 +29,7 @@ struct MeasureCommand {
     std::optional<std::string> object;
     double tolerance = MeasureOptions().tolerance;
     double seconds = 30;
+    std::optional<std::string> unit;
     std::vector<std::string> densities;
     bool as_json = false;
 };
@@ -61,8 +64,10 @@ AreaResult areas_of(const SceneFile& file, const Document& document, const Scene
 int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
-    const SceneTree tree = read_model(document, chosen.object);
-    const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, chosen.object);
+    const LengthUnit unit = length_unit(chosen.unit, model);
+    const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree, model);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const InterruptGuard guard;
     const Clock::time_point start = Clock::now();
@@ -84,7 +89,8 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     options.progress = [&](float done) { progress.tell(done); };
     options.seconds =
         std::max(chosen.seconds - seconds_since(start), (1 - share_of_preparing - share_of_areas) * chosen.seconds);
-    const MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
+    MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
+    convert_to_metres(result, areas, unit);
     const MeasureReport report{file.shown(), tree.phases, result, areas};
     if (chosen.as_json)
         print_json(report);
@@ -104,8 +110,9 @@ void add_measure(CLI::App& app, Run& run) {
         "of inertia and sides of bounding boxes certainly lie in their intervals. Areas are statistical\n"
         "estimates with a standard error.\n"
         "\n"
-        "Lengths are in metres, masses in kilograms. With several objects, their union is measured;\n"
-        "--object chooses one. Ctrl-C prints what is known so far.\n"
+        "Printed lengths are in metres and masses in kilograms, whatever the unit of the scene is. With\n"
+        "several objects, their union is measured; --object chooses one. Ctrl-C prints what is known so\n"
+        "far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
         "lights, meshes, textures and voxels are not opened.");
@@ -119,6 +126,7 @@ void add_measure(CLI::App& app, Run& run) {
         ->option_text("T");
     add_duration(*command, "--time", options->seconds,
                  "Stop after this time, whatever is known by then (default: 30s)");
+    add_length_unit(*command, options->unit);
     add_densities(*command, options->densities);
     command->add_flag("--json", options->as_json, "Print JSON");
     command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });

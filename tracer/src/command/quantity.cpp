@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -16,17 +16,6 @@
 namespace phasetree::tracer {
 
 namespace {
-
-struct Unit {
-    std::string_view name;
-    double size;  // in m³ or kg
-};
-
-constexpr std::array volume_units{Unit{"mm3", 1e-9}, Unit{"ml", 1e-6}, Unit{"cm3", 1e-6}, Unit{"cl", 1e-5},
-                                  Unit{"dl", 1e-4},  Unit{"l", 1e-3},  Unit{"dm3", 1e-3}, Unit{"m3", 1}};
-constexpr std::array mass_units{Unit{"mg", 1e-6}, Unit{"g", 1e-3}, Unit{"kg", 1}, Unit{"t", 1e3}};
-constexpr std::array length_units{LengthUnit{"mm", 1e-3}, LengthUnit{"cm", 1e-2}, LengthUnit{"m", 1},
-                                  LengthUnit{"in", 0.0254}};
 
 constexpr std::string_view word_for_all = "total";
 
@@ -64,15 +53,15 @@ QuantityParts parts_of(const std::string& text) {
 }
 
 // Accepts mL and L, and the digit as a superscript.
-const Unit& unit_named(const std::string& name, std::span<const Unit> units) {
+const NamedUnit& unit_named(const std::string& name, std::span<const NamedUnit> units) {
     std::string plain = name;
     if (const std::size_t cubed = plain.find("³"); cubed != plain.npos)
         plain.replace(cubed, std::string("³").size(), "3");
     if (plain == "L" || plain == "mL" || plain == "cL" || plain == "dL") plain.back() = 'l';
-    const auto found = std::ranges::find(units, plain, &Unit::name);
+    const auto found = std::ranges::find(units, plain, &NamedUnit::name);
     if (found != units.end()) return *found;
     std::vector<std::string_view> names;
-    for (const Unit& u : units) names.push_back(u.name);
+    for (const NamedUnit& u : units) names.push_back(u.name);
     throw UsageError(fmt::format("--until: unknown unit \"{}\" (choose from {})", name, fmt::join(names, ", ")));
 }
 
@@ -108,10 +97,18 @@ void set_masses(Quantity& quantity, const std::vector<Phase>& chosen, const Quan
 
 }  // namespace
 
-LengthUnit length_unit(const std::string& name) {
-    const auto found = std::ranges::find(length_units, name, &LengthUnit::name);
-    if (found != length_units.end()) return *found;
-    throw UsageError(fmt::format("--unit: unknown unit \"{}\" (choose from mm, cm, m, in)", name));
+void add_length_unit(CLI::App& command, std::optional<std::string>& name, const std::string& files) {
+    command
+        .add_option("--unit", name,
+                    fmt::format("{}{}nit of the scene's lengths: {} (default: the scene's \"unit\", or m)", files,
+                                files.empty() ? "U" : "u", names_of_length_units()))
+        ->option_text("UNIT");
+}
+
+LengthUnit length_unit(const std::optional<std::string>& name, const SceneModel& model) {
+    if (!name) return model.unit.value_or(LengthUnit{"m", 1});
+    if (const auto unit = length_unit_named(*name)) return *unit;
+    throw UsageError(fmt::format("--unit: unknown unit \"{}\" (choose from {})", *name, names_of_length_units()));
 }
 
 Quantity quantity_of(const std::string& text, const SceneTree& tree, const LengthUnit& lengths,

@@ -1,6 +1,7 @@
 // A volume or mass with a value, as in "volume(water) = 330 ml".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,17 +9,20 @@
 
 #include "phasetree/io/tree.hpp"
 #include "phasetree/measuring/solve.hpp"
+#include "scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace phasetree::tracer {
 
-// The unit of a scene's lengths.
-struct LengthUnit {
-    std::string_view name;
-    double metres = 1;
-};
+// Adds the option --unit. `files` names the files that it applies to, such as "SVG: ".
+void add_length_unit(CLI::App& command, std::optional<std::string>& name, const std::string& files = "");
 
-// The unit of this name: mm, cm, m or in. Throws UsageError that begins with "--unit: ".
-LengthUnit length_unit(const std::string& name);
+// The unit that the option names; else that of the scene; else the metre. Throws UsageError that begins with "--unit:
+// ".
+LengthUnit length_unit(const std::optional<std::string>& name, const SceneModel& model);
 
 struct Quantity {
     std::string name;    // such as "volume(water)"

@@ -17,6 +17,7 @@
 #include "command/looks.hpp"
 #include "command/number_in.hpp"
 #include "command/overwritten_files.hpp"
+#include "command/quantity.hpp"
 #include "command/slice_picture.hpp"
 #include "command/streams.hpp"
 #include "output/error.hpp"
@@ -40,7 +41,7 @@ struct SliceCommand {
     std::optional<double> from, to;
     std::optional<std::string> object;
     std::string output = "slice.svg";
-    std::string unit = "m";
+    std::optional<std::string> unit;
     double tolerance = 0;
     int size = 1000;
 
@@ -103,10 +104,11 @@ class SliceDrawing {
         : file_(file),
           chosen_(chosen),
           document_(read_document(file)),
-          tree_(read_model(document_, chosen.object)),
+          model_(read_scene_model(document_)),
+          tree_(tree_of_model(document_, model_, chosen.object)),
           program_(record_tree(document_, tree_.object)),
           traceable_(made_of_tree(document_, [&] { return prepare_to_trace(tree_.object); })),
-          frame_{tree_.phases, distinct_colors(tree_.phases), length_unit(chosen.unit), {}, {}, {}} {
+          frame_{tree_.phases, distinct_colors(tree_.phases), length_unit(chosen.unit, model_), {}, {}, {}} {
         print_warning(file.shown(), traceable_.warning);
     }
 
@@ -180,6 +182,7 @@ class SliceDrawing {
     const SceneFile& file_;
     const SliceCommand& chosen_;
     Document document_;
+    SceneModel model_;
     SceneTree tree_;
     Program program_;
     TraceableObject traceable_;
@@ -230,8 +233,7 @@ void add_slice_options(CLI::App& command, SliceCommand& options) {
     command.add_option("--size", options.size, "PNG: pixels along the longer side (default: 1000)")
         ->check(CLI::Range(1, 16'384))
         ->option_text("N");
-    command.add_option("--unit", options.unit, "SVG: unit of the scene's lengths: mm, cm, m or in (default: m)")
-        ->option_text("UNIT");
+    add_length_unit(command, options.unit, "SVG: ");
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct SolveCommand {
     std::optional<std::string> object, output;
     double tolerance = 0;
     double seconds = 120;
-    std::string unit = "m";
+    std::optional<std::string> unit;
     std::vector<std::string> densities;
     bool as_json = false;
 };
@@ -118,16 +118,17 @@ SolveOptions options_of(const SolveCommand& chosen, LateProgress& progress) {
 
 int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
     const AvailableThreads threads;
-    const LengthUnit lengths = length_unit(chosen.unit);
     if (chosen.output) check_file_writable(*chosen.output);
     const Document document = read_document(file);
     if (chosen.output) {
         check_overwrites(file, document, named_files_of("--output", std::span(&*chosen.output, 1)));
         check_same_folder(document, document.root(), *chosen.output);
     }
-    const SceneTree tree = read_model(document, chosen.object);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, chosen.object);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
-    const Quantity quantity = quantity_of(chosen.quantity, tree, lengths, densities_of(chosen.densities, tree));
+    const Quantity quantity = quantity_of(chosen.quantity, tree, length_unit(chosen.unit, model),
+                                          densities_of(chosen.densities, tree, model));
     const NumberToSet number = number_to_set(chosen.number, document);
     EditedScene scene(file, document, number.pointer, chosen.object);
     const InterruptGuard guard;
@@ -174,8 +175,7 @@ void add_solve_options(CLI::App& command, SolveCommand& options) {
         ->check(number_in(1e-12, 1e12))
         ->option_text("WIDTH");
     add_duration(command, "--time", options.seconds, "Stop after this time, whatever is known by then (default: 120s)");
-    command.add_option("--unit", options.unit, "Unit of the scene's lengths: mm, cm, m or in (default: m)")
-        ->option_text("UNIT");
+    add_length_unit(command, options.unit);
     add_densities(command, options.densities);
     command
         .add_option("-o,--output", options.output,

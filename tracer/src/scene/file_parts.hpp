@@ -14,6 +14,7 @@ struct FileParts {
 
     std::optional<Value> schema{};
     std::optional<Value> version{};
+    std::optional<Value> unit{};
     std::optional<Value> phases{};
     std::optional<Value> shapes{};
     std::optional<Value> tree{};
@@ -25,6 +26,7 @@ struct FileParts {
     std::optional<Value> background{};
     std::optional<Value> camera{};
     std::optional<Value> render{};
+    std::optional<Value> expect{};
 
     template <class V>
     static void parameters(V&& v) {
@@ -36,13 +38,21 @@ struct FileParts {
                                     "name of a file",
                                     R"({"type": "string"})"});
         v(&P::version, PartParameter{{"version", "", "Version of the format."}, "1", R"({"const": 1})"});
-        v(&P::phases, PartParameter{{"phases", "",
-                                     "The phases of the tree: their names and their materials. A scene of meshes alone "
-                                     "has neither phases nor a tree.",
-                                     limits::any, true},
-                                    "object of materials",
-                                    R"({"type": "object", "minProperties": 1, "maxProperties": 63,
-                                        "additionalProperties": {"$ref": "#/definitions/material"}})"});
+        v(&P::unit, PartParameter{{"unit", "",
+                                   "Unit of the lengths: \"mm\", \"cm\", \"m\" or \"in\", for measures, drawings and "
+                                   "files of other programs. It changes no picture. By default, a metre.",
+                                   limits::any, true},
+                                  "text",
+                                  R"({"$ref": "#/definitions/unit"})"});
+        v(&P::phases,
+          PartParameter{{"phases", "",
+                         "The phases of the tree: their names and their materials. A phase may also have a "
+                         "\"density\" in kg/m³, from 0 to 10¹², beside its material; it changes no picture. A "
+                         "scene of meshes alone has neither phases nor a tree.",
+                         limits::any, true},
+                        "object of materials",
+                        R"({"type": "object", "minProperties": 1, "maxProperties": 63,
+                                        "additionalProperties": {"$ref": "#/definitions/phase"}})"});
         v(&P::shapes,
           PartParameter{{"shapes", "", "Named parts of the tree that can be used several times.", limits::any, true},
                         "object of fields and objects",
@@ -86,6 +96,12 @@ struct FileParts {
           PartParameter{{"render", "", "Size of the image and settings of the renderer.", limits::any, true},
                         "render",
                         R"({"$ref": "#/definitions/render"})"});
+        v(&P::expect, PartParameter{{"expect", "",
+                                     "Statements about the object that \"phasetree check --prove\" proves or refutes. "
+                                     "They change no picture.",
+                                     limits::any, true},
+                                    "list of statements",
+                                    R"({"type": "array", "items": {"$ref": "#/definitions/expectation"}})"});
     }
 };
 

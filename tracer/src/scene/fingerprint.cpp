@@ -11,6 +11,7 @@
 #include "phasetree_support/reading.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/named_files.hpp"
+#include "scene/phase_entry.hpp"
 
 namespace phasetree::tracer {
 
@@ -39,7 +40,30 @@ void put_string(Checksum& sum, const Document& document, Value value) {
     for (const std::filesystem::path& path : named_files(document, value)) put_file(sum, path);
 }
 
-void put_value(Checksum& sum, const Document& document, Value value) {
+// Parts of a scene that have no effect on the samples of its pictures.
+constexpr std::array<std::string_view, 3> parts_without_effect{"render", "unit", "expect"};
+
+// Where a value is. What changes no picture is left out, so that films made before it was added are still recognised.
+enum class Place { elsewhere, objects, object, phases, phase };
+
+Place place_in(Place outer, Value member) {
+    switch (outer) {
+        case Place::objects:
+            return Place::object;
+        case Place::object:
+            return member.key() == "phases" ? Place::phases : Place::elsewhere;
+        case Place::phases:
+            return Place::phase;
+        default:
+            return Place::elsewhere;
+    }
+}
+
+bool changes_no_picture(Place outer, Value member) {
+    return outer == Place::phase && is_phase_parameter(member.key());
+}
+
+void put_value(Checksum& sum, const Document& document, Value value, Place place = Place::elsewhere) {
     const auto kind = static_cast<unsigned char>(value.kind());
     sum.put(&kind, 1);
     put(sum, value.key());
@@ -61,9 +85,11 @@ void put_value(Checksum& sum, const Document& document, Value value) {
             break;
         case Kind::array:
         case Kind::object: {
-            const std::uint64_t size = value.size();
+            std::uint64_t size = 0;
+            for (const Value member : value) size += changes_no_picture(place, member) ? 0 : 1;
             sum.put(&size, sizeof size);
-            for (const Value member : value) put_value(sum, document, member);
+            for (const Value member : value)
+                if (!changes_no_picture(place, member)) put_value(sum, document, member, place_in(place, member));
         }
     }
 }
@@ -75,8 +101,13 @@ std::uint64_t fingerprint(const Document& document) {
     each_document(document, [&](const Document& d) {
         const bool is_the_scene = &d == &document;
         if (!is_the_scene) return put_value(sum, d, d.root());
-        for (const Value part : d.root())
-            if (part.key() != "render") put_value(sum, d, part);
+        for (const Value part : d.root()) {
+            if (std::ranges::find(parts_without_effect, part.key()) != parts_without_effect.end()) continue;
+            const Place place = part.key() == "phases"    ? Place::phases
+                                : part.key() == "objects" ? Place::objects
+                                                          : Place::elsewhere;
+            put_value(sum, d, part, place);
+        }
     });
     // At time 0 the fingerprint is the same as before scenes had a time.
     if (const double seconds = document.seconds(); seconds != 0) sum.put(&seconds, sizeof seconds);

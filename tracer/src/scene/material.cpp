@@ -6,6 +6,7 @@
 
 #include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
+#include "scene/phase_entry.hpp"
 #include "scene/read_parts.hpp"
 #include "shading/metals.hpp"
 #include "spectrum/glasses.hpp"
@@ -122,13 +123,36 @@ Mix MixParameters::made() const {
     return {std::make_shared<const Mixture>(Mixture{first, second}), amount};
 }
 
-Material read_material(const Document& document, Value value) {
+namespace {
+
+// Reads a material from the member that is named after its kind, which is one of these.
+template <class... Kinds>
+Material material_of_member(TypeList<Kinds...>, const Document& document, Value member) {
+    const std::string_view names[] = {Kinds::info.name...};
+    check_kind(document, member, "a material", names);
     Material material;
-    with_kind(MaterialKinds(), document, value, "a material", [&]<class Kind>(Value member) {
+    const auto read = [&]<class Kind>(const Kind*) {
         material = read_kind<Kind>(document, member, fmt::format("the {} material", Kind::info.name),
                                    [](const Kind& kind) { return kind.made(); });
-    });
+    };
+    ((is_kind(member, Kinds::info.name) ? read(static_cast<const Kinds*>(nullptr)) : void()), ...);
     return material;
+}
+
+}  // namespace
+
+Material read_material(const Document& document, Value value) {
+    Material material;
+    with_kind(MaterialKinds(), document, value, "a material",
+              [&]<class Kind>(Value member) { material = material_of_member(TypeList<Kind>(), document, member); });
+    return material;
+}
+
+Material read_material_of_phase(const Document& document, Value phase) {
+    const PhaseEntry entry = phase_entry(document, phase);
+    if (!entry.has_parameters) return read_material(document, phase);
+    if (entry.material) return material_of_member(MaterialKinds(), document, *entry.material);
+    throw document.error(phase, "the phase has no material, which a picture needs, such as {\"diffuse\": {…}}");
 }
 
 }  // namespace phasetree::tracer

@@ -48,10 +48,10 @@ struct ObjectParameters {
         v(&P::transform, PartParameter{{"transform", "", "Transform from the object to the scene.", limits::any, true},
                                        "transform or list",
                                        transform_schema});
-        v(&P::phases,
-          PartParameter{{"phases", "", "Replaces the materials of phases, for this object only.", limits::any, true},
-                        "object of materials",
-                        R"({"type": "object", "additionalProperties": {"$ref": "#/definitions/material"}})"});
+        v(&P::phases, PartParameter{{"phases", "", "Replaces phases' materials and densities, for this object only.",
+                                     limits::any, true},
+                                    "object of materials",
+                                    R"({"type": "object", "additionalProperties": {"$ref": "#/definitions/phase"}})"});
     }
 };
 

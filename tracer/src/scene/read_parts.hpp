@@ -13,6 +13,8 @@
 namespace phasetree::tracer {
 
 Material read_material(const Document& document, Value value);
+// The material in an entry of "phases".
+Material read_material_of_phase(const Document& document, Value phase);
 // The materials of all phases, the vacuum first; nullopt for phases without one.
 std::vector<std::optional<Material>> read_materials(const Document& document);
 // Does not cluster lamps, because more may be added.

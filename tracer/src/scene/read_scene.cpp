@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "phasetree/trace/tracer.hpp"
+#include "scene/expectations.hpp"
 #include "scene/file_parts.hpp"
 #include "scene/find_emissive_parts.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/meshes_alone.hpp"
 #include "scene/nothing_left.hpp"
+#include "scene/phase_entry.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/unbounded_error.hpp"
 
@@ -61,7 +63,7 @@ void check_version(const Document& document, Value version) {
 }
 
 Material read_phase_material(const Document& document, Value phase) {
-    Material material = read_material(document, phase);
+    Material material = read_material_of_phase(document, phase);
     if (has_texture<MeshImageTexture>(material) || has_texture<MeshImageNumber>(material))
         throw document.error(phase,
                              "the texture \"mesh_image\" works only on meshes, because phases have no texture "
@@ -90,6 +92,15 @@ class VoxelBytes {
   private:
     std::size_t bytes_ = 0;
 };
+
+// The lengths' unit, if the file declares one.
+std::optional<LengthUnit> unit_of(const Document& document, const FileParts& parts) {
+    if (!parts.unit) return std::nullopt;
+    const auto name = as<std::string>(document, *parts.unit, "\"unit\"");
+    if (const auto unit = length_unit_named(name)) return unit;
+    throw document.error(*parts.unit,
+                         fmt::format("\"unit\" must be {}, but is \"{}\"", names_of_length_units("\""), name));
+}
 
 void refuse_places_of_nothing(const Document& document) {
     for (const char* const part : {"instances", "groups"})
@@ -132,9 +143,13 @@ void read_model_into(const Document& document, const FileParts& parts, const Shu
         }
     }
     scene.materials.push_back(vacuum());
+    scene.densities.emplace_back();
     VoxelBytes voxels;
     for (const auto& [source, phase] : materials) {
-        const bool has_material = must_be_whole(parts, purpose) || phase.is_object();
+        const PhaseEntry entry = phase_entry(source, phase);
+        scene.densities.push_back(entry.parameters.density);
+        const bool has_material =
+            must_be_whole(parts, purpose) || (phase.is_object() && (entry.material || !entry.has_parameters));
         scene.materials.push_back(has_material ? read_phase_material(source, phase) : vacuum());
         voxels.add(source, phase, scene.materials.back());
     }
@@ -150,9 +165,11 @@ Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) 
 
     Scene scene;
     scene.file = document.name();
+    scene.unit = unit_of(document, parts);
     if (parts.render) scene.settings = read_settings(document, *parts.render, scene.film);
     const Shutter shutter{scene.settings.shutter.x, scene.settings.shutter.y};
     read_model_into(document, parts, shutter, places, purpose, scene);
+    (void)read_expectations(document, {scene.phases, scene.unit ? scene.unit->metres : 1, scene.densities});
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) {
         MeshGroup group = read_meshes(document, *parts.meshes);
@@ -198,7 +215,12 @@ Scene read_scene(const Document& document, NodePlaces* places) {
 
 SceneModel read_scene_without_camera(const Document& document) {
     Scene scene = read_parts(document, Purpose::model, nullptr);
-    return {std::move(scene.phases), std::move(scene.object), std::move(scene.placed), opaque_phases(scene.materials)};
+    return {std::move(scene.phases),
+            std::move(scene.object),
+            std::move(scene.placed),
+            opaque_phases(scene.materials),
+            scene.unit,
+            std::move(scene.densities)};
 }
 
 SceneModel read_scene_model(const Document& document) {
@@ -220,6 +242,7 @@ std::vector<std::optional<Material>> read_materials(const Document& document) {
     const auto add = [&](const Document& source, Value phase) {
         std::optional<Material>& material = materials.emplace_back();
         if (!phase.is_object()) return;
+        if (const PhaseEntry entry = phase_entry(source, phase); entry.has_parameters && !entry.material) return;
         material = read_phase_material(source, phase);
         voxels.add(source, phase, *material);
     };

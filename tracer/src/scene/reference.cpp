@@ -5,15 +5,19 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "lights/light_kinds.hpp"
 #include "scene/camera_kinds.hpp"
+#include "scene/expectation_kinds.hpp"
 #include "scene/file_parts.hpp"
 #include "scene/image_parameters.hpp"
+#include "scene/length_unit.hpp"
 #include "scene/material_kinds.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/object_kinds.hpp"
+#include "scene/phase_entry.hpp"
 #include "shading/normal_map.hpp"
 
 namespace phasetree::tracer {
@@ -35,6 +39,27 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
 std::string schema_of_transform(const std::string& one) {
     return R"({"anyOf": [)" + one + R"(, {"type": "array", "minItems": 1, "items": )" + one + "}, " +
            schema_reference("keys") + "]}";
+}
+
+std::string schema_of_length_unit() {
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const LengthUnit& unit : length_units) names.push_back(unit.name);
+    return nlohmann::ordered_json{{"enum", names}}.dump();
+}
+
+// A material, or parameters of the phase with or without a material beside them.
+std::string schema_of_phase() {
+    using Json = nlohmann::ordered_json;
+    Json properties = Json::parse(schema_of(page_of<PhaseParameters>()))["properties"], parameters = Json::array();
+    for (const auto& [name, schema] : properties.items()) parameters.push_back(name);
+    for (const KindPage& kind : pages_of(MaterialKinds()))
+        properties[kind.name] = {{"$ref", fmt::format("#/definitions/material/properties/{}", kind.name)}};
+    const Json with_parameters{{"type", "object"},
+                               {"required", parameters},
+                               {"maxProperties", parameters.size() + 1},
+                               {"additionalProperties", false},
+                               {"properties", properties}};
+    return schema_of_either(schema_reference("material"), with_parameters.dump());
 }
 
 // An example of the reference, without the line feed at its end.
@@ -100,9 +125,17 @@ std::vector<Chapter> scene_chapters() {
                         pages_of(CameraKinds())});
     chapters.push_back(
         {"Render settings", "The size of the picture, and how it is rendered.", {page_of<ImageParameters>()}});
+    chapters.push_back(
+        {std::string(chapter_without_pictures),
+         "Statements in `\"expect\"`, `{\"kind\": {parameters}}`, which `phasetree check --prove` proves "
+         "or refutes. Lengths are in the scene's unit. Every phase that a statement names must be "
+         "somewhere; the phase may be the \"vacuum\" in all but \"closed\", \"wall\", \"volume\" and "
+         "\"mass\".",
+         pages_of(ExpectationKinds())});
     for (Chapter& chapter : chapters)
         for (KindPage& page : chapter.pages)
-            if (page.example.empty()) page.example = fmt::format("{}/{}", file_stem(chapter), page.name);
+            if (page.example.empty() && chapter.title != chapter_without_pictures)
+                page.example = fmt::format("{}/{}", file_stem(chapter), page.name);
     return chapters;
 }
 
@@ -127,7 +160,7 @@ std::vector<ReferencePage> scene_reference_pages(const std::filesystem::path& fo
         chapter.text += "\n\nAll chapters: [scene reference](README.md).";
         const bool is_of_nodes = std::ranges::find(nodes, chapter.title, &Chapter::title) != nodes.end();
         for (KindPage& page : chapter.pages)
-            if (!is_of_nodes) page.snippet = example_text(folder / (page.example + ".json"));
+            if (!is_of_nodes && !page.example.empty()) page.snippet = example_text(folder / (page.example + ".json"));
         pages.push_back({file_stem(chapter) + ".md", reference_markdown(chapter)});
     }
     return pages;
@@ -141,6 +174,9 @@ std::string scene_json_schema() {
         {"normal_map", schema_of(page_of<NormalMap>())},
         {"voxels", schema_of(page_of<Voxels>())},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
+        {"unit", schema_of_length_unit()},
+        {"expectation", schema_of_one(pages_of(ExpectationKinds()))},
+        {"phase", schema_of_phase()},
         {"opaque_material", schema_of_one(pages_of_opaque(MaterialKinds()))},
         {"light", schema_of_one(pages_of(LightKinds()))},
         {"mesh", schema_of_one(pages_of(MeshKinds()))},

@@ -9,6 +9,9 @@
 
 namespace phasetree::tracer {
 
+// Statements cannot be shown.
+inline constexpr std::string_view chapter_without_pictures = "Statements";
+
 std::vector<Chapter> scene_chapters();
 
 // For a terminal.

@@ -11,6 +11,7 @@
 #include "film/film_settings.hpp"
 #include "lights/lights.hpp"
 #include "phasetree/io/tree.hpp"
+#include "scene/length_unit.hpp"
 #include "scene/mesh.hpp"
 #include "scene/placed.hpp"
 #include "shading/material.hpp"
@@ -46,9 +47,11 @@ struct RenderSettings {
 // The objects of a scene, without materials, lights and surroundings.
 struct SceneModel {
     PhaseNames phases;
-    Phased object;         // of a scene with one tree; otherwise empty
-    PlacedObjects placed;  // of a scene with several objects; otherwise empty
-    PhaseSet opaque;       // the phases that light does not travel in; phases without a material are clear
+    Phased object;                   // of a scene with one tree; otherwise empty
+    PlacedObjects placed;            // of a scene with several objects; otherwise empty
+    PhaseSet opaque;                 // the phases that light does not travel in; phases without a material are clear
+    std::optional<LengthUnit> unit;  // of its lengths, if the file declares one
+    std::vector<std::optional<double>> densities;  // by phase, in kg/m³; [0] is the vacuum's, which has none
 };
 
 struct Scene {
@@ -57,6 +60,8 @@ struct Scene {
     Phased object;                    // of a scene with one tree; otherwise empty
     PlacedObjects placed;             // of a scene with several objects; otherwise empty
     std::vector<Material> materials;  // by phase; [0] is the vacuum
+    std::optional<LengthUnit> unit;   // as in SceneModel
+    std::vector<std::optional<double>> densities;
     std::vector<Mesh> meshes;
     std::vector<std::string> not_shown;  // sentences about contents of mesh files that the scene lacks
     Lights lights;

@@ -14,6 +14,9 @@ namespace phasetree {
 /// unless its key is one of `kinds`. `what` names the choice in messages ("a material").
 Value member_of_kind(const Document&, Value, std::string_view what, std::span<const std::string_view> kinds);
 
+/// Check that the key of a choice's member is one of `kinds`. Throws SceneError as member_of_kind() does.
+void check_kind(const Document&, Value member, std::string_view what, std::span<const std::string_view> kinds);
+
 /// Whether a member is of the kind with this name, in either spelling (is_other_spelling).
 bool is_kind(Value member, std::string_view name);
 

@@ -1,0 +1,116 @@
+// Proving: statements about an object that are proved, refuted with points that show it, or left undecided.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "phasetree/measuring/measure.hpp"
+
+namespace phasetree {
+
+/// The phase is somewhere.
+struct IsPresent {
+    Phase phase;
+};
+/// The phase is somewhere, and in one piece: any two of its points are joined by a path in the phase.
+struct IsConnected {
+    Phase phase;
+};
+/// Every path from any of the phases in `inside` to the space around the object crosses one of the phases in `walls`.
+/// All of these phases are somewhere.
+struct IsClosed {
+    PhaseSet walls, inside;
+};
+/// Both phases are somewhere, they do not touch, and no point of the first is closer than this to a point of the
+/// second.
+struct AreApart {
+    Phase first, second;
+    double at_least = 0;  ///< in the scene's unit of length. Not negative
+};
+/// The two phases touch somewhere.
+struct AreTouching {
+    Phase first, second;
+};
+/// The phase is somewhere, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
+/// centre of a ball of this diameter that lies in the phase.
+///
+/// With a reach of half the diameter, which is the least, each point would have to be in such a ball; then no object
+/// with a sharp edge has walls. With the default, edges and corners count as thick if they are no sharper than 60
+/// degrees. But then a dent that is narrower than about twice the diameter, or a point where a wall is slightly too
+/// thin, may be passed over.
+struct IsThick {
+    Phase phase;
+    double at_least = 0;  ///< in the scene's unit of length. Positive
+    double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
+};
+/// The volume of the phases together is in this interval.
+struct HasVolume {
+    std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
+    double at_least = 0, at_most = std::numeric_limits<double>::infinity();
+};
+using Statement = std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume>;
+
+enum class Verdict { proved, refuted, undecided };
+/// "proved", "refuted" or "undecided".
+std::string_view name_of(Verdict);
+
+/// A point, and the phase that certainly is there.
+struct Witness {
+    glm::vec3 point;
+    Phase phase;
+};
+
+/// What is known of a statement.
+struct Proof {
+    Verdict verdict = Verdict::undecided;
+    /// Why, in words, without the names of phases; empty if there is nothing to add.
+    std::string reason{};
+    /// Points that show the verdict; see prove(). Empty if none are needed, or none are known.
+    std::vector<Witness> witnesses{};
+    double resolution = 0;  ///< the side of the smallest boxes that were looked at
+    Measured measured{};    ///< HasVolume: the sum of the volumes times their weights
+};
+
+struct ProveOptions {
+    /// The side of the smallest boxes; 0 for 1/256 of the object's longest side. Not negative. Smaller features stay
+    /// undecided.
+    double resolution = 0;
+    double seconds = std::numeric_limits<double>::infinity();  ///< end after this time. Positive
+    /// End once more than this many boxes are needed. Unlike the time, this limit gives equal results on all machines.
+    std::size_t max_boxes = std::size_t{1} << 25;
+    std::function<bool()> cancelled{};      ///< polled from any thread; return true to get what is known so far
+    std::function<void(float)> progress{};  ///< receives a guess of the share of the work that is done
+};
+
+/// Decide statements about an object.
+///
+/// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
+/// statement is decided from the boxes that are certainly in a phase, those that certainly do not meet it, and the
+/// rest, which may or may not. Boxes become smaller until all statements are decided, or end at the resolution.
+///
+/// *What is certain.* A statement that is proved or refuted is true or false of the sets of points whose smallest
+/// component is that of a phase, up to the rounding errors that measure() allows for. "Somewhere" and "a piece" mean
+/// sets with an interior. Witnesses are points that certainly are in their phases:
+///
+/// | verdict | witnesses |
+/// |---|---|
+/// | present: proved | a point in the phase |
+/// | connected: refuted | two points of the phase in different pieces |
+/// | closed: refuted | a path from a phase inside to the space around the object: each point, and each segment between
+/// two of them, is outside the walls | | apart: refuted | a point of each phase, closer to each other than required,
+/// or, if the phases touch, a point of each | | touching: proved | a point of each phase | | thick: refuted | a point
+/// of the phase that is not within reach of a ball |
+///
+/// A phase that certainly is nowhere refutes a statement without a witness.
+///
+/// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
+/// cancelled. Throws ModelError if the object is empty or unbounded, or if an argument is out of its range.
+std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
+
+}  // namespace phasetree

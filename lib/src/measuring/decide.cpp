@@ -1,0 +1,338 @@
+// Statements that only need to know which boxes are next to which.
+//
+// *Sets of boxes.* A box is *in* a phase if all of it certainly is, and *may meet* it otherwise, unless it certainly
+// does not. What is connected through boxes in a phase that share faces is connected in the phase. What is not
+// connected through boxes that may meet the phase and share at least a point is not connected in it.
+#include "measuring/decide.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+
+namespace phasetree::measuring {
+
+namespace {
+
+// Sets of leaves.
+class Groups {
+  public:
+    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
+    std::uint32_t group(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        a = group(a);
+        b = group(b);
+        // The lower index is kept, so that results do not depend on the order.
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+Proof nowhere() {
+    return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
+}
+
+// The groups of the leaves for which `is_wanted` holds; those that share a face, or at least a point, are together.
+template <class IsWanted>
+Groups groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted& is_wanted) {
+    Groups groups(octree.leaves.size());
+    for (std::size_t i = 0; i < octree.leaves.size(); ++i) {
+        if (!is_wanted(octree.leaves[i])) continue;
+        const auto unite = [&](std::size_t other) {
+            if (is_wanted(octree.leaves[other]))
+                groups.unite(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other));
+        };
+        if (!by_faces) {
+            octree.around_leaf_once(octree.leaves[i], unite);
+            continue;
+        }
+        for (const int direction : {1, 3, 5}) octree.across_face(octree.leaves[i], direction, unite);
+    }
+    return groups;
+}
+
+// The largest leaf, of those for which `is_wanted` holds; the first one of equals.
+template <class IsWanted>
+std::optional<std::uint32_t> largest(const PhaseOctree& octree, const IsWanted& is_wanted) {
+    std::optional<std::uint32_t> found;
+    for (std::size_t i = 0; i < octree.leaves.size(); ++i)
+        if (is_wanted(i) && (!found || octree.leaves[i].level < octree.leaves[*found].level))
+            found = static_cast<std::uint32_t>(i);
+    return found;
+}
+
+// Whether each point of the phase in a leaf in doubt is joined to a box in the phase: the leaf *drains*. It does if
+// there is a direction in which the phase's component does not rise anywhere in the leaf, and each leaf on that side is
+// in the phase, drains, or does not meet the phase. A point of the phase may then move in that direction until it
+// leaves the leaf, and stays in the phase.
+bool all_drain(const PhaseOctree& octree, int phase) {
+    const std::vector<OctreeLeaf>& leaves = octree.leaves;
+    std::vector<bool> is_good(leaves.size());
+    std::queue<std::uint32_t> fresh;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (!leaves[i].is_possible(phase)) continue;
+        is_good[i] = leaves[i].is_only(phase);
+        if (is_good[i])
+            fresh.push(static_cast<std::uint32_t>(i));
+        else
+            ++left;
+    }
+    const auto drains = [&](const OctreeLeaf& leaf) {
+        const std::uint8_t falls = octree.falls_of(leaf, phase);
+        for (int direction = 0; direction < 6; ++direction) {
+            if (((falls >> direction) & 1) == 0) continue;
+            bool is_all = true, is_any = false;
+            octree.across_face(leaf, direction, [&](std::size_t i) {
+                is_any = true;
+                is_all = is_all && (is_good[i] || !leaves[i].is_possible(phase));
+            });
+            if (is_any && is_all) return true;
+        }
+        return false;
+    };
+    for (; !fresh.empty(); fresh.pop())
+        for (int direction = 0; direction < 6; ++direction)
+            octree.across_face(leaves[fresh.front()], direction, [&](std::size_t i) {
+                if (is_good[i] || !leaves[i].is_possible(phase) || !drains(leaves[i])) return;
+                is_good[i] = true;
+                fresh.push(static_cast<std::uint32_t>(i));
+                --left;
+            });
+    return left == 0;
+}
+
+bool is_at_boundary(const PhaseOctree& octree, const OctreeLeaf& leaf) {
+    const PhaseOctree::Cell at = octree.cell_of(leaf.key);
+    const std::uint32_t size = octree.size_of(leaf);
+    return std::ranges::any_of(at, [&](std::uint32_t v) { return v == 0 || v + size == octree.count(); });
+}
+
+// Whether boxes that may meet the inside are separated by boxes in the walls from the space around the object.
+bool is_separated(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t inside) {
+    std::vector<bool> is_reached(octree.leaves.size());
+    std::queue<std::uint32_t> fresh;
+    bool is_inside_reached = false;
+    const auto reach = [&](std::size_t i) {
+        const OctreeLeaf& leaf = octree.leaves[i];
+        if (is_reached[i] || (leaf.possible & ~walls) == 0) return;
+        is_reached[i] = true;
+        is_inside_reached = is_inside_reached || (leaf.possible & inside) != 0;
+        fresh.push(static_cast<std::uint32_t>(i));
+    };
+    for (std::size_t i = 0; i < octree.leaves.size(); ++i)
+        if (is_at_boundary(octree, octree.leaves[i])) reach(i);
+    for (; !fresh.empty() && !is_inside_reached; fresh.pop()) octree.around_leaf(octree.leaves[fresh.front()], reach);
+    return !is_inside_reached;
+}
+
+// The leaves of a path through boxes outside the walls, from one in a phase inside to the space around the object.
+std::vector<std::uint32_t> leak(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t inside) {
+    constexpr std::uint32_t none = 0xffffffff;
+    std::vector<std::uint32_t> from(octree.leaves.size(), none);
+    std::queue<std::uint32_t> fresh;
+    const auto is_free = [&](std::size_t i) { return (octree.leaves[i].possible & walls) == 0; };
+    for (std::size_t i = 0; i < octree.leaves.size(); ++i)
+        if (is_free(i) && is_at_boundary(octree, octree.leaves[i])) {
+            from[i] = static_cast<std::uint32_t>(i);
+            fresh.push(from[i]);
+        }
+    for (; !fresh.empty(); fresh.pop()) {
+        const std::uint32_t at = fresh.front();
+        const OctreeLeaf& leaf = octree.leaves[at];
+        if (leaf.is_certain() && (leaf.possible & inside) != 0) {
+            std::vector<std::uint32_t> path{at};
+            while (from[path.back()] != path.back()) path.push_back(from[path.back()]);
+            return path;
+        }
+        for (int direction = 0; direction < 6; ++direction)
+            octree.across_face(leaf, direction, [&](std::size_t i) {
+                if (from[i] != none || !is_free(i)) return;
+                from[i] = at;
+                fresh.push(static_cast<std::uint32_t>(i));
+            });
+    }
+    return {};
+}
+
+struct ClosestPair {
+    double distance;
+    std::uint32_t first, second;
+};
+
+// The pair of leaves, one of each list, that are closest to each other, if they are closer than `limit`.
+class ClosestLeaves {
+  public:
+    ClosestLeaves(const PhaseOctree& octree, double limit) : octree_(octree) { best_.distance = limit; }
+    std::optional<ClosestPair> run(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+        if (!a.empty() && !b.empty()) search(a, b);
+        return is_found_ ? std::optional(best_) : std::nullopt;
+    }
+
+  private:
+    void search(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+        const Cube of_a = cube_of(octree_, a), of_b = cube_of(octree_, b);
+        const double distance = of_a.distance(of_b);
+        if (!(distance < best_.distance)) return;
+        if (a.size() == 1 && b.size() == 1) {
+            best_ = {distance, a.front(), b.front()};
+            is_found_ = true;
+            return;
+        }
+        const bool halves_a = b.size() == 1 || (a.size() > 1 && of_a.half_diagonal() >= of_b.half_diagonal());
+        const std::size_t middle = (halves_a ? a : b).size() / 2;
+        if (halves_a) {
+            search(a.first(middle), b);
+            search(a.subspan(middle), b);
+        } else {
+            search(a, b.first(middle));
+            search(a, b.subspan(middle));
+        }
+    }
+
+    const PhaseOctree& octree_;
+    ClosestPair best_{0, 0, 0};
+    bool is_found_ = false;
+};
+
+// Points of two boxes that are as close to each other as the boxes.
+std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
+    std::pair<glm::vec3, glm::vec3> points;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double low = std::max(a.low[k], b.low[k]), high = std::min(a.high[k], b.high[k]);
+        const bool overlap = low <= high;
+        points.first[i] = static_cast<float>(overlap                ? 0.5 * (low + high)
+                                             : a.high[k] < b.low[k] ? a.high[k]
+                                                                    : a.low[k]);
+        points.second[i] = static_cast<float>(overlap                ? 0.5 * (low + high)
+                                              : a.high[k] < b.low[k] ? b.low[k]
+                                                                     : b.high[k]);
+    }
+    return points;
+}
+
+// Points of both phases that are joined by a path on which there are no other phases.
+std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
+    const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
+    const auto is_of_both = [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; };
+    Groups groups = groups_of(e.octree, true, is_of_both);
+    std::vector<std::optional<std::uint32_t>> of_a(e.octree.leaves.size());
+    const auto is_in = [&](Phase p) { return [&, p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); }; };
+    for (const std::uint32_t i : leaves_where(e.octree, is_in(a))) of_a[groups.group(i)] = i;
+    for (const std::uint32_t i : leaves_where(e.octree, is_in(b)))
+        if (const auto other = of_a[groups.group(i)])
+            return std::vector{e.middle_of(e.octree.leaves[*other]), e.middle_of(e.octree.leaves[i])};
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool Evidence::is_nowhere(Phase phase) const {
+    return std::ranges::none_of(octree.leaves, [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase.index); });
+}
+
+std::optional<std::vector<Witness>> Evidence::points_of(PhaseSet set) const {
+    std::vector<Witness> points;
+    bool is_known = true;
+    for_each_phase(set.bits, [&](int i) {
+        const auto& p = octree.deepest[static_cast<std::size_t>(i)];
+        is_known = is_known && p.has_value();
+        if (p) points.push_back({p->point, Phase{static_cast<std::uint8_t>(i)}});
+    });
+    return is_known ? std::optional(points) : std::nullopt;
+}
+
+Witness Evidence::middle_of(const OctreeLeaf& leaf) const {
+    const std::array<double, 3> middle = octree.cube(leaf).centre();
+    return {glm::vec3(glm::dvec3(middle[0], middle[1], middle[2])),
+            Phase{static_cast<std::uint8_t>(std::countr_zero(leaf.possible))}};
+}
+
+Proof decide(const Evidence& e, const IsPresent& s) {
+    if (const auto points = e.points_of(PhaseSet::of(s.phase))) return {Verdict::proved, "", *points, 0, {}};
+    if (e.is_nowhere(s.phase)) return nowhere();
+    return {};
+}
+
+Proof decide(const Evidence& e, const IsConnected& s) {
+    const int phase = s.phase.index;
+    const auto is_in = [&](const OctreeLeaf& leaf) { return leaf.is_only(phase); };
+    if (e.is_nowhere(s.phase)) return nowhere();
+    const auto first = largest(e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]); });
+    if (!first) return {};
+    const auto may_meet = [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase); };
+    Groups apart = groups_of(e.octree, false, may_meet);
+    const auto elsewhere = largest(e.octree, [&](std::size_t i) {
+        return is_in(e.octree.leaves[i]) && apart.group(static_cast<std::uint32_t>(i)) != apart.group(*first);
+    });
+    if (elsewhere) {
+        std::vector<std::uint32_t> pieces;
+        for (const std::uint32_t i : leaves_where(e.octree, is_in)) pieces.push_back(apart.group(i));
+        std::ranges::sort(pieces);
+        const auto count = std::distance(pieces.begin(), std::ranges::unique(pieces).begin());
+        return {Verdict::refuted,
+                "it has at least " + std::to_string(count) + " pieces",
+                {e.middle_of(e.octree.leaves[*first]), e.middle_of(e.octree.leaves[*elsewhere])},
+                0,
+                {}};
+    }
+    Groups together = groups_of(e.octree, true, is_in);
+    for (const std::uint32_t i : leaves_where(e.octree, is_in))
+        if (together.group(i) != together.group(*first)) return {};
+    if (!all_drain(e.octree, phase)) return {};
+    return {Verdict::proved, "", {}, 0, {}};
+}
+
+Proof decide(const Evidence& e, const IsClosed& s) {
+    bool is_one_nowhere = false;
+    const PhaseSet all = s.walls | s.inside;
+    for_each_phase(
+        all.bits, [&](int i) { is_one_nowhere = is_one_nowhere || e.is_nowhere(Phase{static_cast<std::uint8_t>(i)}); });
+    if (is_one_nowhere) return {Verdict::refuted, "one of the phases is nowhere", {}, 0, {}};
+    if (e.points_of(all) && is_separated(e.octree, s.walls.bits, s.inside.bits))
+        return {Verdict::proved, "", {}, 0, {}};
+    const std::vector<std::uint32_t> path = leak(e.octree, s.walls.bits, s.inside.bits);
+    if (path.empty()) return {};
+    Proof proof{Verdict::refuted, "a path leads outside", {}, 0, {}};
+    for (const std::uint32_t i : path) {
+        const OctreeLeaf& leaf = e.octree.leaves[i];
+        Witness witness = e.middle_of(leaf);
+        if (!leaf.is_certain()) witness.phase = e.evaluator.label(witness.point, Evaluator::thread_workspace());
+        proof.witnesses.push_back(witness);
+    }
+    return proof;
+}
+
+Proof decide(const Evidence& e, const AreApart& s) {
+    if (e.is_nowhere(s.first) || e.is_nowhere(s.second)) return nowhere();
+    const auto may_meet = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_possible(p.index); }; };
+    const auto is_in = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); }; };
+    // Distances of boxes are rounded. Boxes that do not touch are at least a side of the smallest ones apart.
+    const double rounding = 1e-12 * e.octree.whole().half_diagonal();
+    const double limit = std::max(s.at_least * (1 + 1e-12) + rounding, 0.5 * e.octree.side());
+    const auto close = ClosestLeaves(e.octree, limit)
+                           .run(leaves_where(e.octree, may_meet(s.first)), leaves_where(e.octree, may_meet(s.second)));
+    if (!close && e.points_of(PhaseSet::of(s.first) | PhaseSet::of(s.second))) return {Verdict::proved, "", {}, 0, {}};
+    if (const auto points = contact(e, s.first, s.second)) return {Verdict::refuted, "they touch", *points, 0, {}};
+    const auto closer = ClosestLeaves(e.octree, s.at_least * (1 - 1e-6) - rounding)
+                            .run(leaves_where(e.octree, is_in(s.first)), leaves_where(e.octree, is_in(s.second)));
+    if (!closer) return {};
+    const auto [a, b] =
+        closest_points(e.octree.cube(e.octree.leaves[closer->first]), e.octree.cube(e.octree.leaves[closer->second]));
+    return {Verdict::refuted, "they are closer", {{a, s.first}, {b, s.second}}, 0, {}};
+}
+
+Proof decide(const Evidence& e, const AreTouching& s) {
+    if (e.is_nowhere(s.first) || e.is_nowhere(s.second)) return nowhere();
+    if (const auto points = contact(e, s.first, s.second)) return {Verdict::proved, "", *points, 0, {}};
+    if (decide(e, AreApart{s.first, s.second, 0}).verdict == Verdict::proved)
+        return {Verdict::refuted, "they do not touch", {}, 0, {}};
+    return {};
+}
+
+}  // namespace phasetree::measuring

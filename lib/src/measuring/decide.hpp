@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "measuring/phase_octree.hpp"
+#include "phasetree/evaluation/evaluator.hpp"
+#include "phasetree/measuring/prove.hpp"
+
+namespace phasetree::measuring {
+
+/// What statements are decided from.
+struct Evidence {
+    const PhaseOctree& octree;
+    const Evaluator& evaluator;
+    const std::function<bool()>& is_stopped;
+
+    /// Whether no box may contain the phase.
+    bool is_nowhere(Phase) const;
+    /// A point of each of these phases; nothing if one is not known.
+    std::optional<std::vector<Witness>> points_of(PhaseSet) const;
+    /// The point in the middle of a box that is certainly in one phase.
+    Witness middle_of(const OctreeLeaf&) const;
+};
+
+/// Each returns a verdict, or "undecided" if these boxes do not suffice.
+Proof decide(const Evidence&, const IsPresent&);
+Proof decide(const Evidence&, const IsConnected&);
+Proof decide(const Evidence&, const IsClosed&);
+Proof decide(const Evidence&, const AreApart&);
+Proof decide(const Evidence&, const AreTouching&);
+Proof decide(const Evidence&, const IsThick&);
+
+/// The leaves for which `is_wanted` holds, by their indices.
+template <class IsWanted>
+std::vector<std::uint32_t> leaves_where(const PhaseOctree& octree, IsWanted&& is_wanted) {
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < octree.leaves.size(); ++i)
+        if (is_wanted(octree.leaves[i])) found.push_back(static_cast<std::uint32_t>(i));
+    return found;
+}
+
+/// The smallest box of the octree around a range of leaves in ascending order.
+inline Cube cube_of(const PhaseOctree& octree, std::span<const std::uint32_t> leaves) {
+    const OctreeLeaf &first = octree.leaves[leaves.front()], &last = octree.leaves[leaves.back()];
+    return octree.around(first.key, last.key, octree.size_of(last));
+}
+
+}  // namespace phasetree::measuring

@@ -1,0 +1,177 @@
+#include "command/prove.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "command/duration.hpp"
+#include "command/exit_codes.hpp"
+#include "command/load.hpp"
+#include "command/number_in.hpp"
+#include "command/streams.hpp"
+#include "output/interrupt.hpp"
+#include "output/late_progress.hpp"
+#include "phasetree/measuring/prove.hpp"
+#include "render/threads.hpp"
+#include "scene/expectations.hpp"
+
+namespace phasetree::tracer {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What is known of a statement.
+struct Finding {
+    Expectation expectation;
+    Proof proof;
+};
+
+std::string name_of_statement(const Statement& s) {
+    constexpr std::array names{"present", "connected", "closed", "apart", "touching", "wall", "volume"};
+    return names[s.index()];
+}
+
+// Without "expect": each phase is somewhere, and in one piece.
+std::vector<Expectation> usual_expectations(const SceneTree& tree) {
+    std::vector<Expectation> all;
+    for_each_phase(phases(tree.object).bits & ~PhaseSet::of(phasetree::vacuum).bits, [&](int i) {
+        const Phase phase{static_cast<std::uint8_t>(i)};
+        for (const Statement& statement : {Statement(IsPresent{phase}), Statement(IsConnected{phase})}) {
+            const Json text{{name_of_statement(statement), {{"phase", tree.phases[phase]}}}};
+            all.push_back({{statement, 1, ""}, text.dump(), 0});
+        }
+    });
+    return all;
+}
+
+std::string point_text(const glm::vec3& p) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
+// What the points show, after the statement and the reason.
+std::string witness_text(const Finding& f, const PhaseNames& names) {
+    const std::vector<Witness>& points = f.proof.witnesses;
+    if (points.empty()) return "";
+    const auto text = [&](const Witness& w) {
+        return fmt::format("\"{}\" at {}", names[w.phase], point_text(w.point));
+    };
+    if (points.size() == 1) return fmt::format("; see {}", text(points.front()));
+    if (std::holds_alternative<IsClosed>(f.expectation.statement))
+        return fmt::format("; it begins in {} and has {} points (--json prints them)", text(points.front()),
+                           points.size());
+    return fmt::format("; see {} and {}", text(points.front()), text(points.back()));
+}
+
+std::string interval_text(const Finding& f) {
+    if (!std::holds_alternative<HasVolume>(f.expectation.statement) || f.proof.measured.high == 0) return "";
+    const Measured& m = f.proof.measured;
+    return fmt::format("; it is from {:.7g} to {:.7g} {}", m.low / f.expectation.unit, m.high / f.expectation.unit,
+                       f.expectation.unit_name);
+}
+
+void print_text(const std::string& scene, const Document& document, const std::vector<Finding>& findings,
+                const PhaseNames& names) {
+    for (const Finding& f : findings) {
+        const std::string verdict =
+            fmt::format("{}: {}{}{}{}{}", name_of(f.proof.verdict), f.expectation.text,
+                        f.proof.reason.empty() ? "" : ": ", f.proof.reason, interval_text(f), witness_text(f, names));
+        std::string place = scene;
+        if (f.expectation.offset > 0) {
+            const SceneError e = document.error(f.expectation.offset, "");
+            place = fmt::format("{}:{}:{}", scene, e.line(), e.column());
+        }
+        put("{}: {}\n", place, verdict);
+    }
+}
+
+void print_json(const std::string& scene, const Document& document, const std::vector<Finding>& findings,
+                const PhaseNames& names) {
+    Json json{{"scene", scene}};
+    Json& list = json["statements"] = Json::array();
+    for (const Finding& f : findings) {
+        Json one;
+        if (f.expectation.offset > 0) {
+            const SceneError place = document.error(f.expectation.offset, "");
+            one["line"] = place.line();
+            one["column"] = place.column();
+        }
+        one["statement"] = Json::parse(f.expectation.text, nullptr, false, true);
+        one["verdict"] = name_of(f.proof.verdict);
+        if (!f.proof.reason.empty()) one["reason"] = f.proof.reason;
+        if (f.proof.resolution > 0) one["resolution"] = f.proof.resolution;
+        if (std::holds_alternative<HasVolume>(f.expectation.statement))
+            one["interval"] = {{"low", f.proof.measured.low / f.expectation.unit},
+                               {"high", f.proof.measured.high / f.expectation.unit},
+                               {"unit", f.expectation.unit_name}};
+        Json& points = one["witnesses"] = Json::array();
+        for (const Witness& w : f.proof.witnesses)
+            points.push_back({{"point", {w.point.x, w.point.y, w.point.z}}, {"phase", names[w.phase]}});
+        list.push_back(one);
+    }
+    put("{}\n", json.dump(2));
+}
+
+int code_of(const std::vector<Finding>& findings, bool is_expected) {
+    if (!is_expected) return exit_code::success;
+    const auto has = [&](Verdict v) {
+        return std::ranges::any_of(findings, [&](const Finding& f) { return f.proof.verdict == v; });
+    };
+    if (has(Verdict::refuted)) return exit_code::refuted;
+    return has(Verdict::undecided) ? exit_code::undecided : exit_code::success;
+}
+
+}  // namespace
+
+void add_prove_options(CLI::App& command, ProveCommand& options) {
+    CLI::Option* const prove =
+        command.add_flag("--prove", options.is_wanted, "Prove or refute the statements in the scene's \"expect\"");
+    command.add_option("--object", options.object, "With --prove: use only this object of a scene with several")
+        ->needs(prove)
+        ->option_text("NAME");
+    command
+        .add_option("--resolution", options.resolution,
+                    "With --prove: side of the smallest boxes, in the scene's unit; smaller features stay undecided "
+                    "(default: 1/256 of the longest side)")
+        ->check(number_in(1e-15, 1e15))
+        ->needs(prove)
+        ->option_text("LENGTH");
+    add_duration(command, "--time", options.seconds, "With --prove: stop after this time (default: 60s)")->needs(prove);
+    command.add_flag("--json", options.as_json, "With --prove: print JSON")->needs(prove);
+}
+
+int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
+    const AvailableThreads threads;
+    const Document document = read_document(file);
+    const SceneModel model = read_scene_model(document);
+    const SceneTree tree = tree_of_model(document, model, chosen.object);
+    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
+    std::vector<Expectation> expected =
+        read_expectations(document, {model.phases, model.unit ? model.unit->metres : 1, model.densities});
+    const bool is_expected = !expected.empty();
+    if (!is_expected) expected = usual_expectations(tree);
+    std::vector<Statement> statements;
+    for (const Expectation& e : expected) statements.push_back(e.statement);
+    const InterruptGuard guard;
+    LateProgress progress(ProgressOutput::standard_error(false), "proving");
+    ProveOptions options;
+    options.resolution = chosen.resolution;
+    options.seconds = chosen.seconds;
+    options.cancelled = [] { return interrupted(); };
+    options.progress = [&](float share) { progress.tell(share); };
+    const std::vector<Proof> proofs = made_of_tree(document, [&] { return prove(tree.object, statements, options); });
+    std::vector<Finding> findings;
+    for (std::size_t i = 0; i < proofs.size(); ++i) findings.push_back({expected[i], proofs[i]});
+    if (chosen.as_json)
+        print_json(file.shown(), document, findings, tree.phases);
+    else
+        print_text(file.shown(), document, findings, tree.phases);
+    if (!interrupted()) return code_of(findings, is_expected);
+    say("phasetree: interrupted; printed what was known by then\n");
+    return code_of_interruption(false);
+}
+
+}  // namespace phasetree::tracer
