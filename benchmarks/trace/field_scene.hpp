@@ -63,7 +63,7 @@ class FieldScene {
     void add_ground(float height);
     RTCRayHit nearest(const Ray& ray, embree::Query& query) const {
         RTCRayHit hit = rayhit_of(ray);
-        query.elsewhere = ray.carried;
+        query.default_phase = ray.carried;
         if (ray.cell) query.start = {embree::ObjectInstance{object_id}, *ray.cell, ray.from, ray.gradient};
         embree::intersect(scene_.handle(), query.context, hit);
         return hit;

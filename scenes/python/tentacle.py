@@ -3,7 +3,7 @@ import sys
 import numpy as np
 import phasetree as pt
 
-# The axis is a spiral in x and z, which comes towards the viewer as the arm grows thin. All is closer together there.
+# The axis is a spiral in x and z, which comes towards the viewer as the arm grows thin. Points are denser there.
 s = 10.45 * (1 - np.geomspace(1, 0.015, 194))
 radius = 0.057 * (10.45 - s) + 0.18 * np.exp(-s)
 angle = 1.72 + np.cumsum(np.gradient(s) * (0.6 * np.exp(-((s / 4.75) ** 2)) - 0.22 / radius))
@@ -11,7 +11,7 @@ x, z = (np.cumsum(np.gradient(s) * f(angle)) for f in (np.cos, np.sin))
 axis = np.stack([x, -1.16 * np.exp(-((radius / 0.2245) ** 2)), z - 0.4], axis=1)
 
 
-def around(length, turn):  # The point and the radius there, the direction of the axis, and one away from it.
+def around(length, turn):  # Of the axis at a length: point, radius, direction, and a direction away from it.
     point, along = (np.array([np.interp(length, s, v) for v in a.T]) for a in (axis, np.gradient(axis, axis=0)))
     inward = np.cross((0, 1, 0), along := along / np.linalg.norm(along))
     inward /= np.linalg.norm(inward)

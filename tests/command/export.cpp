@@ -98,6 +98,7 @@ TEST_CASE("triangles: what is wrong is said in a line, and no file is written") 
     write_text(shell.directory / "thin.json", shell_scene.text());
     const auto refused = refused_by(shell);
     refused({"scene.json", "-o", "a.stl", "--phase", "glas"}, R"(unknown phase "glas" (did you mean "glass"?))");
+    refused({"scene.json", "-o", "a.stl", "--phase", "beer"}, R"(unknown phase "beer"; the only phase is "glass")");
     refused({"scene.json", "-o", "a.stl", "--phase", "vacuum"}, "surrounds the object");
     refused({"scene.json", "-o", "a.stl", "--spacing", "1e-9"}, "needs more than 1024 cubes");
     refused({"scene.json", "-o", "a.stl", "--spacing", "0"}, "--spacing");

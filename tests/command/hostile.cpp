@@ -304,13 +304,17 @@ bool is_for_pictures_alone(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("eval, trace, info, measure and export refuse the scenes that check refuses, in the same words") {
+TEST_CASE(
+    "eval, trace, info, measure, solve, slice and export refuse the scenes that check refuses, in the same words") {
     const Shell shell;
-    const std::vector<std::vector<std::string>> commands{{"eval", "scene.json"},
-                                                         {"trace", "scene.json"},
-                                                         {"info", "scene.json"},
-                                                         {"measure", "scene.json"},
-                                                         {"export", "scene.json", "-o", "a.glsl"}};
+    const std::vector<std::vector<std::string>> commands{
+        {"eval", "scene.json"},
+        {"trace", "scene.json"},
+        {"info", "scene.json"},
+        {"measure", "scene.json"},
+        {"solve", "scene.json", "--set", "/x", "--until", "volume(x) = 1"},
+        {"slice", "scene.json", "--z", "0"},
+        {"export", "scene.json", "-o", "a.glsl"}};
     std::size_t count = 0;
     const auto check_same = [&](const std::string& name, const std::string& text, bool all) {
         CAPTURE(name);

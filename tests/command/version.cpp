@@ -26,7 +26,7 @@ constexpr const char* other_build = "0.9.0+0123456789ab";
 void rewrite_as_of_other_build(const std::filesystem::path& path) {
     const tracer::FilmFile file(path);
     tracer::FilmFileHeader header = file.header();
-    tracer::Film film(header.film, header.area, header.subjects);
+    tracer::Film film(header.film, header.area, header.scene_names);
     file.add_to(film);
     REQUIRE(header.settings.at(0) == std::pair<std::string, std::string>("version", build_id()));
     REQUIRE(header.settings.at(1) == std::pair<std::string, std::string>("commit", source_commit()));

@@ -27,11 +27,11 @@ TEST_CASE("rays that carry their phase go from interface to interface as the tra
         phase = tracer.label(p, workspace);
         for (;;) {
             embree::Query query;
-            query.elsewhere = phase;
+            query.default_phase = phase;
             RTCRayHit r = rayhit({p, ray.direction});
             embree::intersect(alone.scene, query.context, r);
             embree::Query shadow;
-            shadow.elsewhere = phase;
+            shadow.default_phase = phase;
             RTCRayHit s = rayhit({p, ray.direction});
             CHECK(embree::occluded(alone.scene, shadow.context, s.ray) == hits(r));
             if (!hits(r)) break;
@@ -97,7 +97,7 @@ TEST_CASE("one query serves ray after ray, from one point, along one direction, 
 TEST_CASE("a ray that carries another phase than is at its start meets an interface before the next one") {
     const Alone alone({.rays_carry_phases = true});
     embree::Query query;
-    query.elsewhere = Phase{3};
+    query.default_phase = Phase{3};
     RTCRayHit r = rayhit({{0.9f, 0, 0}, {1, 0, 0}});  // within the wall of glass
     embree::intersect(alone.scene, query.context, r);
     REQUIRE(hits(r));

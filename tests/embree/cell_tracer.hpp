@@ -34,7 +34,7 @@ class CellTracer {
     std::optional<Hit> first_crossing(const glm::vec3& o, const glm::vec3& d, float length, Phase carried,
                                       const Hit* start, TraceCounters& counters) const {
         embree::Query query;
-        query.elsewhere = carried;
+        query.default_phase = carried;
         if (start) query.start = {embree::ObjectInstance{0}, start->cell, start->from, start->normal.gradient};
         RTCRayHit ray = embree::rayhit_of(o, d, 0, length);
         embree::intersect(scene_.get(), query.context, ray);

@@ -45,7 +45,7 @@ struct Visited {
 
     Visited(const InterfaceCells& cells, std::span<const unsigned> order, RTCRayHit ray, bool is_packet) {
         embree::Query query;
-        query.elsewhere = vacuum;
+        query.default_phase = vacuum;
         const int valid = -1;
         RTCIntersectFunctionNArguments arguments{};
         arguments.valid = const_cast<int*>(&valid);
@@ -61,12 +61,12 @@ struct Visited {
                     [&](unsigned, const Crossing& found, float) { query.crossing = found; });
             else
                 embree::intersect_cell_for_query(cells, &arguments);
-            const embree::SeenRay seen(ray.ray);
+            const embree::PreparedRay prepared(ray.ray);
             RTCRay whole = ray.ray;
             whole.tfar = std::numeric_limits<float>::infinity();
             TraceCounters counters;
-            const auto own = embree::search_cell(cells, visited, seen, whole, vacuum, std::nullopt, counters);
-            ties += own && own->t_in / seen.length == far;
+            const auto own = embree::search_cell(cells, visited, prepared, whole, vacuum, std::nullopt, counters);
+            ties += own && own->t_in / prepared.length == far;
         }
         crossing = query.crossing;
         if (embree::is_hit(ray)) cell = ray.hit.primID;
@@ -123,7 +123,7 @@ TEST_CASE("the hit is the same in whatever order cells are visited") {
             target[axis] = rng.chance(0.5) ? box.low[axis] : box.high[axis];
             const RTCRayHit start =
                 embree::rayhit_of(target - cells.bounds().diagonal() * direction, rng.uniform(0.3f, 3) * direction);
-            const TracedRay traced = embree::SeenRay(start.ray).traced;
+            const TracedRay traced = embree::PreparedRay(start.ray).traced;
             std::vector<unsigned> order;
             std::ranges::copy_if(all, std::back_inserter(order),
                                  [&](unsigned cell) { return is_passed(cells.bounds(cell), traced); });

@@ -239,7 +239,7 @@ std::vector<Step> crossings(RTCScene scene, const InterfaceCells& cells, const R
     Phase carried = vacuum;
     for (int i = 0; i < 1000; ++i) {
         embree::Query query;
-        query.elsewhere = carried;
+        query.default_phase = carried;
         RTCRayHit hit = rayhit({origin, ray.direction});
         embree::intersect(scene, query.context, hit);
         if (!hits(hit)) return all;

@@ -47,7 +47,7 @@ void finish_sphere(ObjectReader& reader) {
 }
 
 const std::vector<Bad>& bad_objects() {
-    static const std::string either = "\"c\" must be a colour, [r, g, b] or \"#rrggbb\", but ";
+    static const std::string either = "\"c\" must be [r, g, b] or \"#rrggbb\", but ";
     static const std::vector<Bad> table = {
         // Keys.
         {"\n {}", required<float>("radius"), 2, 2, "the sphere needs \"radius\""},

@@ -12,7 +12,7 @@
 
 namespace test_suggest {
 
-using phasetree::closest, phasetree::meant_kind;
+using phasetree::closest, phasetree::meant_kind, phasetree::valid_names;
 
 TEST_CASE("a misspelt word finds the one that was meant") {
     const std::vector<std::string> keys = {"radius", "center", "height", "material", "from", "to", "r"};
@@ -65,6 +65,19 @@ TEST_CASE("an unknown kind is what other programs call so, or the nearest by spe
     CHECK(meant_kind("shpere", shapes) == "sphere");
     CHECK(meant_kind("cube", std::vector<std::string>{"tube"}) == "tube");  // where there is no box
     CHECK_FALSE(meant_kind("teapot", shapes));
+}
+
+TEST_CASE("valid names are listed unless there are none or too many") {
+    std::vector<std::string> names;
+    CHECK(valid_names("key", names) == "");
+    names.emplace_back("radius");
+    CHECK(valid_names("key", names) == "; the only key is \"radius\"");
+    names.emplace_back("of");
+    CHECK(valid_names("phase", names) == "; the phases are \"radius\", \"of\"");
+    names.resize(12, "more");
+    CHECK(valid_names("key", names).ends_with("\"more\""));
+    names.emplace_back("one too many");
+    CHECK(valid_names("key", names) == "");
 }
 
 }  // namespace test_suggest

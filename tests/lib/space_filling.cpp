@@ -104,7 +104,8 @@ TEST_CASE("lists that do not fit are rejected in words") {
     says(R"({"layers": {"phases": ["a", "b", "c"], "thicknesses": [1, 2]}})", "one entry per phase, or one for all");
     says(R"({"strata": {"phases": ["a", "b", "c"], "thicknesses": [1, 2, 3]}})", "one entry per phase but the last");
     says(R"({"strata": {"phases": ["a", "b"], "thicknesses": [-1]}})", "\"thicknesses\"");
-    says(R"({"strata": {"phases": ["a", "d"], "thicknesses": [1]}})", "unknown phase \"d\"");
+    says(R"({"strata": {"phases": ["a", "d"], "thicknesses": [1]}})",
+         "unknown phase \"d\"; the phases are \"a\", \"b\", \"c\"");
     says(R"({"strata": {"phases": ["a", "b"], "thicknesses": "thin"}})", "\"thicknesses\" must be a number or a list");
     CHECK(refused(R"({"strata": {"phases": ["a", "b"], "thicknesses": 1}})") == "accepted");  // one stands for all
     says(R"({"checker": {"even": "a", "odd": "a", "size": 1}})", "both phases are the same");

@@ -32,8 +32,8 @@ Image image_with_planes() {
     for (const char* name :
          {"depth.Z", "normal.X", "normal.Y", "normal.Z", "light_sun.R", "light_lamp.R", "CryptoPhase00.R",
           "CryptoPhase00.G", "CryptoPhase01.R", "CryptoPhaseX.R", "CryptoObject00.R", "beauty.V", "a/b.X", "plain"}) {
-        image.further.push_back({name, {}});
-        for (int i = 0; i < 13 * 7; ++i) image.further.back().values.push_back(value += 0.25f);
+        image.extra_channels.push_back({name, {}});
+        for (int i = 0; i < 13 * 7; ++i) image.extra_channels.back().values.push_back(value += 0.25f);
     }
     for (const char* layer : {"CryptoPhase", "CryptoObject"})
         for (const auto& attribute : cryptomatte_attributes(layer, {"vacuum", layer}))
@@ -87,7 +87,7 @@ TEST_CASE("many files have together what one file has, under the same names") {
     }
     const bool same = channels == all.channels;
     CHECK(same);
-    CHECK(channels.size() == 3 + image.further.size());
+    CHECK(channels.size() == 3 + image.extra_channels.size());
     CHECK(files == std::set<std::string>{"one.CryptoObject.exr", "one.CryptoPhase.exr", "one.CryptoPhaseX.exr",
                                          "one.a_b.exr", "one.beauty.exr", "one.depth.exr", "one.light_lamp.exr",
                                          "one.light_sun.exr", "one.normal.exr", "one.plain.exr"});

@@ -76,10 +76,10 @@ TEST_CASE("EXR keeps further channels under their names, other formats leave the
     const DisplayTransform transform(std::nullopt, std::nullopt, 0.0f);
     const Image plain = noise(31, 17);
     Image image = plain;
-    image.further = {{"depth.Z", {}}, {"a.b", {}}};
+    image.extra_channels = {{"depth.Z", {}}, {"a.b", {}}};
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        image.further[0].values.push_back(static_cast<float>(i));
-        image.further[1].values.push_back(-1.0f / static_cast<float>(i + 1));
+        image.extra_channels[0].values.push_back(static_cast<float>(i));
+        image.extra_channels[1].values.push_back(-1.0f / static_cast<float>(i + 1));
     }
     write_image(image, folder / "a.exr", metadata, transform);
     const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
@@ -94,14 +94,15 @@ TEST_CASE("EXR keeps further channels under their names, other formats leave the
             return values[i * 5 + static_cast<std::size_t>(spec.channelindex(name))];
         };
         different += glm::vec3(value("R"), value("G"), value("B")) != image.pixels[i] ||
-                     value("depth.Z") != image.further[0].values[i] || value("a.b") != image.further[1].values[i];
+                     value("depth.Z") != image.extra_channels[0].values[i] ||
+                     value("a.b") != image.extra_channels[1].values[i];
     }
     CHECK(different == 0);
     for (const Format format : {Format::png, Format::jpeg, Format::tiff}) {
         const bool same = encode(image, format, metadata, transform) == encode(plain, format, metadata, transform);
         CHECK(same);
     }
-    image.further[1].values.pop_back();
+    image.extra_channels[1].values.pop_back();
     CHECK_THROWS_AS(encode(image, Format::exr, metadata, transform), std::invalid_argument);
 }
 
@@ -112,11 +113,11 @@ TEST_CASE("PNG and TIFF have alpha, and the colours of what covers the backgroun
     // A colour over black, with alpha from 0 to 1.
     const glm::vec3 colour(0.8f, 0.4f, 0.1f);
     Image image{64, 4, {}};
-    image.further = {{"A", {}}};
+    image.extra_channels = {{"A", {}}};
     for (int i = 0; i < 64 * 4; ++i) {
         const float alpha = static_cast<float>(i % 64) / 63.0f;
         image.pixels.push_back(alpha * colour);
-        image.further[0].values.push_back(alpha);
+        image.extra_channels[0].values.push_back(alpha);
     }
     for (const char* const name : {"a.png", "a.tif"}) {
         CAPTURE(name);
@@ -133,7 +134,7 @@ TEST_CASE("PNG and TIFF have alpha, and the colours of what covers the backgroun
         // One code of eight bits, by which dithering rounds up or down.
         constexpr double code = 1.0 / 255 + 1e-6;
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-            const double alpha = static_cast<double>(image.further[0].values[i]);
+            const double alpha = static_cast<double>(image.extra_channels[0].values[i]);
             CHECK(std::abs(static_cast<double>(values[4 * i + 3]) - alpha) < code);
             for (int c = 0; c < 3; ++c) {
                 const double expected = alpha > 0 ? srgb(static_cast<double>(colour[c])) : 0.0;
@@ -144,11 +145,11 @@ TEST_CASE("PNG and TIFF have alpha, and the colours of what covers the backgroun
     // Over a background that shines nobody knows the colour of what covers it in part: there is no alpha.
     Image without = image;
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        without.pixels[i] += (1.0f - image.further[0].values[i]) * glm::vec3(0.5f);
+        without.pixels[i] += (1.0f - image.extra_channels[0].values[i]) * glm::vec3(0.5f);
     write_image(without, folder / "b.png", metadata, transform);
     CHECK(spec_of(folder / "b.png").nchannels == 3);
     without = image;
-    without.further.clear();
+    without.extra_channels.clear();
     CHECK((encode(image, Format::jpeg, metadata, transform) == encode(without, Format::jpeg, metadata, transform)));
 }
 

@@ -67,6 +67,7 @@ def examples():
         "Places": [pt.places("a", POINTS)],
         "Scene": [SCENE, several, pt.Scene(BOTTLE)],
         "SceneError": [scene_error()],
+        "Solution": [pt.solve(lambda radius: WATER(pt.sphere(radius)), 1, 0.3, 1, tolerance=0.1)],
         "View": [(view, "a View can be neither copied nor pickled")],
     }
 

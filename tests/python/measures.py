@@ -80,6 +80,50 @@ class Measures(unittest.TestCase):
             self.assertLessEqual(phase["volume"]["low"], self.volumes[phase["name"]])
             self.assertGreaterEqual(phase["volume"]["high"], self.volumes[phase["name"]])
 
+    def test_areas_end_with_the_time(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(self.object.to_json())
+            file.flush()
+            run = [COMMAND, "measure", file.name, "--time", "0.000001"]
+            found = subprocess.run([*run, "--json"], capture_output=True, text=True)
+            table = subprocess.run(run, capture_output=True, text=True)
+        for each in (found, table):
+            self.assertEqual(each.returncode, 0)
+            self.assertEqual(
+                each.stderr,
+                "phasetree: warning: areas are left out, because preparing the object takes more than 50 % of the time; "
+                "allow more with --time\n",
+            )
+        measures = json.loads(found.stdout)
+        self.assertEqual((measures["stopped"], measures["lines"], measures["contacts"]), ("time", 0, []))
+        for phase in measures["phases"]:
+            self.assertNotIn("area", phase)
+            self.assertLessEqual(phase["volume"]["low"], self.volumes[phase["name"]])
+            self.assertGreaterEqual(phase["volume"]["high"], self.volumes[phase["name"]])
+        self.assertIn("the time is over", table.stdout)
+        self.assertNotIn("contact", table.stdout)
+
+    def test_the_command_rejects_bad_arguments(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(self.object.to_json())
+            file.flush()
+            for argument, message in (
+                (["--tolerance", "0"], "--tolerance: must be a number from 1e-09 to 1"),
+                (["--tolerance", "-1"], "--tolerance: must be a number from 1e-09 to 1"),
+                (["--tolerance", "nan"], "--tolerance: must be a number from 1e-09 to 1"),
+                (["--time", "0"], '--time: must be a positive time such as 90s, 5m or 2h, but is "0"'),
+                (["--time", "-1"], '--time: must be a positive time such as 90s, 5m or 2h, but is "-1"'),
+                (["--time", "nan"], '--time: must be a positive time such as 90s, 5m or 2h, but is "nan"'),
+                (["--density", "glass"], "--density: must be PHASE=VALUE"),
+                (["--density", "glass=nan"], "--density: must be PHASE=VALUE"),
+                (["--density", "vacuum=1"], "the vacuum has no density"),
+                (["--density", "glass=1", "--density", "glass=2"], '"glass" has two densities'),
+            ):
+                with self.subTest(argument):
+                    run = subprocess.run([COMMAND, "measure", file.name, *argument], capture_output=True, text=True)
+                    self.assertEqual((run.returncode, run.stdout), (2, ""))
+                    self.assertIn(message, run.stderr)
+
     def test_the_command_agrees(self):
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             file.write(self.object.to_json())

@@ -50,7 +50,7 @@ Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
                 lights.add(AnyPointLight(PointLight(at, light)));
                 break;
             case 4:
-                lights.add(GlowingPart({at, 0.05f + 0.2f * random()}, light.x));
+                lights.add(EmissivePart({at, 0.05f + 0.2f * random()}, light.x));
                 break;
             case 3:
                 lights.add(AnyPointLight(IesLight(at, target, 20.0f, profile, light)));

@@ -1,5 +1,6 @@
-// phasetree: multiphase signed distance fields. This header includes the nodes of trees, programs, tracing, cells and
-// meshes. Include separately: phasetree/cells/file.hpp for cell files, phasetree/io for scene files,
+// phasetree: multiphase signed distance fields. This header includes the nodes of trees, programs, tracing, cells,
+// carved bounds and meshes. Include separately: phasetree/cells/file.hpp for cell files, phasetree/measuring for
+// volumes and areas, phasetree/glsl/shader.hpp for shaders, phasetree/io for scene files, and
 // phasetree/phasetree_embree.h for Embree geometries.
 #pragma once
 

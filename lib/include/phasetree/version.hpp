@@ -1,12 +1,12 @@
+// Version and build of the library. All strings are valid for the lifetime of the program.
 #pragma once
 
-/// Version and build of the library. All strings are valid for the lifetime of the program.
 namespace phasetree {
 
 /// The library's version, "major.minor.patch".
 const char* version();
 
-/// The version and a hash of the sources, the compiler and the processor architecture: "0.9.0+3f2a91c04d7e". Cell
+/// The version and a hash of the sources, the compiler and the processor architecture: "0.10.0+3f2a91c04d7e". Cell
 /// files, parts and checkpoints can only be combined if their build_id() is the same, because different builds may
 /// compute different bits.
 const char* build_id();

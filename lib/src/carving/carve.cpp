@@ -26,7 +26,7 @@ namespace {
 
 // Directions closer to each other than this (5°) count as the same.
 constexpr double same_direction = 0.9962;
-constexpr std::size_t rays = 96, longest_walk = 96;
+constexpr std::size_t rays = 96, max_steps = 96;
 
 class Carver {
   public:
@@ -61,8 +61,8 @@ class Carver {
     }
 
   private:
-    // The number of evaluations left; 0 if the solid is empty.
-    std::size_t left() const {
+    // 0 if the solid is empty.
+    std::size_t evaluations_left() const {
         if (is_empty_) return 0;
         return options_.max_evaluations - std::min(options_.max_evaluations, field_.evaluations());
     }
@@ -71,11 +71,11 @@ class Carver {
     double support(const glm::dvec3& d) {
         const auto planes = static_cast<std::size_t>(
             options_.directions.empty() ? options_.max_planes : static_cast<int>(options_.directions.size()) + 6);
-        const Support r =
-            support_along(d, field_, box_, tolerance_, std::min(left(), 2 * options_.max_evaluations / planes));
+        const Support r = support_along(d, field_, box_, tolerance_,
+                                        std::min(evaluations_left(), 2 * options_.max_evaluations / planes));
         is_within_tolerance_ = is_within_tolerance_ && r.is_within_tolerance;
-        is_empty_ = is_empty_ || r.height == -std::numeric_limits<double>::infinity();
-        return r.height;
+        is_empty_ = is_empty_ || r.upper == -std::numeric_limits<double>::infinity();
+        return r.upper;
     }
 
     // Rounds the sides outwards to floats.
@@ -118,21 +118,21 @@ class Carver {
                 const double z = 1 - 2 * k / static_cast<double>(rays), a = 2.399963229728653 * k;
                 outward[i] = glm::dvec3(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
             }
-            std::array<bool, batch_size> is_there{};
-            for (std::size_t step = 0; step < longest_walk && left() > 0; ++step) {
+            std::array<bool, batch_size> has_hit{};
+            for (std::size_t step = 0; step < max_steps && evaluations_left() > 0; ++step) {
                 for (std::size_t i = 0; i < batch_size; ++i) p[i] = middle + outward[i] * (radius - t[i]);
                 const BallBatch balls = field_.at(p);
                 bool goes_on = false;
                 for (std::size_t i = 0; i < batch_size; ++i) {
-                    is_there[i] = is_there[i] || balls[i].radius < 0.1 * tolerance_;
-                    if (is_there[i] || t[i] > 2 * radius) continue;
+                    has_hit[i] = has_hit[i] || balls[i].radius < 0.1 * tolerance_;
+                    if (has_hit[i] || t[i] > 2 * radius) continue;
                     t[i] += balls[i].radius;
                     goes_on = true;
                 }
                 if (!goes_on) break;
             }
             for (std::size_t i = 0; i < batch_size; ++i)
-                if (is_there[i]) normals.push_back(field_.gradient(p[i]));
+                if (has_hit[i]) normals.push_back(field_.gradient(p[i]));
         }
         return normals;
     }
@@ -155,14 +155,14 @@ class Carver {
         }
         std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.votes > b.votes; });
         for (const Side& side : sides) {
-            if (side.votes < 3 || count() >= options_.max_planes / 2 || left() == 0) return;
+            if (side.votes < 3 || count() >= options_.max_planes / 2 || evaluations_left() == 0) return;
             if (!is_known(side.normal)) add(side.normal);
         }
     }
 
     void cut_corners() {
         std::vector<glm::dvec3> done;  // corners that no plane cuts off
-        while (count() < options_.max_planes && left() > 0) {
+        while (count() < options_.max_planes && evaluations_left() > 0) {
             const auto corners = ConvexPolyhedron(box_, planes_).mesh().corners;
             std::vector<std::pair<double, glm::dvec3>> far;
             for (std::size_t first = 0; first < corners.size(); first += batch_size) {
@@ -186,7 +186,7 @@ class Carver {
     // the middle. Returns whether one of them succeeds.
     bool cut(const glm::dvec3& corner) {
         for (const glm::dvec3& way : {field_.gradient(corner), corner - glm::dvec3(box_.centre())}) {
-            if (!(glm::length(way) > 1e-3 * tolerance_) || left() == 0) continue;
+            if (!(glm::length(way) > 1e-3 * tolerance_) || evaluations_left() == 0) continue;
             const glm::dvec3 d = glm::normalize(way);
             const double height = support(d);
             if (!(height < glm::dot(d, corner) - tolerance_)) continue;

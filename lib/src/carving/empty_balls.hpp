@@ -12,8 +12,8 @@
 
 namespace phasetree::carving {
 
-/// A ball about a point of floats that is proven empty. If the radius is not positive, nothing is known about the
-/// point, except that it belongs to the solid if `is_solid` is set.
+/// A ball that is proven empty. The coordinates of its centre are exact in floats. If the radius is not positive,
+/// nothing is known about the centre, except that it belongs to the solid if `is_solid` is set.
 struct Ball {
     glm::dvec3 centre{0};
     double radius = 0;
@@ -31,7 +31,7 @@ class EmptyBalls {
                 {farthest_, std::abs(static_cast<double>(box.low[i])), std::abs(static_cast<double>(box.high[i]))});
     }
 
-    /// At one to eight points. The last one also fills the remaining entries.
+    /// The balls around one to eight points. The last point also fills the remaining entries.
     BallBatch at(std::span<const glm::dvec3> points) {
         if (options_.cancelled && evaluations_ % 64 == 0 && options_.cancelled()) throw CarvingCancelled();
         std::array<glm::vec3, batch_size> rounded;

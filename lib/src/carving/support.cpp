@@ -48,8 +48,8 @@ struct Beam {
 constexpr std::array<double, batch_size - 1> above{0, 0.5, 1, 2, 6, 20, 60};
 
 // Lowers the beam's top as far as eight balls prove. The last ball is tried just below the top, where it may meet the
-// solid; `seen` rises to the height of such a point.
-void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, double& seen) {
+// solid; `lower` rises to the height of such a point.
+void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, double& lower) {
     std::array<glm::dvec3, batch_size> points;
     const double rho = beam.half_diagonal();
     for (std::size_t i = 0; i < above.size(); ++i) points[i] = frame.world(beam.u, beam.v, beam.top + above[i] * rho);
@@ -71,7 +71,7 @@ void walk(Beam& beam, const Frame& frame, EmptyBalls& field, double tolerance, d
         }
     }
     for (const Ball& ball : balls)
-        if (ball.is_solid) seen = std::max(seen, frame.local(ball.centre).z);
+        if (ball.is_solid) lower = std::max(lower, frame.local(ball.centre).z);
 }
 
 }  // namespace
@@ -88,16 +88,16 @@ Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box,
     std::priority_queue<Beam> beams;
     beams.push(
         {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), high.z});
-    double seen = -infinity;
+    double lower = -infinity;
     const std::size_t until = field.evaluations() + max_evaluations;
     while (!beams.empty()) {
         Beam beam = beams.top();
         const double rho = beam.half_diagonal();
-        if (beam.top - seen <= tolerance || rho <= 0.25 * tolerance) return {beam.top, seen, true};
-        if (field.evaluations() >= until) return {beam.top, seen, false};
+        if (beam.top - lower <= tolerance || rho <= 0.25 * tolerance) return {beam.top, lower, true};
+        if (field.evaluations() >= until) return {beam.top, lower, false};
         beams.pop();
         const double before = beam.top;
-        walk(beam, frame, field, tolerance, seen);
+        walk(beam, frame, field, tolerance, lower);
         if (beam.top < low.z) continue;  // nothing of the solid is in it
         // Continue with the beam while that pays; otherwise, continue with its halves.
         if (before - beam.top > 0.5 * rho) {
@@ -113,7 +113,7 @@ Support support_along(const glm::dvec3& d, EmptyBalls& field, const Bounds& box,
         middle += 2 * half;
         beams.push(beam);
     }
-    return {-infinity, seen, true};
+    return {-infinity, lower, true};
 }
 
 }  // namespace phasetree::carving

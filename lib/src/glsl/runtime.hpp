@@ -1,6 +1,6 @@
+// The text that all shaders share, independent of any node.
 #pragma once
 
-/// The text that all shaders share, independent of any node.
 namespace phasetree::glsl {
 
 /// Arithmetic with gradients, as in math/dual.hpp: a vec4 contains the gradient and, in w, the value.

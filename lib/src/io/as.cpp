@@ -205,7 +205,7 @@ T as(const Document& document, Value value, std::string_view what, const Range& 
 }
 
 glm::vec3 as_colour(const Document& document, Value value, std::string_view what, const Range& range) {
-    constexpr std::string_view either = "a colour, [r, g, b] or \"#rrggbb\"";
+    constexpr std::string_view either = "[r, g, b] or \"#rrggbb\"";
     if (Keys::are_in(value))
         return of_keys<glm::vec3>(document, Keys(document, value, "the animated value"),
                                   [&](Value one) { return as_colour(document, one, what, range); });

@@ -75,12 +75,7 @@ void ObjectReader::finish() const {
         if (knows(member.key())) continue;
         std::string message = fmt::format("unknown key {} in {}", quoted(member.key()), what_);
         const auto meant = closest(member.key(), known_);
-        // If no key is similar, list the valid ones, unless there are many.
-        constexpr std::size_t max_listed = 12;
-        if (!meant && !known_.empty() && known_.size() <= max_listed) {
-            message += known_.size() == 1 ? "; the only key is" : "; the keys are";
-            for (std::size_t i = 0; i < known_.size(); ++i) message += (i == 0 ? " " : ", ") + quoted(known_[i]);
-        }
+        if (!meant) message += valid_names("key", known_);
         throw document_->error(member.key_offset(), std::move(message), meant);
     }
 }

@@ -4,6 +4,8 @@
 
 #include "phasetree/io/suggest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -79,6 +81,15 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
         }
     }
     return best;
+}
+
+std::string valid_names(std::string_view kind, std::span<const std::string_view> names) {
+    constexpr std::size_t max_listed = 12;
+    if (names.empty() || names.size() > max_listed) return {};
+    std::string text = names.size() == 1 ? fmt::format("; the only {} is", kind) : fmt::format("; the {}s are", kind);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += fmt::format("{} {}", i == 0 ? "" : ",", io::in_quotes(names[i]));
+    return text;
 }
 
 bool has_other_spelling(std::string_view name) {

@@ -26,6 +26,12 @@ using NodesOf = std::conditional_t<std::is_same_v<Handle, Field>, FieldNodes, Ph
 template <class Handle>
 constexpr std::string_view kind_name = std::is_same_v<Handle, Field> ? "a plain field" : "an object of phases";
 
+/// What to do if the other kind of handle is found.
+template <class Handle>
+constexpr std::string_view kind_remedy =
+    std::is_same_v<Handle, Field> ? "use the field before it is filled, or combine objects with \"over\""
+                                  : "fill fields with \"set\", and combine objects with \"over\"";
+
 template <class List>
 bool has_node(std::string_view name) {
     bool found = false;
@@ -129,8 +135,8 @@ class Reader {
     template <class Handle>
     SceneError other_kind(Value reference) const {
         using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
-        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is required here", reference.string(),
-                                                      kind_name<Other>, kind_name<Handle>));
+        return document_.error(reference, fmt::format("\"{}\" is {}, but {} is required here; {}", reference.string(),
+                                                      kind_name<Other>, kind_name<Handle>, kind_remedy<Handle>));
     }
 
     // Whether a shape is a plain field, judging by its node's name. A warp is of the same kind as its child.
@@ -292,16 +298,20 @@ class Reader {
             if (names_.names[i] == value.string()) return Phase{static_cast<std::uint8_t>(i)};
         if (value.string() == names_.names[0])
             throw document_.error(value, fmt::format("{} must be a phase other than the vacuum", what));
-        throw document_.error(value, fmt::format("unknown phase \"{}\"", value.string()),
-                              closest(value.string(), std::span(names_.names).subspan(1)));
+        const std::span<const std::string> phases = std::span(names_.names).subspan(1);
+        const auto meant = closest(value.string(), phases);
+        throw document_.error(
+            value, fmt::format("unknown phase \"{}\"{}", value.string(), meant ? "" : valid_names("phase", phases)),
+            meant);
     }
 
     template <class Handle>
     SceneError unknown_node(Value member) {
         using Other = std::conditional_t<std::is_same_v<Handle, Field>, Phased, Field>;
         if (has_node<NodesOf<Other>>(member.key()))
-            return document_.error(member.key_offset(), fmt::format("\"{}\" makes {}, but {} is required here",
-                                                                    member.key(), kind_name<Other>, kind_name<Handle>));
+            return document_.error(member.key_offset(),
+                                   fmt::format("\"{}\" makes {}, but {} is required here; {}", member.key(),
+                                               kind_name<Other>, kind_name<Handle>, kind_remedy<Handle>));
         return unknown_node(member, names_of(NodesOf<Handle>()));
     }
     SceneError unknown_node(Value member, const std::vector<std::string>& known) const {

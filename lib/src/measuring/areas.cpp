@@ -55,7 +55,7 @@ struct Line {
     glm::vec3 origin, direction;
 };
 
-// A line through a ball, uniform for uniform numbers; it starts outside the ball.
+// A line through a ball that starts outside it. Lines are uniformly distributed if u is, in [0, 1)⁴.
 Line line_through(const Ball& ball, const std::array<double, 4>& u) {
     const double z = 1 - 2 * u[0], r = std::sqrt(std::max(0.0, 1 - z * z)), a = 2 * std::numbers::pi * u[1];
     const glm::dvec3 d(r * std::cos(a), r * std::sin(a), z);
@@ -66,7 +66,8 @@ Line line_through(const Ball& ball, const std::array<double, 4>& u) {
     return {glm::vec3(origin), glm::vec3(d)};
 }
 
-// How often the lines of one copy have crossed each interface.
+// One of the independent copies of the estimate, the replicates of randomised quasi-Monte Carlo: the sequence from a
+// random start of its own, and how often its lines have crossed each interface.
 struct Copy {
     Sequence sequence;
     std::vector<std::uint64_t> crossings = std::vector<std::uint64_t>(capacity * capacity);
@@ -161,6 +162,7 @@ class AreaEstimate {
             result.phases.push_back({area, Phase{static_cast<std::uint8_t>(p)}});
             if (!(area.standard_error <= options_.tolerance * area.area)) result.is_within_tolerance = false;
         }
+        if (result.phases.empty()) result.is_within_tolerance = false;
         return result;
     }
 

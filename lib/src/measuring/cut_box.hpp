@@ -15,7 +15,7 @@ inline constexpr std::size_t product_index(std::size_t i, std::size_t j) {
     return i == j ? 4 + i : 10 - i - j;
 }
 
-/// A box in double precision, relative to a point from which coordinates are measured.
+/// A box in double precision. Its coordinates are relative to a local origin.
 struct MeasuredBox {
     std::array<double, 3> low{}, size{};
 
@@ -52,8 +52,8 @@ struct LinearInBox {
     LinearInBox plus(double v) const { return {at_low + v, change}; }
 };
 
-/// The part of a box in which a linear function is negative. Each moment errs by at most 10⁻¹² of that of the whole
-/// box with all coordinates replaced by their largest absolute values in the box.
+/// The part of a box in which a linear function is negative. The error of each moment is at most 10⁻¹² times the box's
+/// volume times the largest absolute value of the moment's integrand in the box.
 PartOfBox part_below(const LinearInBox&, const MeasuredBox&);
 
 }  // namespace phasetree::measuring

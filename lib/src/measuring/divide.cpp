@@ -24,7 +24,8 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 // Boxes smaller than this many resolutions say little more than rounding errors.
 constexpr float least_size = 8;
 
-// Whether a box can be halved along each axis along which SubBoxes would do so.
+// Whether a box is large enough to be divided, and can be halved along all three axes (even those along which SubBoxes
+// would not halve it).
 bool has_room(const Bounds& box, float resolution) {
     const glm::vec3 centre = box.centre();
     for (int i = 0; i < 3; ++i)
@@ -69,7 +70,8 @@ class Examination {
         if (is_enclosed) {
             node.specialisations = kept(encloser.specialisations());
             specialisations_ = node.specialisations;
-            // Bounds that matter only far from the surface change no sign, but they may bend more.
+            // Far bounds (Op::far_bound) do not change the sign of a component, but may make it less linear. Try
+            // without them.
             if (const auto near = nearby(program)) {
                 const std::optional<ValueRanges> ranges = encloser.value_ranges(*near);
                 if (ranges && !prune(*near, *ranges, context_.program, worker_.arenas())) return false;
@@ -106,7 +108,7 @@ class Examination {
         const std::size_t count = program.outputs.size();
         const MeasuredBox box(result_.node.box, context_.origin);
         result_.phases = worker_.programs.allocate<PhaseInBox>(count);
-        bool is_by_rounding = true;
+        bool is_by_rounding = true;  // whether all slack is below the margin, so that smaller boxes would not help
         // The margin covers the rounding errors of a component in 32 bits, and those of its linear function.
         const double margin = 2 * static_cast<double>(context_.program.value_error);
         for (std::size_t k = 0; k < count; ++k) {
@@ -141,8 +143,8 @@ class Examination {
         }
         return std::isfinite(p.component.at_low) ? linear.slack : unknown;
     }
-    // The components at the eight points of Gauss' quadrature, for estimates: their means are exact for polynomials of
-    // degree three.
+    // Samples the components at the eight points of Gauss–Legendre quadrature, for estimates. The mean over these
+    // points is exact for polynomials of degree three.
     void sample(const WorkingProgram& program) {
         const std::span<const ProgramOutput> outputs = program.outputs;
         result_.mean_component = worker_.programs.allocate<double>(outputs.size());

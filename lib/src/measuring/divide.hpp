@@ -25,15 +25,15 @@ struct MeasureContext {
 struct Node {
     Bounds box;
     WorkingProgram program;
-    std::span<const Specialisation> specialisations{};  ///< in this box; before it is examined, in the box around it
-    std::span<const RequiredOfLocal> required{};        ///< of local primitives, in this box
+    std::span<const Specialisation> specialisations{};  ///< for this box; until it is examined, for its parent
+    std::span<const RequiredOfLocal> required{};        ///< limits up to which values of local primitives matter here
 };
 
 /// A phase that may be in a box: the part of the box that it certainly contains, and the part that may contain it.
 struct PhaseInBox {
     Phase phase;
     PartOfBox certain, possible;
-    /// A linear function near the phase's component, and an upper bound of the difference; infinite if unknown.
+    /// A linear function near the phase's component φₖ, and an upper bound of the difference; infinite if unknown.
     LinearInBox component;
     double slack = 0;
 
@@ -57,8 +57,8 @@ class Division {
     Division(const Node&, const MeasureContext&, Worker&);
 
     std::size_t count() const { return boxes_.count; }
-    /// Prunes the program for a box, first in a ball around it, and encloses it there. The result is in the worker's
-    /// arena of programs.
+    /// Prunes the program for box i, first by the ranges of its values in the ball around the box, then by enclosures
+    /// of its values in the box itself. The result is in the worker's arena of programs.
     ExaminedBox examine(std::size_t i) const;
 
   private:

@@ -1,6 +1,8 @@
 // The bounds are first divided into parts. Then each part is divided by itself, depth first, until the doubt in each
-// box is below a threshold. If volumes are not precise enough, the threshold falls, and all parts are divided again
-// from the beginning. That takes less than the last division does, and memory only for one path of boxes per thread.
+// box is below a threshold. (The doubt of a phase is the volume that may or may not belong to it.) If volumes are not
+// precise enough, the threshold falls, and all parts are divided again from the beginning. All earlier divisions
+// together take less time than the last one, and memory is needed only for one path of boxes per thread.
+//
 // The sums of a part are added in the order of its division, and those of the parts in the order of the parts, so they
 // do not depend on threads.
 #include "phasetree/measuring/measure.hpp"
@@ -180,30 +182,16 @@ class Measurement {
     // Divides the bounds level by level. Boxes in one phase are added at once; the others become parts.
     void make_parts() {
         const FlushSubnormals flush;
-        std::vector<Node> level{root_};
-        std::vector<ExaminedBox> boxes;
-        for (int depth = 0; depth < most_levels_of_parts && boxes.size() < enough_parts; ++depth) {
-            if (depth > 0) {
-                level.clear();
-                for (const ExaminedBox& b : boxes) {
-                    if (b.can_be_divided && !stop_())
-                        level.push_back(b.node);
-                    else
-                        parts_.push_back({b, ObjectSums(known_.phases())});
-                }
-            }
+        std::vector<ExaminedBox> boxes, level;
+        divide_into(root_, boxes);
+        for (int depth = 1; depth < most_levels_of_parts && boxes.size() < enough_parts; ++depth) {
+            level.swap(boxes);
             boxes.clear();
-            for (const Node& node : level) {
-                const ArenaScope scratch(worker_.scratch);
-                const Division division(node, context_, worker_);
-                for (std::size_t i = 0; i < division.count(); ++i) {
-                    ++boxes_;
-                    const ExaminedBox box = division.examine(i);
-                    if (box.only)
-                        known_.add(box, context_);
-                    else
-                        boxes.push_back(box);
-                }
+            for (const ExaminedBox& b : level) {
+                if (b.can_be_divided && !stop_())
+                    divide_into(b.node, boxes);
+                else
+                    parts_.push_back({b, ObjectSums(known_.phases())});
             }
         }
         for (const ExaminedBox& b : boxes) parts_.push_back({b, ObjectSums(known_.phases())});
@@ -213,18 +201,32 @@ class Measurement {
         }
     }
 
+    // Divides one box, and appends the boxes in it that are not in one phase.
+    void divide_into(const Node& node, std::vector<ExaminedBox>& boxes) {
+        const ArenaScope scratch(worker_.scratch);
+        const Division division(node, context_, worker_);
+        for (std::size_t i = 0; i < division.count(); ++i) {
+            ++boxes_;
+            const ExaminedBox box = division.examine(i);
+            if (box.only)
+                known_.add(box, context_);
+            else
+                boxes.push_back(box);
+        }
+    }
     void add_up() {
         total_ = known_;
         for (const Part& part : parts_) total_.add(part.sums);
     }
-    // The largest width allowed of a phase's volume. A phase may be inside the interval anywhere, so the estimate is
-    // what it is compared with.
+    // The largest allowed width of the interval of a phase's volume. The volume may be as small as the interval's low
+    // end, so that is what the width is compared with.
     double allowed(Phase p) const {
         double object = 0;
         for_each_phase(total_.phases().bits & ~PhaseSet::of(vacuum).bits,
                        [&](int i) { object += total_[Phase{static_cast<std::uint8_t>(i)}].estimate[0]; });
         return options_.tolerance * std::max(total_[p].low[0], least_share * object);
     }
+    // Calls f(phase) for each phase but the vacuum.
     template <class F>
     void for_each_solid(F&& f) const {
         for_each_phase(total_.phases().bits & ~PhaseSet::of(vacuum).bits,
@@ -255,7 +257,7 @@ class Measurement {
 
     // Lowers the thresholds of phases that are not yet precise. Where components are nearly linear, the doubt in a box
     // falls with the fourth power of its size, and the doubt in all of them with the second. So the total falls with
-    // the root of the threshold.
+    // the square root of the threshold.
     void lower_thresholds() {
         for_each_solid([&](Phase p) {
             double& threshold = thresholds_[p.index];
@@ -268,8 +270,8 @@ class Measurement {
     }
 
     MeasureEnd divide_parts(double progress) {
-        const std::size_t most_of_part =
-            std::max<std::size_t>(1024, options_.max_boxes / std::max<std::size_t>(1, parts_.size()));
+        const std::size_t left = options_.max_boxes - std::min(options_.max_boxes, boxes_);
+        const std::size_t most_of_part = std::max<std::size_t>(1, left / std::max<std::size_t>(1, parts_.size()));
         // Each pass lowers thresholds at least fourfold, so after these they are below any volume that matters.
         constexpr int most_passes = 40;
         for (int pass = 0; pass < most_passes; ++pass) {
@@ -314,7 +316,7 @@ class Measurement {
                 return;
             }
             if (next.is_full) {
-                // It was divided finely where it begins, and coarsely where it ends.
+                // The boxes ran out: the part was divided finely where the division began, and coarsely where it ended.
                 part.is_full = true;
                 if (!is_better(next.sums, part.sums)) return;
             }
@@ -419,6 +421,22 @@ void check(const Phased& object, const MeasureOptions& options) {
 }  // namespace
 
 }  // namespace measuring
+
+std::string_view name_of(MeasureEnd end) {
+    switch (end) {
+        case MeasureEnd::tolerance:
+            return "tolerance";
+        case MeasureEnd::precision:
+            return "precision";
+        case MeasureEnd::seconds:
+            return "time";
+        case MeasureEnd::boxes:
+            return "boxes";
+        case MeasureEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
 
 MeasureResult measure(const Phased& object, const MeasureOptions& options) {
     measuring::check(object, options);

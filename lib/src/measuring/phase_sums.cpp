@@ -58,8 +58,9 @@ Moments scaled(const Moments& m, double factor) {
     return result;
 }
 
-// The estimate of a phase in a box in doubt: of two phases, what is below the linear function after that has been
-// moved to the component's mean; otherwise a share of the box.
+// Estimates the moments of a phase in a box in doubt. If the box has two phases and a linear function is known, this is
+// the part in which the function is negative, after it has been shifted by at most the slack, so that its mean in the
+// box is that of the component. Otherwise it is the fraction of the box's moments that its sampled points suggest.
 Moments estimate_in(const ExaminedBox& box, std::size_t k, const MeasuredBox& measured) {
     const PhaseInBox& p = box.phases[k];
     if (box.phases.size() != 2 || !(p.slack < std::numeric_limits<double>::infinity()))

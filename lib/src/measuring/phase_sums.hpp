@@ -8,7 +8,8 @@ namespace phasetree::measuring {
 
 /// The moments of a phase in a set of boxes: lower and upper bounds, an estimate, and the magnitudes of what was added,
 /// which bound the rounding errors. Also its extent: `inner` is the extent of what it certainly contains, `outer` of
-/// what it may contain.
+/// what it may contain. A box is *in doubt* if it is not known to be in one phase only; the *doubt* of a phase is the
+/// volume that may or may not belong to it.
 struct PhaseSums {
     Moments low{}, high{}, estimate{}, magnitude{};
     std::array<double, 3> inner_low, inner_high, outer_low, outer_high;
@@ -24,7 +25,8 @@ struct PhaseSums {
 
     /// Adds a box, all of which is in the phase.
     void add(const MeasuredBox&);
-    /// Adds a box of which at least `certain` and at most `possible` is in the phase, and `estimated` about.
+    /// Adds a box in doubt. The phase contains at least `certain` and at most `possible` of it. The moments of its part
+    /// are approximately `estimated`.
     void add(const MeasuredBox&, const PartOfBox& certain, const PartOfBox& possible, const Moments& estimated);
     void add(const PhaseSums&);
 };

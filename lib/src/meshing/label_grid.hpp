@@ -13,7 +13,8 @@
 ///  * well_composed.hpp: changes to labels so that surfaces are manifolds;
 ///  * cube_patches.hpp: the patches in a cube;
 ///  * vertex_in_cube.hpp: the position of the vertex of each patch;
-///  * phase_mesh.cpp: the triangles between these vertices.
+///  * separation.hpp: moves and adds vertices so that triangles do not cross;
+///  * phase_mesh.cpp: runs these steps.
 namespace phasetree::meshing {
 
 /// A grid of equidistant points. Its cubes are identified by their corner with the lowest coordinates. In this folder,

@@ -9,12 +9,14 @@
 #include <mutex>
 #include <numeric>
 
+#include "meshing/active_cubes.hpp"
+#include "meshing/crossing_nearby.hpp"
 #include "meshing/cube_patches.hpp"
 #include "meshing/joined_sides.hpp"
 #include "meshing/label_grid.hpp"
+#include "meshing/separation.hpp"
 #include "meshing/vertex_in_cube.hpp"
 #include "meshing/well_composed.hpp"
-#include "phasetree/math/float_mode.hpp"
 
 namespace phasetree {
 
@@ -26,67 +28,6 @@ namespace {
 constexpr double least_apart = 1e-3;
 
 constexpr glm::ivec3 along[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-/// A cube with vertices, because it contains interfaces.
-struct ActiveCube {
-    int x = 0;
-    std::uint32_t vertex = 0;  ///< the index of the first patch's vertex; those of the other patches follow
-    CubePatches patches;
-};
-
-/// All cubes with vertices.
-class ActiveCubes {
-  public:
-    ActiveCubes(const Grid& grid, const Labels& labels, const JoinedSides& joined)
-        : grid_(grid), rows_(static_cast<std::size_t>(grid.points.y) * static_cast<std::size_t>(grid.points.z) + 1, 0) {
-        std::vector<std::vector<ActiveCube>> layers(static_cast<std::size_t>(grid.points.z - 1));
-        tbb::parallel_for(0, grid.points.z - 1, [&](int k) {
-            for (int j = 0; j + 1 < grid.points.y; ++j) {
-                std::vector<ActiveCube>& found = layers[static_cast<std::size_t>(k)];
-                const std::size_t before = found.size();
-                for (int i = 0; i + 1 < grid.points.x; ++i)
-                    if (!is_uniform(grid, labels, {i, j, k}))
-                        found.push_back({i, 0, CubePatches(joined.labels_of(labels, {i, j, k}))});
-                rows_[row(j, k) + 1] = found.size() - before;
-            }
-        });
-        for (std::size_t r = 1; r < rows_.size(); ++r) rows_[r] += rows_[r - 1];
-        cubes_.reserve(rows_.back());
-        for (const std::vector<ActiveCube>& layer : layers) cubes_.insert(cubes_.end(), layer.begin(), layer.end());
-        for (ActiveCube& cube : cubes_) {
-            cube.vertex = static_cast<std::uint32_t>(vertices_);
-            vertices_ += static_cast<std::size_t>(cube.patches.count());
-        }
-        if (vertices_ > std::numeric_limits<std::uint32_t>::max())
-            throw ModelError("the mesh would have more than four billion vertices; use a larger spacing");
-    }
-
-    std::size_t vertices() const { return vertices_; }
-    /// The vertex in a cube for the patch of an edge between two phases.
-    std::uint32_t vertex(const glm::ivec3& cube, int edge) const {
-        const std::size_t r = row(cube.y, cube.z);
-        const auto begin = cubes_.begin() + static_cast<std::ptrdiff_t>(rows_[r]);
-        const auto end = cubes_.begin() + static_cast<std::ptrdiff_t>(rows_[r + 1]);
-        const auto found = std::lower_bound(begin, end, cube.x, [](const ActiveCube& c, int x) { return c.x < x; });
-        return found->vertex + static_cast<std::uint32_t>(found->patches.patch(edge));
-    }
-    /// Calls f(lowest point, cube) for each of the cubes in a layer.
-    template <class F>
-    void for_each_in_layer(int k, F&& f) const {
-        for (int j = 0; j + 1 < grid_.points.y; ++j)
-            for (std::size_t n = rows_[row(j, k)]; n < rows_[row(j, k) + 1]; ++n)
-                f(glm::ivec3(cubes_[n].x, j, k), cubes_[n]);
-    }
-
-  private:
-    std::size_t row(int j, int k) const {
-        return static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.points.y) + static_cast<std::size_t>(j);
-    }
-    const Grid& grid_;
-    std::vector<std::size_t> rows_;  // where the cubes of each row along x begin in cubes_
-    std::vector<ActiveCube> cubes_;
-    std::size_t vertices_ = 0;
-};
 
 /// Reports the progress of the work over all of its stages.
 class MeshProgress {
@@ -144,32 +85,27 @@ class Mesher {
         make_well_composed(grid_, labels_, joined, stop);
         count_crossings(mesh);
         const auto layers_of_points = static_cast<std::size_t>(grid_.points.z);
-        progress_.begin(layers_of_points - 1, 0.75f);
+        progress_.begin(layers_of_points - 1, 0.65f);
         const ActiveCubes cubes(grid_, labels_, joined);
-        mesh.vertices.resize(cubes.vertices());
+        QuadMesh quads;
+        quads.vertices.resize(cubes.vertices());
         tbb::parallel_for(0, grid_.points.z - 1, [&](int k) {
             stop_if_cancelled();
             cubes.for_each_in_layer(k, [&](const glm::ivec3& point, const ActiveCube& cube) {
                 for (int patch = 0; patch < cube.patches.count(); ++patch)
-                    mesh.vertices[cube.vertex + static_cast<std::uint32_t>(patch)] =
+                    quads.vertices[cube.vertex + static_cast<std::uint32_t>(patch)] =
                         glm::vec3(grid_.place(point) + grid_.spacing * vertex_of(point, cube.patches, patch));
             });
             progress_.advance();
         });
-        progress_.begin(layers_of_points, 1);
-        std::vector<std::vector<PhaseMesh::Triangle>> layers(layers_of_points);
-        tbb::parallel_for(0, grid_.points.z, [&](int k) {
-            stop_if_cancelled();
-            add_layer(k, cubes, mesh, layers[static_cast<std::size_t>(k)]);
-            progress_.advance();
-        });
-        std::size_t triangles = 0;
-        for (const std::vector<PhaseMesh::Triangle>& layer : layers) triangles += layer.size();
-        mesh.triangles.reserve(triangles);
-        for (std::vector<PhaseMesh::Triangle>& layer : layers) {
-            mesh.triangles.insert(mesh.triangles.end(), layer.begin(), layer.end());
-            layer = {};
-        }
+        progress_.begin(layers_of_points, 0.7f);
+        add_quads(cubes, quads);
+        progress_.begin(layers_of_points, 0.95f);
+        separate({grid_, lines_, crossings_, labels_, joined, cubes}, quads, stop, [&] { progress_.advance(); });
+        progress_.begin(1, 1);
+        add_triangles(quads, mesh);
+        mesh.vertices = std::move(quads.vertices);
+        progress_.advance();
         return mesh;
     }
 
@@ -241,69 +177,51 @@ class Mesher {
     // is none within two cubes, the vertex stays: farther away, the interface might belong to another part of the
     // object.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& vertex, double apart) const {
-        const FlushSubnormals flush;
         const glm::dvec3 place = grid_.place(cube) + grid_.spacing * vertex;
-        std::vector<CrossingOnLine> crossings;
         double nearest = 2;
         glm::dvec3 found = vertex;
-        for (int axis = 0; axis < 3; ++axis) {
-            glm::dvec3 start = place;
-            start[axis] = grid_.low[axis];
-            const double length = grid_.spacing * (grid_.points[axis] - 1);
-            crossings.clear();
-            lines_(glm::vec3(start), glm::vec3(along[axis]), static_cast<float>(length), crossings);
-            for (const CrossingOnLine& c : crossings) {
-                const double at = (start[axis] + static_cast<double>(c.t) - place[axis]) / grid_.spacing;
-                if (std::abs(at) >= nearest) continue;
-                nearest = std::abs(at);
-                found = vertex + (1 - apart) * at * glm::dvec3(along[axis]);
+        for (int axis = 0; axis < 3; ++axis)
+            if (const auto at = crossing_nearby(grid_, lines_, place, axis, -nearest, nearest)) {
+                nearest = std::abs(*at);
+                found = vertex + (1 - apart) * *at * glm::dvec3(along[axis]);
             }
-        }
         return found;
     }
 
-    // Adds two triangles for each edge of the grid that begins in this layer of points and lies between two phases.
-    void add_layer(int k, const ActiveCubes& cubes, const PhaseMesh& mesh,
-                   std::vector<PhaseMesh::Triangle>& triangles) const {
-        for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
-            const Phase first = label(point), second = label(point + along[axis]);
-            if (first == second) return;
-            const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
-            // Counter-clockwise as seen against the axis, that is, from `second`.
-            std::array<std::uint32_t, 4> corners{};
-            const glm::ivec3 offsets[] = {u + v, v, glm::ivec3(0), u};
-            for (std::size_t i = 0; i < 4; ++i)
-                corners[i] = cubes.vertex(point - offsets[i], edge_number(axis, offsets[i]));
-            const auto c = crossings_[static_cast<std::size_t>(axis)].shown_on_edge(point);
-            const glm::dvec3 normal = c ? glm::dvec3(c->normal) : glm::dvec3(along[axis]);
-            const int diagonal = better_diagonal(mesh, corners, normal);
-            const bool turned = first < second;
-            for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3)}) {
-                const auto corner = [&](int i) { return corners[static_cast<std::size_t>((i + diagonal) % 4)]; };
-                PhaseMesh::Triangle t{{corner(0), corner(a), corner(b)}, first, second};
-                if (turned) {
-                    std::swap(t.vertices[1], t.vertices[2]);
-                    std::swap(t.behind, t.front);
-                }
-                triangles.push_back(t);
-            }
+    // Adds a quadrilateral for each edge of the grid that lies between two phases.
+    void add_quads(const ActiveCubes& cubes, QuadMesh& mesh) {
+        std::vector<std::vector<Quad>> layers(static_cast<std::size_t>(grid_.points.z));
+        tbb::parallel_for(0, grid_.points.z, [&](int k) {
+            stop_if_cancelled();
+            for_each_edge_of_layer(k, [&](int axis, const glm::ivec3& point) {
+                const Phase first = label(point), second = label(point + along[axis]);
+                if (first == second) return;
+                const glm::ivec3 u = along[(axis + 1) % 3], v = along[(axis + 2) % 3];
+                Quad q{.point = point, .axis = static_cast<std::uint8_t>(axis), .is_turned = first < second};
+                const glm::ivec3 offsets[] = {u + v, v, glm::ivec3(0), u};
+                for (std::size_t i = 0; i < 4; ++i)
+                    q.corners[i] = cubes.vertex(point - offsets[i], edge_number(axis, offsets[i]));
+                layers[static_cast<std::size_t>(k)].push_back(q);
+            });
+            progress_.advance();
         });
+        std::size_t count = 0;
+        for (const std::vector<Quad>& layer : layers) count += layer.size();
+        mesh.quads.reserve(count);
+        for (std::vector<Quad>& layer : layers) {
+            mesh.quads.insert(mesh.quads.end(), layer.begin(), layer.end());
+            layer = {};
+        }
     }
-
-    // Chooses the diagonal of a quadrilateral using the interface's normal. The diagonal starts at corner 0 or corner
-    // 1, whichever gives the smaller maximum deviation of a triangle from the normal.
-    static int better_diagonal(const PhaseMesh& mesh, const std::array<std::uint32_t, 4>& corners,
-                               const glm::dvec3& normal) {
-        const auto at = [&](int i) { return glm::dvec3(mesh.vertices[corners[static_cast<std::size_t>(i % 4)]]); };
-        const auto likeness = [&](int a, int b, int c) {
-            const glm::dvec3 n = glm::cross(at(b) - at(a), at(c) - at(a));
-            const double length = glm::length(n);
-            return length > 0 ? glm::dot(n, normal) / length : -1.0;
-        };
-        const auto least_likeness = [&](int d) {
-            return std::min(likeness(d, d + 1, d + 2), likeness(d, d + 2, d + 3));
-        };
-        return least_likeness(1) > least_likeness(0) ? 1 : 0;
+    void add_triangles(const QuadMesh& quads, PhaseMesh& mesh) const {
+        mesh.triangles.reserve(2 * quads.quads.size());
+        for (std::uint32_t i = 0; i < quads.quads.size(); ++i) {
+            const Quad& q = quads.quads[i];
+            const Phase first = label(q.point), second = label(q.point + along[q.axis]);
+            quads.for_each_triangle(i, [&](const std::array<std::uint32_t, 3>& t) {
+                mesh.triangles.push_back({t, std::max(first, second), std::min(first, second)});
+            });
+        }
     }
 
     const LineTracer& lines_;

@@ -7,9 +7,9 @@
 
 namespace phasetree {
 
-/// Φ⁻¹, the inverse of the normal distribution, for u from 0.001 to 0.999, by Newton's method. Starting from 0, no step
-/// overshoots the root, because Φ is concave on one side of 0 and convex on the other. Within this range, 11 steps
-/// reach the rounding errors of doubles. Φ is summed by Marsaglia's series, because the library's error functions
+/// N⁻¹, the inverse of the cumulative normal distribution, for u from 0.001 to 0.999, by Newton's method. Starting from
+/// 0, no step overshoots the root, because N is concave on one side of 0 and convex on the other. Within this range, 11
+/// steps reach the rounding errors of doubles. N is summed by Marsaglia's series, because the library's error functions
 /// differ between processors (phasetree/math/portable.hpp).
 ///
 /// Reference: Marsaglia, Evaluating the Normal Distribution, Journal of Statistical Software 11(4), 2004.
@@ -28,7 +28,7 @@ inline double inverse_normal(double u) {
 }
 
 /// The depth of a point in a phase, in voxels, from the value of the phase's blurred indicator there, its share. The
-/// depth is the distance to a flat interface with that share, σ Φ⁻¹(share). It is needed for each voxel and phase, so
+/// depth is the distance to a flat interface with that share, σ N⁻¹(share). It is needed for each voxel and phase, so
 /// it is tabulated.
 class DepthOfShare {
   public:

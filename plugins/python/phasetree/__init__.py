@@ -21,6 +21,7 @@ from phasetree._parts import cameras, lights, materials, meshes, numbers, textur
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
+from phasetree._solve import Solution, solve
 from phasetree._trees import Closest, Crossings, Field, Hits, Measures, Object, PhaseMesh
 from phasetree._view import View, view
 
@@ -39,8 +40,8 @@ voxels = _parts.voxels
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Measures", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "View",
-    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "textures", "vacuum", "view", "voxels",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Measures", "Object", "Phase", "PhaseMesh", "Places", "Scene", "SceneError", "Solution", "View",
+    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "solve", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

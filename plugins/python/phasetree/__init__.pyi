@@ -101,25 +101,38 @@ phase, or of all phases except the vacuum, is a manifold."""
     triangles: np.ndarray
     behind: np.ndarray
     front: np.ndarray
-    names: np.ndarray
-    spacing: np.ndarray
-    crossings: np.ndarray
-    skipped: np.ndarray
+    names: tuple[str, ...]
+    spacing: float
+    crossings: int
+    skipped: int
 
 class Measures(NamedTuple):
     r"""Volumes, masses and moments of the phases of an object; see Object.measure.
 
     The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
     are in the unit of the scene, usually metres."""
-    names: np.ndarray
+    names: tuple[str, ...]
     volume: np.ndarray
     mass: np.ndarray
     centre: np.ndarray
     inertia: np.ndarray
     low: np.ndarray
     high: np.ndarray
-    stopped: np.ndarray
-    boxes: np.ndarray
+    stopped: str
+    boxes: int
+
+class Solution(NamedTuple):
+    r"""A number for which a measure has a value, and what is certain about it; see solve.
+
+    The arrays hold [low, high, estimate]: the measure certainly lies between the first two."""
+    value: float
+    low: float
+    high: float
+    measure: np.ndarray
+    at_low: np.ndarray
+    at_high: np.ndarray
+    stopped: str
+    measurements: int
 
 class Field:
     r"""A signed distance, negative inside. Immutable.
@@ -1148,6 +1161,21 @@ def clamp(*values: Expression | float) -> Expression: ...
 def smooth_min(*values: Expression | float) -> Expression: ...
 def smooth_max(*values: Expression | float) -> Expression: ...
 def square(*values: Expression | float) -> Expression: ...
+
+def solve(make, target, low, high, phase=..., densities=..., tolerance=..., seconds=..., progress=...):
+    r"""The number between two others for which a phase has a volume or mass, as a Solution.
+
+make: a function that returns the object for a number. target: the volume, in cubed units of length; with
+densities, the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the
+target. phase: a Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names,
+to densities; phases that are not in it have no mass. tolerance: the width of the final bracket, by default a
+thousandth of the first. seconds: a limit of the time. progress: called with "solving" and a guess of the
+fraction done.
+
+The bracket is halved repeatedly. An end moves only if the certain interval of the measure proves on which side of
+the target it is. So the final bracket certainly contains a crossing; there may be others.
+
+Raises Error if both ends are on the same side, or if an argument is out of its range."""
 
 def load(path: str | PathLike[str]) -> Scene: ...
 
@@ -2274,7 +2302,7 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
 def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | Expression | None = ...) -> Object:
     r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about two voxels and do not grow beyond.
 
-        φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the voxels
+        φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative normal distribution, within the box of the voxels
 
     file: OpenVDB file with a grid of whole numbers. Or images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Images are grey, with integers of up to 32 bits, and seen from above, like those of height_map. The object is centred at the origin. (name of a file)
     phases: The phases of the object. (list of phases)

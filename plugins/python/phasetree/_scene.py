@@ -105,7 +105,7 @@ class Scene(Value):
         if (object is None) == (objects is None) and (object is not None or not meshes):
             raise Error("a scene shows either an object or objects, or meshes alone")
         if object is not None and not isinstance(object, Object):
-            raise Error(f"a scene shows an object of phases, but this is {object!r}")
+            raise Error(f"a scene shows an object of phases, such as field.set(phase), but this is {object!r}")
         self.object = object
         self.objects = _placed.named_objects(objects or {})
         self.groups = {

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import textwrap
 
-from phasetree import _formula, _parts, _placed, _scene, _trees, _view
+from phasetree import _formula, _parts, _placed, _scene, _solve, _trees, _view
 
 _TYPES = {
     "number": "float",
@@ -131,8 +131,8 @@ def _class(cls, methods=""):
     if cls is _trees.Field:
         for name in _OPERATORS:
             text += f"    def {name}(self, other: Field | Expression) -> Field: ...\n"
-    for name in getattr(cls, "__annotations__", {}):
-        text += f"    {name}: np.ndarray\n"
+    for name, kind in getattr(cls, "__annotations__", {}).items():
+        text += f"    {name}: {getattr(kind, '__forward_arg__', kind)}\n"  # NamedTuple stores forward references
     return text + methods
 
 
@@ -156,7 +156,7 @@ def text():
     out += "class Phase:\n    name: str\n    material: Material | None\n"
     out += "    def __call__(self, *fields: Field | Expression) -> Object: ...\n\n"
     out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ...) -> Phase: ...\n\n"
-    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest, _trees.PhaseMesh, _trees.Measures):
+    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest, _trees.PhaseMesh, _trees.Measures, _solve.Solution):
         out += _class(cls).replace(f"class {cls.__name__}:", f"class {cls.__name__}(NamedTuple):") + "\n"
     out += _class(_trees.Field, _methods(_trees.Field)) + "\n"
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
@@ -180,6 +180,7 @@ def text():
     out += "def coordinates() -> tuple[Expression, Expression, Expression]: ...\n\n"
     for name in _formula.functions:
         out += f"def {name}(*values: {_NUMBER}) -> Expression: ...\n"
+    out += "\n" + _plain(_solve.solve, "")
     out += "\ndef load(path: str | PathLike[str]) -> Scene: ...\n\n"
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"

@@ -74,7 +74,7 @@ class PhaseMesh(NamedTuple):
     triangles: np.ndarray  #: uint32 (M, 3): counterclockwise as seen from the phase in front
     behind: np.ndarray  #: uint8 (M): the phase behind, which has the higher number
     front: np.ndarray  #: uint8 (M): the phase in front
-    names: tuple  #: the names of the phases
+    names: tuple[str, ...]  #: the names of the phases
     spacing: float  #: the distance between grid points
     crossings: int  #: the number of crossings along the lines of the grid
     skipped: int  #: how many are missing: at edges, and where a phase is thinner than the spacing
@@ -106,7 +106,7 @@ class Measures(NamedTuple):
     are in the unit of the scene, usually metres.
     """
 
-    names: tuple  #: the names of the N phases, without the vacuum
+    names: tuple[str, ...]  #: the names of the N phases, without the vacuum
     volume: np.ndarray  #: float64 (N, 3)
     mass: np.ndarray  #: float64 (N, 3): the volume times the density, which is 1 by default
     centre: np.ndarray  #: float64 (N, 3, 3): x, y and z of the centre of mass; infinite if the phase may be empty

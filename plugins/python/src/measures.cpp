@@ -1,4 +1,4 @@
-// Volumes, masses and moments of an object's phases.
+// Volumes, masses and moments of an object's phases, and numbers for which they have a value.
 #include <pybind11/stl.h>
 
 #include <array>
@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "module.hpp"
 #include "phasetree/measuring/measure.hpp"
+#include "phasetree/measuring/solve.hpp"
 
 namespace py = pybind11;
 
@@ -35,22 +36,6 @@ class Rows {
     std::vector<py::ssize_t> shape_;
     std::vector<double> values_;
 };
-
-const char* name_of(MeasureEnd end) {
-    switch (end) {
-        case MeasureEnd::tolerance:
-            return "tolerance";
-        case MeasureEnd::precision:
-            return "precision";
-        case MeasureEnd::seconds:
-            return "time";
-        case MeasureEnd::boxes:
-            return "boxes";
-        case MeasureEnd::cancelled:
-            return "cancelled";
-    }
-    return "";
-}
 
 py::tuple measures(const Phased& object, double tolerance, std::optional<double> seconds,
                    const std::vector<std::pair<int, double>>& densities, const py::object& tell) {
@@ -82,11 +67,60 @@ py::tuple measures(const Phased& object, double tolerance, std::optional<double>
                           high.array(), name_of(result.end), result.boxes);
 }
 
+const char* name_of(SolveEnd end) {
+    switch (end) {
+        case SolveEnd::width:
+            return "tolerance";
+        case SolveEnd::undecided:
+            return "undecided";
+        case SolveEnd::same_side:
+            return "same side";
+        case SolveEnd::seconds:
+            return "time";
+        case SolveEnd::cancelled:
+            return "cancelled";
+    }
+    return "";
+}
+
+// (number, [low, high, estimate]), or None.
+py::object point(const std::optional<SolvePoint>& p) {
+    if (!p) return py::none();
+    Rows measure(1, {});
+    measure.add(p->measure);
+    return py::make_tuple(p->at, measure.array());
+}
+
+// `make` returns the handle of the object for a number. It is called without other Python code running meanwhile.
+py::tuple solution(const py::function& make, const std::vector<std::pair<int, double>>& weights, double value,
+                   double low, double high, double width, std::optional<double> seconds, const py::object& tell) {
+    SolveTarget target{{}, value};
+    for (const auto& [phase, weight] : weights)
+        target.weights.emplace_back(Phase{static_cast<std::uint8_t>(phase)}, weight);
+    SolveOptions options;
+    options.width = width;
+    if (seconds) options.seconds = *seconds;
+    SolveResult result;
+    run_beside(tell, [&](const auto& cancelled, const auto& progress) {
+        options.cancelled = cancelled;
+        options.progress = [&](const SolveProgress& p) { progress("solving", static_cast<float>(p.share)); };
+        const auto object = [&](double number) {
+            const py::gil_scoped_acquire lock;
+            return make(number).cast<Phased>();
+        };
+        result = solve(object, target, low, high, options);
+    });
+    return py::make_tuple(name_of(result.end), point(result.best), point(result.low), point(result.high),
+                          point(result.undecided), result.measurements);
+}
+
 }  // namespace
 
 void add_measures(py::module_& module) {
     module.def("measure", &measures, py::arg("object"), py::arg("tolerance"), py::arg("seconds"), py::arg("densities"),
                py::arg("tell"));
+    module.def("solve", &solution, py::arg("make"), py::arg("weights"), py::arg("value"), py::arg("low"),
+               py::arg("high"), py::arg("width"), py::arg("seconds"), py::arg("tell"));
 }
 
 }  // namespace phasetree::python

@@ -64,7 +64,7 @@ py::array_t<float> as_array(const Image& image) {
 
 py::dict planes_of(const Image& image) {
     py::dict planes;
-    for (const Channel& channel : image.further) {
+    for (const Channel& channel : image.extra_channels) {
         py::array_t<float> values({image.height, image.width});
         std::copy(channel.values.begin(), channel.values.end(), values.mutable_data());
         planes[py::str(channel.name)] = values;
@@ -144,7 +144,7 @@ Rendered rendered(Scene scene, const RenderRequest& request, const std::optional
     } catch (const DenoiseError& e) {  // the picture is still usable
         result.is_noisy_because = e.what();
     }
-    leave_out(result.rendering.image, film_settings(scene).planes, wanted, subjects_of(scene));
+    leave_out(result.rendering.image, film_settings(scene).planes, wanted, scene_names_of(scene));
     return result;
 }
 
@@ -183,7 +183,7 @@ Image image_of(const py::array_t<float>& pixels, const py::dict& planes) {
         const auto array = py::cast<py::array_t<float, py::array::c_style | py::array::forcecast>>(values);
         if (static_cast<std::size_t>(array.size()) != image.pixels.size())
             throw std::invalid_argument("a plane must have one value per pixel");
-        image.further.push_back({name.cast<std::string>(), {array.data(), array.data() + array.size()}});
+        image.extra_channels.push_back({name.cast<std::string>(), {array.data(), array.data() + array.size()}});
     }
     return image;
 }

@@ -38,7 +38,7 @@ void read(const std::filesystem::path& path, std::size_t bytes) {
             ByteWriter out;
             for (int y = band.area().y0; y < band.area().y1; ++y) band.write_row(y, out);
         }
-        Film film(file.header().film, file.header().area, file.header().subjects);
+        Film film(file.header().film, file.header().area, file.header().scene_names);
         file.add_to(film);
         promised(difference(file.header(), file.header()).empty(), "a film is of its own picture");
     } catch (const FilmFileError&) {

@@ -281,7 +281,7 @@ TEST_CASE("photons of a flame start in it, and nowhere else") {
         R"("lights": [])");
     const World world(scene);
     const PhotonEmission emission(world, scene);
-    CHECK(emission.sources() == scene.lights.glowing().size());
+    CHECK(emission.sources() == scene.lights.emissive_parts().size());
     int started = 0;
     for (std::uint32_t i = 0; i < 4000; ++i) {
         Sampler sampler(i, 0, 0, 7);
@@ -364,7 +364,7 @@ TEST_CASE("lamps within the object's sphere, before a sun and before each other:
 
 TEST_CASE("a target's lines are as dense as it says") {
     PhotonTarget target({1, 2, 3}, glm::normalize(glm::vec3(1, 1, 2)), 0.7f);
-    std::vector<double> weights(target.cells());
+    std::vector<double> weights(target.bins());
     std::mt19937 random(2);
     std::uniform_real_distribution<float> unit(0, 1);
     for (double& weight : weights) weight = static_cast<double>(unit(random)) + 0.01;
@@ -373,7 +373,7 @@ TEST_CASE("a target's lines are as dense as it says") {
     const glm::vec3 direction = glm::normalize(glm::vec3(0.5f, 1, 2));
     Moments inverse;
     for (int i = 0; i < 20000; ++i) {
-        const PhotonTarget::Aim aim = target.sample(unit(random), {unit(random), unit(random)});
+        const PhotonTarget::Sample aim = target.sample(unit(random), {unit(random), unit(random)});
         const float density = target.crossing(aim.point - 2.0f * direction, direction).density;
         if (density > 0) inverse.add(1 / static_cast<double>(density));
     }

@@ -53,13 +53,13 @@ TEST_CASE("a point light within glass shines to all sides, as a small ball does"
 TEST_CASE("directions of photons are as dense as they say") {
     PhotonDirections directions(32);
     phasetree::tests::Uniform random(3);
-    std::vector<double> weights(directions.cells());
+    std::vector<double> weights(directions.bins());
     for (double& weight : weights) weight = static_cast<double>(random()) + 0.01;
     directions.set_weights(weights);
     // The mean of 1/p is the measure of all directions, and that of z/p is 0.
     Moments inverse, upward;
     for (int i = 0; i < 20000; ++i) {
-        const auto [direction, cell] = directions.sample(random(), random.two());
+        const auto [direction, bin] = directions.sample(random(), random.two());
         const double density = static_cast<double>(directions.density(direction));
         REQUIRE(density > 0);
         inverse.add(1 / density);

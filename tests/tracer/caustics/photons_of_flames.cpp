@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "caustics/places.hpp"
+#include "caustics/points_in_ball.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "sampling/warps.hpp"
 #include "support/uniform.hpp"
@@ -31,9 +31,9 @@ std::string set(const std::string& phase, const std::string& at, double radius) 
 TEST_CASE("places of photons are as dense along lines as they say") {
     constexpr float infinity = phasetree::Bounds::infinity;
     const BoundingSphere ball{{1, -2, 3}, 2};
-    PhotonPlaces places(ball);
+    PointsInBall places(ball);
     phasetree::tests::Uniform random(5);
-    std::vector<double> weights(places.cells());
+    std::vector<double> weights(places.bins());
     for (double& weight : weights) weight = static_cast<double>(random()) + 0.01;
     places.set_weights(weights);
     // A line through a place, in a direction that is evenly spread, has the density ∫ v / 4π. So the mean of 1 over
@@ -41,9 +41,9 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     Moments measure;
     for (int i = 0; i < 200000; ++i) {
         const glm::vec3 direction = square_to_uniform_cone(random.two(), 2.0f);
-        const float u_cell = random();
+        const float u_bin = random();
         const glm::vec2 u = random.two();
-        const auto place = places.sample(u_cell, {u, random()});
+        const auto place = places.sample(u_bin, {u, random()});
         if (!place) {
             measure.add(0);
             continue;
@@ -66,7 +66,7 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     CHECK(mean_p_value(measure, 1.02 * expected, 0) < 1e-4);
     // Along axes and in coordinate planes, where steps along an axis have no end: places all alike are as dense, per
     // length, on every line.
-    const PhotonPlaces even(ball);
+    const PointsInBall even(ball);
     const auto per_length = [&](const glm::vec3& direction) {
         return static_cast<double>(even.density_along(ball.centre - 3.0f * direction, direction, infinity)) / 4;
     };

@@ -42,8 +42,8 @@ std::optional<ChainEnd> chain_end(const World& world, const Photon& photon, cons
 }
 
 // R of rough_chain.hpp, written out.
-float factor_of(const ChainEnd& end, float lamp_ior) {
-    const float etendue = lamp_ior * lamp_ior * std::abs(end.wi.z) / (ior_of_water * ior_of_water * end.wo.z);
+float factor_of(const ChainEnd& end, float light_ior) {
+    const float etendue = light_ior * light_ior * std::abs(end.wi.z) / (ior_of_water * ior_of_water * end.wo.z);
     return end.bsdf.reverse_pdf(end.wo, end.wi) * etendue;
 }
 
@@ -113,15 +113,15 @@ TEST_CASE("a photon and a path that comes along its way backwards know the same 
                 trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, end->shadow, light, {}, 1);
             REQUIRE(arrival.light);
             // Of a point light the line density that a shadow ray knows is q/(n'² d²), and the photon's is q.
-            const float lamp_ior = c.in_oil ? ior_of_oil : 1;
-            const float by_photons = arrival.light->line_density * factor_of(*end, lamp_ior) / photon.line_density;
+            const float light_ior = c.in_oil ? ior_of_oil : 1;
+            const float by_photons = arrival.light->line_density * factor_of(*end, light_ior) / photon.line_density;
             if (is_point)
                 CHECK(photon.quotients.by_directions == 0.0f);
             else
                 CHECK(photon.quotients.by_directions == nearly(end->bsdf.pdf(end->wo, end->wi) / by_photons));
             CHECK(photon.quotients.by_shadow_rays.value() == nearly(light.pdf / by_photons));
-            const float divided_by = is_point ? lamp_ior * lamp_ior * distance * distance : 1;
-            CHECK(by_photons == nearly(factor_of(*end, lamp_ior) / divided_by));
+            const float divided_by = is_point ? light_ior * light_ior * distance * distance : 1;
+            CHECK(by_photons == nearly(factor_of(*end, light_ior) / divided_by));
             ++compared;
         });
         CHECK(compared > 20);

@@ -30,8 +30,8 @@ struct Truth {
 };
 
 std::vector<float>& channel(Image& image, const std::string& name) {
-    const auto found = std::ranges::find(image.further, name, &Channel::name);
-    REQUIRE(found != image.further.end());
+    const auto found = std::ranges::find(image.extra_channels, name, &Channel::name);
+    REQUIRE(found != image.extra_channels.end());
     return found->values;
 }
 
@@ -52,7 +52,7 @@ Image made(const Truth& truth, double deviation, std::uint32_t seed, bool are_ra
                                              ? (static_cast<double>(random()) < 1.0 / 32) * 32 * truth.radiance(x, y)
                                              : truth.radiance(x, y) + deviation * unit;
                     sum += value;
-                    if (HalfPlane::has(static_cast<std::uint32_t>(s))) first += value;
+                    if (HalfOfSamplesPlane::contains(static_cast<std::uint32_t>(s))) first += value;
                 }
                 image.pixels[i][c] = static_cast<float>(sum / samples);
                 const char* const names[]{"half.R", "half.G", "half.B"};
@@ -231,7 +231,7 @@ TEST_CASE("it can be stopped, and says how far it is") {
 TEST_CASE("a film that lacks a channel or samples is rejected") {
     Image image = made(textured, sigma, 7);
     Image lacking = image;
-    std::erase_if(lacking.further, [](const Channel& c) { return c.name == "half_normal.Y"; });
+    std::erase_if(lacking.extra_channels, [](const Channel& c) { return c.name == "half_normal.Y"; });
     CHECK_THROWS_WITH_AS((void)regressed(lacking), doctest::Contains("half_normal.Y"), DenoiseError);
     channel(image, "half_samples.X")[99] = samples;
     CHECK_THROWS_WITH_AS((void)regressed(image), doctest::Contains("8 samples"), DenoiseError);

@@ -21,7 +21,7 @@ struct FirstPlane {
     using Sum = FirstValue<1>;
     static constexpr std::string_view name = "first";
     static constexpr bool by_default = false;
-    explicit FirstPlane(const PlaneSubjects&) {}
+    explicit FirstPlane(const SceneNames&) {}
     std::vector<std::string> channels() const { return {"first.Y", "first.count"}; }
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
@@ -38,7 +38,7 @@ struct PhasesPlane {
     using Sum = Count;
     static constexpr std::string_view name = "phases";
     static constexpr bool by_default = true;
-    explicit PhasesPlane(const PlaneSubjects& subjects) : names(subjects.phases) {}
+    explicit PhasesPlane(const SceneNames& scene_names) : names(scene_names.phases) {}
     std::vector<std::string> channels() const { return names; }
     std::size_t sums() const { return names.size(); }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
@@ -187,7 +187,7 @@ TEST_CASE("film: rows as bytes, and back") {
         film.pixels().write_row(y, out);
         ByteReader in(out.bytes());
         rows.read_row(y, in);
-        CHECK(in.left() == 0);
+        CHECK(in.bytes_left() == 0);
         ByteReader cut(std::span<const std::byte>(out.bytes()).first(out.bytes().size() - 1));
         FilmTile unused = read.tile({2, 1, 7, 5});
         CHECK_THROWS_AS(unused.read_row(y, cut), BytesError);
@@ -200,9 +200,9 @@ TEST_CASE("planes beside the picture become further channels, if they are chosen
     using Three = PlaneList<RadiancePlane, FirstPlane, PhasesPlane>;
     CHECK(Three::names == std::array<std::string_view, 3>{"beauty", "first", "phases"});
     CHECK(Three::by_default().to_string() == "101");  // the last first
-    const PlaneSubjects subjects{{"vacuum", "glass"}, {}, {}};
+    const SceneNames scene_names{{"vacuum", "glass"}, {}, {}};
     const auto image_of = [&](const Three::Choice& choice) {
-        Three::Sums sums(choice, subjects, 2);
+        Three::Sums sums(choice, scene_names, 2);
         FilmFaults faults;
         for (std::uint32_t s = 5; s-- > 0;) sums.add(1, {glm::vec3(1, 2.0f + static_cast<float>(s), 0), s}, faults);
         Image image = black_image({.width = 2, .height = 1}, {0, 0, 2, 1}, sums.channels());
@@ -212,22 +212,22 @@ TEST_CASE("planes beside the picture become further channels, if they are chosen
         return image;
     };
     const Image all = image_of(Three::all());
-    REQUIRE(all.further.size() == 4);
-    CHECK(all.further[0].name == "first.Y");
-    CHECK(all.further[0].values == std::vector<float>{0, 2});
-    CHECK(all.further[1].name == "first.count");
-    CHECK(all.further[1].values == std::vector<float>{0, 5});
-    CHECK(all.further[2].name == "vacuum");
-    CHECK(all.further[2].values == std::vector<float>{0, 3});
-    CHECK(all.further[3].name == "glass");
-    CHECK(all.further[3].values == std::vector<float>{0, 2});
+    REQUIRE(all.extra_channels.size() == 4);
+    CHECK(all.extra_channels[0].name == "first.Y");
+    CHECK(all.extra_channels[0].values == std::vector<float>{0, 2});
+    CHECK(all.extra_channels[1].name == "first.count");
+    CHECK(all.extra_channels[1].values == std::vector<float>{0, 5});
+    CHECK(all.extra_channels[2].name == "vacuum");
+    CHECK(all.extra_channels[2].values == std::vector<float>{0, 3});
+    CHECK(all.extra_channels[3].name == "glass");
+    CHECK(all.extra_channels[3].values == std::vector<float>{0, 2});
     const Image some = image_of(Three::by_default());
-    REQUIRE(some.further.size() == 2);
-    CHECK(some.further[0].name == "vacuum");
+    REQUIRE(some.extra_channels.size() == 2);
+    CHECK(some.extra_channels[0].name == "vacuum");
     // The picture is always kept, and what is not chosen takes nothing.
-    CHECK(image_of({}).further.empty());
-    CHECK(Three::Sums({}, subjects, 2).bytes_of_pixel() == 48);
-    CHECK(Three::Sums(Three::all(), subjects, 2).bytes_of_pixel() == 48 + sizeof(FirstValue<1>) + 2 * sizeof(Count));
+    CHECK(image_of({}).extra_channels.empty());
+    CHECK(Three::Sums({}, scene_names, 2).bytes_of_pixel() == 48);
+    CHECK(Three::Sums(Three::all(), scene_names, 2).bytes_of_pixel() == 48 + sizeof(FirstValue<1>) + 2 * sizeof(Count));
 }
 
 }  // namespace test_film

@@ -145,7 +145,7 @@ bool is_independent(const Values& values, const Add& add) {
             const std::vector<std::byte> bytes = bytes_of(sum);
             if (bytes_of(other) != bytes) return false;
             ByteReader in(bytes);
-            if (!(Sum::read(in) == sum) || in.left() != 0) return false;
+            if (!(Sum::read(in) == sum) || in.bytes_left() != 0) return false;
             for (std::size_t n = 0; n < bytes.size(); ++n) {
                 ByteReader cut(std::span<const std::byte>(bytes).first(n));
                 CHECK_THROWS_AS(Sum::read(cut), BytesError);

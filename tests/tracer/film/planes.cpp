@@ -41,7 +41,7 @@ Scene ball(const std::string& camera = R"({"position": [0, -5, 0], "look_at": [0
 
 // Not a std::string, because GCC 13 and later would take the result for a reference into a temporary.
 const std::vector<float>& channel(const Image& image, const char* name) {
-    for (const Channel& c : image.further)
+    for (const Channel& c : image.extra_channels)
         if (c.name == name) return c.values;
     FAIL("there is no channel " << name);
     throw std::logic_error("unreachable");
@@ -208,7 +208,7 @@ TEST_CASE("parts of the light add up to the picture, and planes change none of i
     }
     scene.film.planes = Planes::by_default();
     const Image alone = image_of(world, scene);
-    CHECK(alone.further.empty());
+    CHECK(alone.extra_channels.empty());
     CHECK(alone.attributes.empty());
     CHECK(alone.pixels == image.pixels);
 }
@@ -220,7 +220,7 @@ TEST_CASE("alpha: glass, lamps and what scatters cover the background, and what 
                                R"("lights": [{"constant": {}})" + lights + R"(], "background": [0, 0, 0],
             "camera": {"orthographic": {"position": [0, -5, 0], "look_at": [0, 0, 0], "height": 4, "filter": "box"}},
             "render": {"width": 48, "height": 48, "samples": 64})");
-        scene.film.planes[Planes::place<AlphaPlane>()] = true;
+        scene.film.planes[Planes::index_of<AlphaPlane>()] = true;
         const Image image = image_of(World(scene), scene);
         const std::vector<float>& alpha = channel(image, "A");
         double sum = 0;

@@ -21,7 +21,7 @@ FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
     FilmFileHeader h;
     h.settings = {{"version", "1.2.3+aa"}, {"commit", "12ab"}, {"scene", "0123"}, {"seed", "4"}};
     h.film = settings;
-    h.subjects = {{"vacuum", "gläss", ""}, {"lamp"}, {"object", "floor"}};
+    h.scene_names = {{"vacuum", "gläss", ""}, {"lamp"}, {"object", "floor"}};
     h.area = h.shown = area;
     h.samples = {3, 5};
     h.samples_in_all = 9;
@@ -35,7 +35,7 @@ FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
 // Two samples for each pixel, but for one pixel that has one, and one that has none.
 FilmTile film_of(const FilmFileHeader& h) {
     Uniform random(3);
-    FilmTile tile(h.area, h.film.planes, h.subjects);
+    FilmTile tile(h.area, h.film.planes, h.scene_names);
     for (int y = h.area.y0; y < h.area.y1; ++y)
         for (int x = h.area.x0; x < h.area.x1; ++x)
             for (std::uint32_t s = 0; s < 2; ++s) {
@@ -70,7 +70,7 @@ struct Written {
         bytes = support::bytes_of(path);
     }
     void write() const {
-        Film film(header.film, header.area, header.subjects);
+        Film film(header.film, header.area, header.scene_names);
         film.add(film_of(header));
         write_film(path, header, film);
     }
@@ -79,7 +79,7 @@ struct Written {
         support::write_text(path, of);
         try {
             const FilmFile file(path);
-            Film film(file.header().film, file.header().area, file.header().subjects);
+            Film film(file.header().film, file.header().area, file.header().scene_names);
             file.add_to(film);
             return "";
         } catch (const FilmFileError& e) {
@@ -102,11 +102,11 @@ TEST_CASE("a film with all planes is read as it was written, and says what it is
     CHECK(h.seed == 4);
     CHECK(h.exposure_ev == -0.5f);
     CHECK(h.view == "Filmic");
-    const bool same_subjects = h.subjects == wanted.subjects;
-    CHECK(same_subjects);
+    const bool same_names = h.scene_names == wanted.scene_names;
+    CHECK(same_names);
     CHECK_FALSE(file.is_finished());
     CHECK(file.samples() == 2 * 7 * 37 - 3);
-    Film film(h.film, h.area, h.subjects);
+    Film film(h.film, h.area, h.scene_names);
     file.add_to(film);
     CHECK(same_rows(film.pixels(), film_of(wanted)));
 }
@@ -135,7 +135,7 @@ TEST_CASE("what differs is named") {
     CHECK(difference(wanted, found) == "it was written by another version of phasetree");
     CHECK(difference(found, wanted) == "");  // of the first settings alone
     found = wanted;
-    found.subjects.groups.push_back("sky");
+    found.scene_names.groups.push_back("sky");
     CHECK(difference(wanted, found) == "it belongs to another picture");
 }
 

@@ -248,7 +248,7 @@ TEST_CASE("planes of a picture are means of what a pane mirrors and what is behi
         const World world(scene);
         const Image image = image_of(world, scene);
         const auto mean_of = [&](const std::string& name) {
-            for (const Channel& channel : image.further)
+            for (const Channel& channel : image.extra_channels)
                 if (channel.name == name)
                     return std::accumulate(channel.values.begin(), channel.values.end(), 0.0) /
                            static_cast<double>(channel.values.size());

@@ -9,7 +9,7 @@
 
 #include "phasetree_support/temporary_directory.hpp"
 #include "sampling/warps.hpp"
-#include "scene/shining_parts.hpp"
+#include "scene/emissive_parts.hpp"
 #include "support/uniform.hpp"
 #include "tracer/support/paths.hpp"
 
@@ -285,7 +285,7 @@ TEST_CASE("balls cover what glows, and are not many") {
                                     R"({"helix": {"radius": 0.3, "pitch": 0.2, "turns": 3, "wire_radius": 0.01}})"}) {
         CAPTURE(shape);
         const Scene scene = scene_of(glowing(), hot(shape, "[1, 2, 3]"), dark);
-        const auto parts = scene.lights.glowing();
+        const auto parts = scene.lights.emissive_parts();
         CHECK(parts.size() >= 4);
         CHECK(parts.size() <= 128);
         const World world(scene);
@@ -300,7 +300,7 @@ TEST_CASE("balls cover what glows, and are not many") {
             const auto* surface = std::get_if<Surface>(&hit);
             if (!surface) continue;
             ++met;
-            REQUIRE(std::ranges::any_of(parts, [&](const GlowingPart& part) {
+            REQUIRE(std::ranges::any_of(parts, [&](const EmissivePart& part) {
                 const BoundingSphere ball = part.bounding_sphere();
                 return glm::distance(ball.centre, surface->near_side.origin) <= 1.0001f * ball.radius;
             }));
@@ -323,16 +323,16 @@ TEST_CASE("of many copies each has one ball, and of very many none") {
                 instances + "]}",
             "test.json"));
     };
-    const std::size_t of_one = scene_with(1).lights.glowing().size();
+    const std::size_t of_one = scene_with(1).lights.emissive_parts().size();
     CHECK(of_one > 5);
-    CHECK(scene_with(10).lights.glowing().size() == 10 * of_one);
+    CHECK(scene_with(10).lights.emissive_parts().size() == 10 * of_one);
     const Scene many = scene_with(9000);
-    CHECK(many.lights.glowing().size() == 9000);
-    const BoundingSphere last = many.lights.glowing().back().bounding_sphere();
+    CHECK(many.lights.emissive_parts().size() == 9000);
+    const BoundingSphere last = many.lights.emissive_parts().back().bounding_sphere();
     CHECK(glm::distance(last.centre, glm::vec3(8999, 0, 1)) < 0.01f);
     CHECK(last.radius >= 0.2f);
     CHECK(last.radius < 0.5f);
-    CHECK(scene_with(10'001).lights.glowing().empty());
+    CHECK(scene_with(10'001).lights.emissive_parts().empty());
 }
 
 TEST_CASE("copies that do not shine do not count") {
@@ -347,7 +347,7 @@ TEST_CASE("copies that do not shine do not count") {
             "instances": [)" +
             grass + R"({"of": "ember", "transform": {"translate": {"by": [0, 3, 1]}}}]})",
         "test.json"));
-    CHECK(scene.lights.glowing().size() > 5);
+    CHECK(scene.lights.emissive_parts().size() > 5);
 }
 
 TEST_CASE("each phase has balls of its own size, and a hidden one has none") {
@@ -361,7 +361,7 @@ TEST_CASE("each phase has balls of its own size, and a hidden one has none") {
               {"set": {"phase": "core", "of": {"translate": {"by": [-2, 1, 3], "of": {"sphere": {"radius": 0.3}}}}}}]})",
         dark);
     int lava = 0, spark = 0, core = 0;
-    for (const GlowingPart& part : scene.lights.glowing()) {
+    for (const EmissivePart& part : scene.lights.emissive_parts()) {
         const BoundingSphere ball = part.bounding_sphere();
         ++(part.luminance() < 3 ? lava : part.luminance() < 7 ? spark : core);
         if (part.luminance() > 3) CHECK(glm::distance(ball.centre, glm::vec3(2, 1, 3)) + ball.radius < 0.1f);
@@ -375,13 +375,13 @@ TEST_CASE("a mesh of two triangles is divided, and collapsed triangles are no tr
     const Scene scene = scene_of(R"("glass": {"clear": {"ior": 1.5}})",
                                  R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})",
                                  R"("meshes": [{"floor": {"size": 40, "material": {"glowing": {}}}}], )" + dark);
-    CHECK(scene.lights.glowing().size() == 16);
+    CHECK(scene.lights.emissive_parts().size() == 16);
     Uniform random(5);
     // The box of a triangle with a longest edge of 20 m is 20 by 10.
-    for (const GlowingPart& part : scene.lights.glowing()) CHECK(part.bounding_sphere().radius < 11.2f);
+    for (const EmissivePart& part : scene.lights.emissive_parts()) CHECK(part.bounding_sphere().radius < 11.2f);
     for (int i = 0; i < 2000; ++i) {
         const glm::vec3 p(40 * random() - 20, 40 * random() - 20, 0);
-        REQUIRE(std::ranges::any_of(scene.lights.glowing(), [&](const GlowingPart& part) {
+        REQUIRE(std::ranges::any_of(scene.lights.emissive_parts(), [&](const EmissivePart& part) {
             return glm::distance(part.bounding_sphere().centre, p) <= 1.0001f * part.bounding_sphere().radius;
         }));
     }
@@ -389,9 +389,9 @@ TEST_CASE("a mesh of two triangles is divided, and collapsed triangles are no tr
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
     mesh.triangles = {{0, 1, 2}, {3, 3, 3}, {3, 3, 3}};
     mesh.material = Glowing{};
-    const std::vector<ShiningPart> parts = parts_of_mesh(mesh);
+    const std::vector<EmissiveBall> parts = parts_of_mesh(mesh);
     CHECK(parts.size() == 16);
-    for (const ShiningPart& part : parts) CHECK(part.ball.radius < 0.6f);
+    for (const EmissiveBall& part : parts) CHECK(part.ball.radius < 0.6f);
     mesh.triangles = {{3, 3, 3}, {3, 3, 3}};
     CHECK(parts_of_mesh(mesh).size() <= 2);
     mesh.triangles.clear();
@@ -405,8 +405,8 @@ TEST_CASE("huge and strong flames have balls with finite numbers") {
         const Scene scene =
             scene_of(R"("flame": {"clear": {"ior": 1, "emission": [1e38, 1, 1], "absorption": [1, 1, 1]}})",
                      std::string(R"({"set": {"phase": "flame", "of": )") + shape + "}}", dark);
-        CHECK(!scene.lights.glowing().empty());
-        for (const GlowingPart& part : scene.lights.glowing()) {
+        CHECK(!scene.lights.emissive_parts().empty());
+        for (const EmissivePart& part : scene.lights.emissive_parts()) {
             CHECK(std::isfinite(part.luminance()));
             CHECK(part.luminance() > 0);
         }
@@ -416,10 +416,10 @@ TEST_CASE("huge and strong flames have balls with finite numbers") {
 TEST_CASE("a scene that nothing lights does not shine") {
     const std::string ball = R"({"set": {"phase": "stone", "of": {"sphere": {"radius": 1}}}})";
     const std::string phases = R"("stone": {"diffuse": {"color": [0.5, 0.5, 0.5]}}, )";
-    CHECK_FALSE(scene_of(phases + glowing(), ball, dark).shines());
-    CHECK_FALSE(
-        scene_of(R"("hot": {"glowing": {"light": [0, 0, 0]}})", hot(R"({"sphere": {"radius": 1}})"), dark).shines());
-    CHECK(scene_of(glowing(), hot(R"({"sphere": {"radius": 1}})"), dark).shines());
+    CHECK_FALSE(scene_of(phases + glowing(), ball, dark).is_emissive());
+    CHECK_FALSE(scene_of(R"("hot": {"glowing": {"light": [0, 0, 0]}})", hot(R"({"sphere": {"radius": 1}})"), dark)
+                    .is_emissive());
+    CHECK(scene_of(glowing(), hot(R"({"sphere": {"radius": 1}})"), dark).is_emissive());
 }
 
 TEST_CASE("what glows is of a group of lights") {

@@ -42,16 +42,16 @@ RenderJob whole(const Scene& scene, int threads = 0) {
 }
 
 const std::vector<float>& samples_of(const Image& image) {
-    const auto found = std::ranges::find(image.further, std::string("samples.X"), &Channel::name);
-    REQUIRE(found != image.further.end());
+    const auto found = std::ranges::find(image.extra_channels, std::string("samples.X"), &Channel::name);
+    REQUIRE(found != image.extra_channels.end());
     return found->values;
 }
 
 bool equal_bits(const Image& a, const Image& b) {
-    if (a.pixels.size() != b.pixels.size() || a.further.size() != b.further.size()) return false;
+    if (a.pixels.size() != b.pixels.size() || a.extra_channels.size() != b.extra_channels.size()) return false;
     if (std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof a.pixels[0]) != 0) return false;
-    for (std::size_t c = 0; c < a.further.size(); ++c)
-        if (a.further[c].values != b.further[c].values) return false;
+    for (std::size_t c = 0; c < a.extra_channels.size(); ++c)
+        if (a.extra_channels[c].values != b.extra_channels[c].values) return false;
     return true;
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("the error is the root mean square of what pixels are off, relative to
     FilmSettings settings;
     settings.width = 2;
     settings.height = 1;
-    settings.planes[Planes::place<NoisePlane>()] = true;
+    settings.planes[Planes::index_of<NoisePlane>()] = true;
     FilmTile tile(settings.whole(), settings.planes, {});
     const auto add = [&](int x, float value, std::uint32_t number) {
         FilmSample sample{.number = number};

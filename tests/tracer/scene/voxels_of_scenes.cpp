@@ -109,7 +109,7 @@ TEST_CASE("what is cold does not shine, and what is no temperature is rejected")
                            R"("temperature_grid": {{IMAGE, "factor": {}}})",
                            factor);
     };
-    CHECK(shines(folder.medium(hot(5000))));
+    CHECK(is_emissive(folder.medium(hot(5000))));
     CHECK(emission_spectrum(folder.medium(hot(5000))) != nullptr);
     // In a film the brightness is the same for the same temperature, whatever is hottest.
     const auto light = [&](double factor) {
@@ -122,8 +122,8 @@ TEST_CASE("what is cold does not shine, and what is no temperature is rejected")
     CHECK(light(5000).first == doctest::Approx(1).epsilon(1e-3));    // 2000 K
     CHECK(light(10000).second == doctest::Approx(1).epsilon(1e-3));  // 2000 K beside 4000 K
     CHECK(light(3000).first == doctest::Approx(light(6000).second).epsilon(1e-3));
-    CHECK(light(750).first < 1e-12f);            // 300 K
-    CHECK_FALSE(shines(folder.medium(hot(0))));  // a frame in which nothing burns
+    CHECK(light(750).first < 1e-12f);                 // 300 K
+    CHECK_FALSE(is_emissive(folder.medium(hot(0))));  // a frame in which nothing burns
     CHECK(folder.said_of(hot(1)).find("its highest temperature would be 0.4 K; use \"factor\" to convert") !=
           std::string::npos);
     std::string bright = hot(2e5) + R"(, "emission_temperature": 500)";

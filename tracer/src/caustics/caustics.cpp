@@ -18,10 +18,10 @@ namespace phasetree::tracer {
 
 namespace {
 
-constexpr std::size_t photons_a_task = 4096;
+constexpr std::size_t photons_per_task = 4096;
 
 // Number of photons per source, and in total, that are traced for learning before the first pass.
-constexpr std::size_t learnt_a_source = 1 << 15, most_learnt = 1 << 18;
+constexpr std::size_t learning_photons_per_source = 1 << 15, max_learning_photons = 1 << 18;
 
 // Photons have pixel coordinates of their own, so that their random numbers differ from those of the picture.
 constexpr std::uint32_t column_of_passes = 0x80000000u, column_of_learning = 0x80000001u;
@@ -35,7 +35,7 @@ float pixel_size(const Scene& scene, float distance) {
     return glm::length((a.origin + distance * a.direction) - (b.origin + distance * b.direction));
 }
 
-// The wavelengths with which photons are emitted.
+// The wavelengths with which photons are emitted; null if they are emitted in red, green and blue.
 const Wavelengths* spectral(const std::optional<Wavelengths>& wavelengths) {
     return wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr;
 }
@@ -52,9 +52,10 @@ Caustics::Caustics(const World& world, const Scene& scene)
     : world_(world),
       scene_(scene),
       emission_(world, scene),
-      photons_a_pass_(static_cast<std::size_t>(scene.settings.photons * static_cast<float>(scene.film.whole().size()))),
+      photons_per_pass_(
+          static_cast<std::size_t>(scene.settings.photons * static_cast<float>(scene.film.whole().size()))),
       first_radius_(scene.settings.photon_radius * pixel_size(scene, distance_to_object(world, scene))) {
-    if (emission_.sources() > 0 && photons_a_pass_ > 0) learn();
+    if (emission_.sources() > 0 && photons_per_pass_ > 0) learn();
 }
 
 float Caustics::radius(int pass) const {
@@ -84,14 +85,14 @@ double Caustics::worth_of(const Photon& photon, float expected, float pdf) const
 }
 
 void Caustics::learn() {
-    const std::size_t count = std::min(most_learnt, learnt_a_source * emission_.sources());
+    const std::size_t count = std::min(max_learning_photons, learning_photons_per_source * emission_.sources());
     struct Worth {
-        std::size_t source = 0, cell = 0;
+        std::size_t source = 0, bin = 0;
         double worth = 0;
     };
     std::vector<Worth> found(count);
-    const float expected = static_cast<float>(photons_a_pass_) * pi * first_radius_ * first_radius_;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, photons_a_task), [&](const auto& range) {
+    const float expected = static_cast<float>(photons_per_pass_) * pi * first_radius_ * first_radius_;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, photons_per_task), [&](const auto& range) {
         const FlushSubnormals flush;
         PathCounters uncounted;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -113,13 +114,13 @@ void Caustics::learn() {
                 worth += worth_of(photon, expected * 0.5f, cosine_hemisphere_pdf(0.5f));
             for (const MediumPhoton& medium : traced.in_media)
                 worth += worth_of(medium.photon, expected, HenyeyGreenstein().evaluate(0.0f));
-            found[i] = {emitted->source, emitted->cell, worth};
+            found[i] = {emitted->source, emitted->bin, worth};
         }
     });
     // Summed in order of the photons, independently of the threads that traced them.
     std::vector<std::vector<double>> worth;
-    for (std::size_t i = 0; i < emission_.sources(); ++i) worth.emplace_back(emission_.cells(i), 0.0);
-    for (const Worth& w : found) worth[w.source][w.cell] += w.worth;
+    for (std::size_t i = 0; i < emission_.sources(); ++i) worth.emplace_back(emission_.bins(i), 0.0);
+    for (const Worth& w : found) worth[w.source][w.bin] += w.worth;
     emission_.learn(std::move(worth));
 }
 
@@ -139,8 +140,8 @@ TracedPhotons Caustics::traced(std::uint32_t pass, std::size_t from, std::size_t
 
 std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
                                            const std::function<bool()>& cancelled) const {
-    const std::size_t count = emission_.sources() > 0 ? photons_a_pass_ : 0;
-    const std::size_t tasks = (count + photons_a_task - 1) / photons_a_task;
+    const std::size_t count = emission_.sources() > 0 ? photons_per_pass_ : 0;
+    const std::size_t tasks = (count + photons_per_task - 1) / photons_per_task;
     std::vector<TracedPhotons> parts(tasks);
     std::vector<PathCounters> costs(tasks);
     std::atomic<bool> stopped{false};
@@ -149,9 +150,9 @@ std::optional<PhotonMap> Caustics::photons(int pass, PathCounters& counters,
             stopped = true;
             return;
         }
-        const std::size_t from = task * photons_a_task;
+        const std::size_t from = task * photons_per_task;
         parts[task] =
-            traced(static_cast<std::uint32_t>(pass), from, std::min(from + photons_a_task, count), costs[task]);
+            traced(static_cast<std::uint32_t>(pass), from, std::min(from + photons_per_task, count), costs[task]);
     });
     if (stopped) return std::nullopt;
     TracedPhotons photons;

@@ -1,4 +1,5 @@
-// Caustics: light that reaches surfaces and media through clear interfaces, curved or rough, found by photons.
+// Caustics: light that reaches surfaces and media through clear interfaces, curved or rough, or by reflection from
+// metal, found by photons.
 //
 // Each pass over the picture has photons of its own. Their number, and the gathering radius, depend only on the number
 // of the pass and on the whole picture, so that an image does not depend on how it was divided among threads, crops or
@@ -17,7 +18,8 @@ namespace phasetree::tracer {
 
 class Caustics {
   public:
-    /// Traces photons to learn which sources and cells contribute. Refers to the world and the scene.
+    /// Traces photons to learn which sources, and which bins of their directions, contribute. Refers to the world and
+    /// the scene.
     Caustics(const World& world, const Scene& scene);
 
     /// Traces the photons of the pass that adds the sample with this number to each pixel. Uses all threads of the
@@ -41,7 +43,7 @@ class Caustics {
     const World& world_;
     const Scene& scene_;
     PhotonEmission emission_;
-    std::size_t photons_a_pass_;
+    std::size_t photons_per_pass_;
     float first_radius_;
 };
 

@@ -10,21 +10,21 @@
 
 namespace phasetree::tracer {
 
-/// `position` is a callable that returns the position of a photon of type Kept.
-template <class Kept, class Position>
+/// `position` is a callable that returns the position of a photon of type PhotonType.
+template <class PhotonType, class Position>
 class PhotonGrid {
   public:
     /// For searches within the radius. near() visits the photons of a cube in the given order.
-    PhotonGrid(const std::vector<Kept>& photons, float radius, Position position = {})
+    PhotonGrid(const std::vector<PhotonType>& photons, float radius, Position position = {})
         : radius_(radius), position_(position) {
         if (photons.empty()) return;
         // Counting sort, which keeps the order of photons within a bucket.
         starts_.assign(std::bit_ceil(photons.size()) + 1, 0);
-        for (const Kept& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
+        for (const PhotonType& photon : photons) ++starts_[bucket_of(cube_of(position_(photon))) + 1];
         for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
         photons_.resize(photons.size());
-        for (const Kept& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
+        for (const PhotonType& photon : photons) photons_[next[bucket_of(cube_of(position_(photon)))]++] = photon;
     }
 
     /// Calls use(photon, offset) for each photon within the radius of a point. The offset leads from the point to the
@@ -38,7 +38,7 @@ class PhotonGrid {
                 for (int x = first.x; x <= last.x; ++x) {
                     const std::size_t bucket = bucket_of({x, y, z});
                     for (std::uint32_t i = starts_[bucket]; i < starts_[bucket + 1]; ++i) {
-                        const Kept& photon = photons_[i];
+                        const PhotonType& photon = photons_[i];
                         const glm::vec3 offset = position_(photon) - point;
                         if (glm::dot(offset, offset) > radius_ * radius_) continue;
                         // Different cubes may share a bucket; each photon counts in its own cube only.
@@ -63,7 +63,7 @@ class PhotonGrid {
 
     float radius_;
     Position position_;
-    std::vector<Kept> photons_{};          ///< by bucket
+    std::vector<PhotonType> photons_{};    ///< by bucket
     std::vector<std::uint32_t> starts_{};  ///< of each bucket, and the end of the last
 };
 

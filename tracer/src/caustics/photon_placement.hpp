@@ -9,13 +9,13 @@
 //     F(t) = ∫ p over [t − h, t + h] = Σ (exp(−σ_c max(t, 0)) − exp(−σ_c (t + 2h)))/n,
 // and the contribution of the line there, its power times the transmittance T(t), is multiplied by 1/F(t). Flights
 // start before the boundary so that F is not small at the boundary, where a few photons would otherwise get very high
-// weights. Channels that do not scatter need no points, because nothing that arrives in them is scattered. A single
-// wavelength is a mixture of channels; if one of them is far clearer and does not scatter, a few photons do get high
-// weights.
+// weights. Channels that do not scatter need no points, because nothing that arrives in them is scattered. But the
+// extinction at a single wavelength mixes those of all channels. If a channel that does not scatter is far clearer than
+// the others, a few photons of a single wavelength do get high weights.
 //
 // In a medium with varying density, the depth that light reaches is unknown beforehand. Points are then sampled as in
-// three homogeneous media, instead of channels: one with the greatest extinction σ̄ of the medium, one with σ̄/4 and
-// one with σ̄/16. T is estimated by the medium, on the way back from the point.
+// six homogeneous media, instead of channels. Their extinctions are the greatest one of the medium, σ̄, and σ̄/4,
+// σ̄/16, … σ̄/1024. T is estimated by the medium, on the way back from the point.
 //
 // Across the line, photons are gathered in a disc, like those on a surface; along it there is no blur. If a line meets
 // the boundary obliquely, it may meet the disc around a point of the medium before it enters. The depth is then

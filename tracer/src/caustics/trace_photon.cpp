@@ -29,10 +29,10 @@ class PhotonFlight {
           counters_(counters),
           of_pass_(wavelengths),
           ray_(emitted.ray),
-          carried_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
+          wavelengths_(wavelengths && wavelengths->is_spectral ? &*wavelengths : nullptr),
           power_(emitted.power) {
         // A photon of an emissive surface or medium starts on or in it, so nothing can be in between.
-        if (emitted.is_of_medium || std::holds_alternative<OfGlowingSurface>(emitted.emission.source))
+        if (emitted.is_of_medium || std::holds_alternative<OfEmissiveSurface>(emitted.emission.source))
             start_sees_light_ = true;
         // No sampled direction meets a point. A shadow ray meets it only if the photon's first interface is rough;
         // multiply_quotients() then replaces this 0.
@@ -53,26 +53,28 @@ class PhotonFlight {
             }
             // A photon is stored with its power on entering the medium. The point that gathers it applies the
             // transmittance.
-            if (photons_follow(interfaces_)) keep_in_medium(distance, traced);
+            if (is_photon_chain(interfaces_)) keep_in_medium(distance, traced);
             if (!surface) return;
             if (!(is_first && emitted_.is_of_medium) && !pass_medium(distance)) return;
             if (!is_dispersed_ && surface->optics.get().disperses()) disperse();
-            const Bsdf bsdf = surface->bsdf(carried_);
+            const Bsdf bsdf = surface->bsdf(wavelengths_);
             if (bsdf.passes_through()) {
                 ray_ = surface->transmitted(ray_.direction);
                 continue;
             }
-            // Paths also gather where they meet a mixture's other material.
+            // In a mixture of a smooth and a rough material, the photon may have met the smooth one. Paths gather it
+            // where they meet the rough one.
             const bool is_gathered = !bsdf.is_delta() || surface->is_partly_rough;
-            if (photons_follow(interfaces_) && is_gathered && start_sees_light()) {
+            if (is_photon_chain(interfaces_) && is_gathered && start_sees_light()) {
                 auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
                 photons.push_back(photon_at(surface->near_side.origin));
-                // A path that gathers was itself stopped with the same probability.
+                // The photon was stopped here with the probability `opacity`, and so is the path that gathers it. Only
+                // one of these factors belongs to the result.
                 photons.back().power /= surface->opacity;
             }
-            if (!sends_photons_on(bsdf, *surface)) return;
+            if (!continues_photons(bsdf, *surface)) return;
             ++interfaces_;
-            if (!photons_follow(interfaces_) || !scatter(*surface, bsdf)) return;
+            if (!is_photon_chain(interfaces_) || !scatter(*surface, bsdf)) return;
         }
     }
 
@@ -81,10 +83,10 @@ class PhotonFlight {
 
     // Multiplies the power by the transmittance of the medium. Returns false if the photon ends there.
     bool pass_medium(float distance) {
-        glm::vec3 left =
-            transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, carried_), sampler_);
-        if (phase_function(medium()) && !chain_survives(left, sampler_)) return false;
-        power_ *= left;
+        glm::vec3 transmitted =
+            transmittance(medium(), world_.geometry().way_through_medium(ray_, distance, wavelengths_), sampler_);
+        if (phase_function(medium()) && !chain_survives(transmitted, sampler_)) return false;
+        power_ *= transmitted;
         return power_ != glm::vec3(0.0f);
     }
 
@@ -105,7 +107,7 @@ class PhotonFlight {
     void disperse() {
         const Wavelengths& wavelengths = of_pass_.value();
         power_ = wavelengths.is_spectral ? glm::vec3(power_.x) : for_light(power_, &wavelengths);
-        carried_ = &wavelengths;
+        wavelengths_ = &wavelengths;
         is_dispersed_ = true;
     }
 
@@ -151,10 +153,11 @@ class PhotonFlight {
             return false;
         // The BSDF is sampled as if the photon were a path from the camera, so its weight is for radiance that arrives
         // from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not scaled.
-        // Interfaces that do not disperse, rough ones or those with a film, refract all light like that of the d line.
-        const Wavelengths* bent_as = surface.optics.get().disperses() ? carried_ : nullptr;
-        const float before = clear_at(scene_, from).ior_for(bent_as);
-        const float after = clear_at(scene_, ray_.phase).ior_for(bent_as), ratio = after / before;
+        // Interfaces that do not disperse, rough ones or those with a thin film, refract all light like that of the d
+        // line.
+        const Wavelengths* refracted_at = surface.optics.get().disperses() ? wavelengths_ : nullptr;
+        const float before = clear_at(scene_, from).ior_for(refracted_at);
+        const float after = clear_at(scene_, ray_.phase).ior_for(refracted_at), ratio = after / before;
         power_ *= next->weight * (ratio * ratio);
         return true;
     }
@@ -182,8 +185,8 @@ class PhotonFlight {
                             const BsdfSample& next) {
         const Surface::Side& path_side = next.transmitted ? *surface.far_side : surface.near_side;
         const LightReceiver receiver = receiver_of_passed_light(surface, path_side);
-        const float lamp_ior = clear_at(scene_, arriving.phase).ior;
-        const float rough = rough_factor(next.pdf, lamp_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
+        const float light_ior = clear_at(scene_, arriving.phase).ior;
+        const float rough = rough_factor(next.pdf, light_ior, wo.z, clear_at(scene_, path_side.phase).ior, next.wi.z);
         // p_y/R: the pdf with which a camera path that arrives from next.wi continues to wo, over R.
         const float path_quotient = bsdf.reverse_pdf(wo, next.wi) / rough;
         const auto* point = std::get_if<OfPointLight>(&emitted_.emission.source);
@@ -193,7 +196,7 @@ class PhotonFlight {
             const float distance =
                 emitted_.emission.distance + glm::length(surface.near_side.origin - emitted_.ray.origin);
             quotients_.by_shadow_rays = scene_.lights.point_light_probability(receiver, point->index) *
-                                        squared_optical_distance(lamp_ior, distance) / rough;
+                                        squared_optical_distance(light_ior, distance) / rough;
         } else if (quotients_.by_shadow_rays) {
             quotients_.by_shadow_rays = *quotients_.by_shadow_rays * path_quotient;
         } else {
@@ -212,7 +215,7 @@ class PhotonFlight {
     const std::optional<Wavelengths>& of_pass_;
     Ray ray_;
     // The wavelengths of the photon's power; null while it carries red, green and blue.
-    const Wavelengths* carried_;
+    const Wavelengths* wavelengths_;
     glm::vec3 power_;
     bool is_dispersed_ = false;
     // Counts the interfaces met so far, including the current one, except those passed without a change of direction.

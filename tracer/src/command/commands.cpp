@@ -14,6 +14,8 @@ void add_commands(CLI::App& app, Run& run) {
     add_eval(app, run);
     add_trace(app, run);
     add_measure(app, run);
+    add_solve(app, run);
+    add_slice(app, run);
     add_nodes(app, run);
     add_export(app, run);
     add_import(app, run);

@@ -21,6 +21,8 @@ void add_info(CLI::App& app, Run& run);
 void add_eval(CLI::App& app, Run& run);
 void add_trace(CLI::App& app, Run& run);
 void add_measure(CLI::App& app, Run& run);
+void add_solve(CLI::App& app, Run& run);
+void add_slice(CLI::App& app, Run& run);
 void add_nodes(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
 void add_import(CLI::App& app, Run& run);

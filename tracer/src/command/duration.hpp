@@ -25,7 +25,8 @@ inline CLI::Option* add_duration(CLI::App& command, const std::string& name, dou
                                  const std::string& description) {
     const auto choose = [&seconds, name](const std::string& text) {
         const std::optional<double> time = seconds_of(text);
-        if (!time) throw CLI::ValidationError(name, "must be a time such as 90s, 5m or 2h, but is \"" + text + "\"");
+        if (!time)
+            throw CLI::ValidationError(name, "must be a positive time such as 90s, 5m or 2h, but is \"" + text + "\"");
         seconds = *time;
     };
     return command.add_option_function<std::string>(name, choose, description)->option_text("TIME");

@@ -12,6 +12,7 @@
 #include "command/numbers.hpp"
 #include "command/overwritten_files.hpp"
 #include "command/streams.hpp"
+#include "command/unknown_phase.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
 #include "mesh_file/file_name.hpp"
@@ -24,7 +25,6 @@
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
-#include "phasetree/io/suggest.hpp"
 #include "phasetree/model/handle.hpp"
 #include "render/threads.hpp"
 #include "scene/read_parts.hpp"
@@ -50,11 +50,7 @@ PhaseSet chosen_phases(const MeshExport& wanted, const SceneTree& tree) {
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.begin())
             throw UsageError("--phase vacuum: the vacuum surrounds the object and cannot be exported");
-        if (found == names.end()) {
-            const auto meant = closest(name, names);
-            throw UsageError(fmt::format("--phase: unknown phase \"{}\"{}", name,
-                                         meant ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
-        }
+        if (found == names.end()) throw unknown_phase("--phase", name, std::span(names).subspan(1));
         chosen = chosen | PhaseSet::of(Phase{static_cast<std::uint8_t>(found - names.begin())});
     }
     return chosen;

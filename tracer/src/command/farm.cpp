@@ -106,7 +106,7 @@ int write_farm(const FarmOptions& options) {
     if (farm.outputs.empty()) farm.outputs = {stem.string() + ".exr", stem.string() + ".png"};
     for (std::string& output : farm.outputs) output = as_file(output);
     check_outputs(farm.outputs,
-                  layers_of_picture(film_settings(scene), subjects_of(scene), render.denoise.has_value()));
+                  layers_of_picture(film_settings(scene), scene_names_of(scene), render.denoise.has_value()));
     std::vector<NamedFile> written = named_files_of("--output", farm.outputs);
     if (render.cells) written.push_back({"--cells", *render.cells});
     check_overwrites(*options.scene, document, written);

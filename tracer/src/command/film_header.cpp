@@ -40,7 +40,7 @@ FilmFileHeader header_of(const RenderOptions& options, const Document& document,
     FilmFileHeader h;
     h.settings = settings_of(options, document, scene, job.pixels);
     h.film = film_settings(scene);
-    h.subjects = subjects_of(scene);
+    h.scene_names = scene_names_of(scene);
     h.area = film_area(scene, job);
     h.shown = job.pixels;
     h.samples = *job.samples;

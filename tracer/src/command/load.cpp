@@ -113,7 +113,7 @@ Scene load_scene(const Document& document, NodePlaces* places) {
         throw document.error(*document.root().find("camera"),
                              fmt::format("the camera is inside the phase \"{}\", which is opaque; move the camera",
                                          scene.phases[phase]));
-    if (scene.lights.empty() && !scene.shines())
+    if (scene.lights.empty() && !scene.is_emissive())
         throw document.error(document.root(),
                              "the scene has no lights, so every picture would be black; add one to \"lights\"");
     return scene;

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "command/commands.hpp"
+#include "command/densities.hpp"
 #include "command/duration.hpp"
-#include "command/errors.hpp"
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/measure_report.hpp"
@@ -15,7 +17,6 @@
 #include "embree_core/prepared_object.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
-#include "phasetree/io/suggest.hpp"
 #include "render/threads.hpp"
 
 namespace phasetree::tracer {
@@ -30,49 +31,21 @@ struct MeasureCommand {
     bool as_json = false;
 };
 
-// Areas may take this share of the time.
-constexpr double share_of_areas = 0.2;
+// The shares of the time that preparing the object for areas may take, and tracing lines for them.
+constexpr double share_of_preparing = 0.5, share_of_areas = 0.2;
 
-// Parses PHASE=VALUE. The name of a phase may contain "=", a number does not.
-std::pair<Phase, double> density_of(const std::string& text, const SceneTree& tree) {
-    const std::size_t split = text.rfind('=');
-    double value = 0;
-    if (split == std::string::npos || !CLI::detail::lexical_cast(text.substr(split + 1), value) ||
-        !(value >= 0 && value <= 1e12))
-        throw UsageError(
-            fmt::format("--density: must be PHASE=VALUE, with a value from 0 to 1e12, but is \"{}\"", text));
-    const std::string name = text.substr(0, split);
-    const std::vector<std::string>& names = tree.phases.names;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.begin()) throw UsageError("--density: the vacuum has no density");
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    if (found == names.end() || !phases(tree.object).contains(static_cast<int>(index))) {
-        const auto meant = closest(name, names);
-        throw UsageError(fmt::format("--density: unknown phase \"{}\"{}", name,
-                                     meant && *meant != name ? fmt::format(" (did you mean \"{}\"?)", *meant) : ""));
-    }
-    return {Phase{static_cast<std::uint8_t>(index)}, value};
-}
+using Clock = std::chrono::steady_clock;
 
-std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree) {
-    std::vector<std::pair<Phase, double>> all;
-    for (const std::string& text : texts) {
-        const auto density = density_of(text, tree);
-        for (const auto& [phase, value] : all)
-            if (phase == density.first)
-                throw UsageError(
-                    fmt::format("--density: \"{}\" has two densities; give it one", tree.phases.names[phase.index]));
-        all.push_back(density);
-    }
-    return all;
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 // Throws BuildCancelled.
 AreaResult areas_of(const SceneFile& file, const Document& document, const SceneTree& tree,
-                    const MeasureCommand& chosen) {
+                    const MeasureCommand& chosen, Clock::time_point start) {
     CellOptions cells;
     cells.quality = BuildQuality::low;
-    cells.cancelled = [] { return interrupted(); };
+    cells.cancelled = [&] { return interrupted() || seconds_since(start) > share_of_preparing * chosen.seconds; };
     LateProgress preparing(ProgressOutput::standard_error(false), "preparing the object");
     cells.progress = [&](float done) { preparing.tell(done); };
     const auto prepared =
@@ -86,18 +59,22 @@ AreaResult areas_of(const SceneFile& file, const Document& document, const Scene
 }
 
 int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
-    const auto start = std::chrono::steady_clock::now();
     const AvailableThreads threads;
     const Document document = read_document(file);
     const SceneTree tree = read_model(document, chosen.object);
     const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const InterruptGuard guard;
+    const Clock::time_point start = Clock::now();
     AreaResult areas;
     try {
-        areas = areas_of(file, document, tree, chosen);
+        areas = areas_of(file, document, tree, chosen, start);
     } catch (const BuildCancelled&) {
-        // Volumes of the first few boxes are known immediately.
+        // After an interruption, volumes of the first few boxes are known immediately.
+        if (!interrupted())
+            say("phasetree: warning: areas are left out, because preparing the object takes more than {:.0f} % of the "
+                "time; allow more with --time\n",
+                100 * share_of_preparing);
     }
     MeasureOptions options;
     options.tolerance = chosen.tolerance;
@@ -105,8 +82,8 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     options.cancelled = [] { return interrupted(); };
     LateProgress progress(ProgressOutput::standard_error(false), "measuring the object");
     options.progress = [&](float done) { progress.tell(done); };
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    options.seconds = std::max(chosen.seconds - elapsed.count(), (1 - share_of_areas) * chosen.seconds);
+    options.seconds =
+        std::max(chosen.seconds - seconds_since(start), (1 - share_of_preparing - share_of_areas) * chosen.seconds);
     const MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
     const MeasureReport report{file.shown(), tree.phases, result, areas};
     if (chosen.as_json)
@@ -142,11 +119,7 @@ void add_measure(CLI::App& app, Run& run) {
         ->option_text("T");
     add_duration(*command, "--time", options->seconds,
                  "Stop after this time, whatever is known by then (default: 30s)");
-    command
-        ->add_option("--density", options->densities,
-                     "Density of a phase in kg/m³, for masses; repeat it for other phases")
-        ->option_text("PHASE=VALUE")
-        ->allow_extra_args(false);
+    add_densities(*command, options->densities);
     command->add_flag("--json", options->as_json, "Print JSON");
     command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });
 }

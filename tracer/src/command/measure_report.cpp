@@ -16,22 +16,6 @@ constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 // The components of the tensor of inertia that are printed; the others follow by symmetry.
 constexpr std::array<std::array<std::size_t, 2>, 6> components{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-std::string_view reason_of(MeasureEnd end) {
-    switch (end) {
-        case MeasureEnd::tolerance:
-            return "tolerance";
-        case MeasureEnd::precision:
-            return "precision";
-        case MeasureEnd::seconds:
-            return "time";
-        case MeasureEnd::boxes:
-            return "boxes";
-        case MeasureEnd::cancelled:
-            return "interrupted";
-    }
-    return "";
-}
-
 std::string_view explanation_of(MeasureEnd end) {
     switch (end) {
         case MeasureEnd::tolerance:
@@ -39,7 +23,7 @@ std::string_view explanation_of(MeasureEnd end) {
         case MeasureEnd::precision:
             return "32-bit coordinates allow no narrower intervals";
         case MeasureEnd::seconds:
-            return "the time is over; allow more with --time";
+            return "time ran out; allow more with --time";
         case MeasureEnd::boxes:
             return "the maximum number of boxes was reached";
         case MeasureEnd::cancelled:
@@ -120,7 +104,7 @@ void print_json(const MeasureReport& report) {
     const MeasureResult& m = report.measures;
     Json json;
     json["scene"] = report.scene;
-    json["stopped"] = reason_of(m.end);
+    json["stopped"] = name_of(m.end);
     json["boxes"] = m.boxes;
     json["lines"] = report.areas.lines;
     Json& list = json["phases"] = Json::array();

@@ -109,7 +109,8 @@ int merge_parts(const MergeOptions& options) {
     check_overwrites(named_files_of("the part", options.parts),
                      named_files_of("--output", is_one ? images : options.outputs));
     const Parts parts = opened(options);
-    check_outputs(images, layers_of_picture(parts.header().film, parts.header().subjects, options.denoise.has_value()));
+    check_outputs(images,
+                  layers_of_picture(parts.header().film, parts.header().scene_names, options.denoise.has_value()));
     if (!options.quiet && parts.header().build() != build_id())
         say("phasetree: note: the parts were rendered by build {} and are merged by build {}\n", parts.header().build(),
             build_id());

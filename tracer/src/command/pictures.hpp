@@ -41,10 +41,10 @@ class Writing {
 };
 
 // The layers of a picture with these planes, each of which "{plane}" writes to a file of its own.
-inline std::vector<std::string> layers_of_picture(const FilmSettings& film, const PlaneSubjects& subjects,
+inline std::vector<std::string> layers_of_picture(const FilmSettings& film, const SceneNames& scene_names,
                                                   bool is_denoised) {
-    Image pixel = FilmTile({0, 0, 1, 1}, film.planes, subjects).image(film);
-    if (is_denoised) pixel.further.push_back({"noisy.R", {0.0f}});
+    Image pixel = FilmTile({0, 0, 1, 1}, film.planes, scene_names).image(film);
+    if (is_denoised) pixel.extra_channels.push_back({"noisy.R", {0.0f}});
     return layer_names(pixel);
 }
 

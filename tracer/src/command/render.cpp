@@ -176,7 +176,7 @@ bool write_all(const FinishedRender& e, Rendering& rendering) {
     if (e.options.denoise && !is_unfinished && !std::ranges::all_of(e.outputs, is_film_file)) {
         denoise_picture(rendering.image,
                         {denoiser_of(*e.options.denoise), rendering.threads, e.options.quiet, rendering.cancelled});
-        leave_out(rendering.image, e.header.film.planes, e.wanted_planes, e.header.subjects);
+        leave_out(rendering.image, e.header.film.planes, e.wanted_planes, e.header.scene_names);
     }
     for (const std::string& output : e.outputs) {
         if (is_unfinished && output != e.options.checkpoint) continue;
@@ -307,7 +307,7 @@ void say_what_is_missing(const RenderOptions& options, const Scene& scene, const
 
 // Warns about outputs that cannot have the requested alpha.
 void warn_of_alpha(const Scene& scene, const std::string& name, const std::vector<std::string>& outputs) {
-    if (!scene.film.planes[Planes::place<AlphaPlane>()] || scene.lights.is_background_black()) return;
+    if (!scene.film.planes[Planes::index_of<AlphaPlane>()] || scene.lights.is_background_black()) return;
     for (const std::string& output : outputs)
         if (!is_film_file(output) && (format_of(output) == Format::png || format_of(output) == Format::tiff))
             say("{}: warning: {} has no alpha, because the background is not black; set \"background\": [0, 0, 0]\n",
@@ -342,7 +342,7 @@ int render_scene(const RenderOptions& options) {
     job.cancelled = [] { return interrupted(); };
     const std::vector<std::string> outputs =
         checked_outputs(options, document, *job.samples,
-                        layers_of_picture(wanted_film, subjects_of(scene), options.denoise.has_value()));
+                        layers_of_picture(wanted_film, scene_names_of(scene), options.denoise.has_value()));
     warn_of_alpha(scene, document.name(), outputs);
     std::optional<DisplayTransform> display;
     if (need_display(outputs) || options.display || options.view)

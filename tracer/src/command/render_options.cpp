@@ -37,7 +37,7 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t c
 
 namespace {
 
-constexpr int most_samples = 1 << 24;
+constexpr int max_samples = 1 << 24;
 
 Planes::Choice planes_of(const std::string& list) {
     std::vector<std::string> names;
@@ -58,7 +58,7 @@ Planes::Choice planes_of(const std::string& list) {
 void apply(const RenderOptions& options, Scene& scene) {
     if (options.planes) scene.film.planes = planes_of(*options.planes);
     // A time limit without a number of samples means as many samples as fit.
-    if (options.time_seconds > 0) scene.settings.samples = most_samples;
+    if (options.time_seconds > 0) scene.settings.samples = max_samples;
     if (options.samples_in_all) scene.settings.samples = *options.samples_in_all;
     if (options.noise) scene.settings.noise = *options.noise;
     if (options.seed) scene.settings.seed = *options.seed;
@@ -128,7 +128,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     o.scene = add_scene_file(command);
     add_outputs(command, o.outputs, "the scene's name, .exr and .png");
     command.add_option("--spp", o.samples_in_all, "Samples per pixel (default: that of the scene)")
-        ->check(CLI::Range(1, most_samples));
+        ->check(CLI::Range(1, max_samples));
     add_duration(command, "--time", o.time_seconds,
                  "Time limit, such as 90s, 5m or 1h, from the start of the command, including preparation. Rendering "
                  "stops after the last whole pass that fits. Without --spp the number of samples is not limited");

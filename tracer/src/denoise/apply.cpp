@@ -17,7 +17,7 @@ void keep_noisy(Image& image) {
         Channel channel{names[static_cast<std::size_t>(c)], {}};
         channel.values.reserve(image.pixels.size());
         for (const glm::vec3& pixel : image.pixels) channel.values.push_back(pixel[c]);
-        image.further.push_back(std::move(channel));
+        image.extra_channels.push_back(std::move(channel));
     }
 }
 
@@ -45,10 +45,10 @@ bool denoise_in_place(Image& image, const DenoiseJob& job) {
     return true;
 }
 
-void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const PlaneSubjects& subjects) {
-    const std::vector<std::string> all = Planes::Sums(kept, subjects, 0).channels();
-    const std::vector<std::string> some = Planes::Sums(wanted, subjects, 0).channels();
-    std::erase_if(image.further, [&](const Channel& channel) {
+void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const SceneNames& scene_names) {
+    const std::vector<std::string> all = Planes::Sums(kept, scene_names, 0).channels();
+    const std::vector<std::string> some = Planes::Sums(wanted, scene_names, 0).channels();
+    std::erase_if(image.extra_channels, [&](const Channel& channel) {
         return std::ranges::count(all, channel.name) > 0 && std::ranges::count(some, channel.name) == 0;
     });
 }

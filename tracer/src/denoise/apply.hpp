@@ -20,6 +20,6 @@ void check_samples_to_denoise(int samples);
 bool denoise_in_place(Image& image, const DenoiseJob& job);
 
 /// Removes the further channels that belong to planes in `kept` but not in `wanted`.
-void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const PlaneSubjects& subjects);
+void leave_out(Image& image, const Planes::Choice& kept, const Planes::Choice& wanted, const SceneNames& scene_names);
 
 }  // namespace phasetree::tracer

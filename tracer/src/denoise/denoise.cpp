@@ -171,12 +171,12 @@ std::optional<std::vector<glm::vec3>> filtered(const Image& image, const Denoise
 
 Planes::Choice denoising_planes() {
     Planes::Choice choice = Planes::by_default();
-    choice[Planes::place<AlbedoPlane>()] = true;
-    choice[Planes::place<NormalPlane>()] = true;
-    choice[Planes::place<AlbedoBehindPlane>()] = true;
-    choice[Planes::place<NormalBehindPlane>()] = true;
-    choice[Planes::place<HalfPlane>()] = true;
-    choice[Planes::place<SamplesPlane>()] = true;
+    choice[Planes::index_of<AlbedoPlane>()] = true;
+    choice[Planes::index_of<NormalPlane>()] = true;
+    choice[Planes::index_of<AlbedoBehindPlane>()] = true;
+    choice[Planes::index_of<NormalBehindPlane>()] = true;
+    choice[Planes::index_of<HalfOfSamplesPlane>()] = true;
+    choice[Planes::index_of<SamplesPlane>()] = true;
     return choice;
 }
 

@@ -63,13 +63,13 @@ void check_halves(std::span<const float> samples, std::span<const float> in_firs
 
 Halves halves_of(const Image& image) {
     const std::span<const float> samples = channel_of(image, "samples.X");
-    const std::span<const float> in_first = channel_of(image, HalfPlane::channel_names.back());
+    const std::span<const float> in_first = channel_of(image, HalfOfSamplesPlane::channel_names.back());
     check_halves(samples, in_first);
     Halves halves(image.width, image.height);
     std::vector<std::span<const float>> first, all;
-    for (std::size_t c = 0; c < HalfPlane::values; ++c) {
-        first.push_back(channel_of(image, HalfPlane::channel_names[c]));
-        if (c >= 3) all.push_back(channel_of(image, name_by_all(HalfPlane::channel_names[c])));
+    for (std::size_t c = 0; c < HalfOfSamplesPlane::values; ++c) {
+        first.push_back(channel_of(image, HalfOfSamplesPlane::channel_names[c]));
+        if (c >= 3) all.push_back(channel_of(image, name_by_all(HalfOfSamplesPlane::channel_names[c])));
     }
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {

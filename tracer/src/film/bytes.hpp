@@ -11,7 +11,7 @@
 
 namespace phasetree::tracer {
 
-/// Thrown for bytes that are not a valid film. The message is a clause about the file, such as "it ends too early".
+/// Thrown for bytes that are not valid. The message is a clause about the file, such as "it ends too early".
 class BytesError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -52,7 +52,7 @@ class ByteReader {
         rest_ = rest_.subspan(count);
         return taken;
     }
-    std::size_t left() const { return rest_.size(); }
+    std::size_t bytes_left() const { return rest_.size(); }
 
   private:
     std::span<const std::byte> rest_;

@@ -1,9 +1,9 @@
-// Requirements on a plane of the film. A plane records a quantity at each pixel, such as the radiance that arrives
-// there. planes.hpp lists all planes. The planes of a film are chosen when it is made.
+// Requirements on a plane of the film (an AOV in other renderers). A plane records a quantity at each pixel, such as
+// the radiance that arrives there. planes.hpp lists all planes. The planes of a film are chosen when it is made.
 //
-// The contents of a film do not depend on the order of samples, because they are sums (below) that do not. So samples
-// may be divided among tiles, threads, machines and runs in any way. Each adds its own samples, and joining them gives
-// the same result as a single thread, bit for bit.
+// The contents of a film are sums (below) whose result does not depend on the order of the samples, to the last bit. So
+// samples may be divided among tiles, threads, machines and runs in any way. Each adds its own samples, and joining
+// them gives the same result as a single thread, bit for bit.
 #pragma once
 
 #include <concepts>
@@ -31,12 +31,12 @@ struct FilmSample {
 };
 
 /// The names from which planes derive their channels.
-struct PlaneSubjects {
+struct SceneNames {
     std::vector<std::string> phases;   ///< in order, the vacuum first
     std::vector<std::string> groups;   ///< of lights, in the order of Lights::groups
     std::vector<std::string> objects;  ///< the object or objects of phases, then the meshes
 
-    bool operator==(const PlaneSubjects&) const = default;
+    bool operator==(const SceneNames&) const = default;
 };
 
 /// A sum is what a plane keeps of the samples. Each kind of sum has its own way of adding a sample's value:
@@ -68,7 +68,7 @@ concept SumKind = std::regular<S> && requires(S& sum, const S& other, ByteWriter
 /// * Sum: the kind of its sums.
 /// * name: its name, as in --planes.
 /// * by_default: whether a film has it by default.
-/// * P(subjects): the plane of a scene.
+/// * P(scene_names): the plane of a scene.
 /// * channels(): the channels' names in EXR: "R", or "layer.R" for those of a layer. May be empty.
 /// * sums(): the number of sums per pixel. A plane that is not chosen keeps nothing.
 /// * add(sums, sample, faults): adds a sample to the sums of its pixel. The sums change values that they cannot
@@ -77,7 +77,7 @@ concept SumKind = std::regular<S> && requires(S& sum, const S& other, ByteWriter
 /// * resolve(sums, samples, values): computes the channels' values at a pixel with this many samples, at least one.
 ///   `values` is initially zero.
 template <class P>
-concept PlaneKind = SumKind<typename P::Sum> && std::constructible_from<P, const PlaneSubjects&> && std::copyable<P> &&
+concept PlaneKind = SumKind<typename P::Sum> && std::constructible_from<P, const SceneNames&> && std::copyable<P> &&
     requires(const P& plane, std::span<typename P::Sum> sums, std::span<const typename P::Sum> done,
              const FilmSample& sample, std::uint32_t samples, std::span<float> values, FilmFaults& faults) {
     { P::name } -> std::convertible_to<std::string_view>;

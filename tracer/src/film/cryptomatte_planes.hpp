@@ -13,7 +13,8 @@
 
 namespace phasetree::tracer {
 
-/// `What` provides names(subjects), and shown(surface, number of phases): the index of the surface's name among them.
+/// `What` provides names(scene_names), and shown(surface, number of phases): the index of the surface's name among
+/// these names.
 template <class What>
 class CryptomattePlane {
   public:
@@ -23,8 +24,8 @@ class CryptomattePlane {
     /// The maximum number of things stored per pixel, those with the greatest coverage; two per layer of four channels.
     static constexpr std::size_t ranks = 6;
 
-    explicit CryptomattePlane(const PlaneSubjects& subjects)
-        : names_(What::names(subjects)), phases_(subjects.phases.size()) {
+    explicit CryptomattePlane(const SceneNames& scene_names)
+        : names_(What::names(scene_names)), phases_(scene_names.phases.size()) {
         for (const std::string& n : names_) ids_.push_back(cryptomatte_id(n));
     }
 
@@ -63,29 +64,30 @@ class CryptomattePlane {
 struct MattePhase {
     static constexpr std::string_view name = "crypto_phase";
     static constexpr std::string_view layer = "CryptoPhase";
-    static const std::vector<std::string>& names(const PlaneSubjects& s) { return s.phases; }
+    static const std::vector<std::string>& names(const SceneNames& s) { return s.phases; }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) {
-        return r.entered ? std::optional<std::size_t>(r.entered->index) : std::nullopt;
+        return r.phase_entered ? std::optional<std::size_t>(r.phase_entered->index) : std::nullopt;
     }
 };
 /// Each object of phases, and each mesh.
 struct MatteObject {
     static constexpr std::string_view name = "crypto_object";
     static constexpr std::string_view layer = "CryptoObject";
-    static const std::vector<std::string>& names(const PlaneSubjects& s) { return s.objects; }
+    static const std::vector<std::string>& names(const SceneNames& s) { return s.objects; }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) { return r.object; }
 };
-/// A material is named after the phase or mesh that has it.
+/// A material is named after the phase or mesh that has it. With several objects of phases, the manifest also contains
+/// the names of all but the first of them, which no surface shows.
 struct MatteMaterial {
     static constexpr std::string_view name = "crypto_material";
     static constexpr std::string_view layer = "CryptoMaterial";
-    static std::vector<std::string> names(const PlaneSubjects& s) {
+    static std::vector<std::string> names(const SceneNames& s) {
         std::vector<std::string> all = s.phases;
         if (!s.objects.empty()) all.insert(all.end(), s.objects.begin() + 1, s.objects.end());
         return all;
     }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t phases) {
-        return r.entered ? r.entered->index : phases + r.object - 1;
+        return r.phase_entered ? r.phase_entered->index : phases + r.object - 1;
     }
 };
 

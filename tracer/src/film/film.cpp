@@ -67,7 +67,7 @@ Image black_image(const FilmSettings& settings, const PixelRange& area, const st
     image.height = area.height();
     image.pixels.resize(area.size());
     for (std::size_t i = 3; i < channels.size(); ++i)
-        image.further.push_back({channels[i], std::vector<float>(area.size())});
+        image.extra_channels.push_back({channels[i], std::vector<float>(area.size())});
     if (area.width() != settings.width || area.height() != settings.height)
         image.crop = Crop{area.x0, area.y0, settings.width, settings.height};
     return image;

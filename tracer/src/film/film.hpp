@@ -8,7 +8,7 @@
 //     default planes: three sums of 16 bytes,
 //     and the number of samples                     52    (431 MB for 3840×2160 pixels)
 //     each further mean of a chosen plane           16
-//     maximum for 2 GB at 3840×2160                241
+//     at most, in a film of 2 GB of that size      241
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ namespace phasetree::tracer {
 /// A rectangle of pixels and the sums of each.
 class FilmTile {
   public:
-    FilmTile(const PixelRange& area, const Planes::Choice& planes, const PlaneSubjects& subjects)
+    FilmTile(const PixelRange& area, const Planes::Choice& planes, const SceneNames& scene_names)
         : area_(area),
           samples_(area.size()),
-          sums_(planes, subjects, area.size()),
+          sums_(planes, scene_names, area.size()),
           faults_(static_cast<std::size_t>(area.height())) {}
 
     const PixelRange& area() const { return area_; }
@@ -77,18 +77,18 @@ class FilmTile {
     std::vector<FilmFaults> faults_;  ///< of each row, so that a row is self-contained
 };
 
-/// An image without samples of a part of a picture. The first three channel names are the picture's.
+/// A black image of a part of a picture, as if it had no samples. The first three channel names are the picture's.
 Image black_image(const FilmSettings& settings, const PixelRange& area, const std::vector<std::string>& channels);
 
 class Film {
   public:
     /// Makes a film for a part of the picture. The area must not be empty and must be inside the picture.
-    Film(const FilmSettings& settings, const PixelRange& area, const PlaneSubjects& subjects = {})
-        : settings_(settings), subjects_(subjects), pixels_(area, settings.planes, subjects) {}
+    Film(const FilmSettings& settings, const PixelRange& area, const SceneNames& scene_names = {})
+        : settings_(settings), scene_names_(scene_names), pixels_(area, settings.planes, scene_names) {}
 
     const PixelRange& area() const { return pixels_.area(); }
     const FilmSettings& settings() const { return settings_; }
-    const PlaneSubjects& subjects() const { return subjects_; }
+    const SceneNames& scene_names() const { return scene_names_; }
     /// While other threads add tiles, only pixels outside of those tiles may be read.
     const FilmTile& pixels() const { return pixels_; }
 
@@ -97,7 +97,7 @@ class Film {
     glm::dvec2 sample_position(int x, int y, const glm::vec2& u) const;
 
     /// An empty tile for a part of the area.
-    FilmTile tile(const PixelRange& part) const { return {part, settings_.planes, subjects_}; }
+    FilmTile tile(const PixelRange& part) const { return {part, settings_.planes, scene_names_}; }
     /// Adds a tile. Thread-safe.
     void add(const FilmTile& tile) {
         const std::lock_guard lock(adding_);
@@ -115,7 +115,7 @@ class Film {
 
   private:
     FilmSettings settings_;
-    PlaneSubjects subjects_;
+    SceneNames scene_names_;
     FilmTile pixels_;
     mutable std::mutex adding_;
 };

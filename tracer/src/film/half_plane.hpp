@@ -1,6 +1,6 @@
-// The picture, and the features for denoising (denoise/denoise.hpp), from about half of a pixel's samples. Subtracting
-// them from the mean of all samples gives the other half. The difference of the halves measures the noise of both, and
-// each can be filtered with weights that are independent of its own noise.
+// The picture, and the features for denoising (denoise/denoise.hpp), from about half of a pixel's samples. The sum over
+// all samples minus the sum over this half is the sum over the other half. The difference of the halves measures the
+// noise of both, and each can be filtered with weights that are independent of its own noise.
 //
 // Samples are divided into blocks of four, because each aligned block of Sobol' samples is spread evenly over the pixel
 // (sampling/sobol.hpp), and so both halves are, too. Alternating samples would not work: consecutive samples complement
@@ -15,7 +15,7 @@
 
 namespace phasetree::tracer {
 
-struct HalfPlane {
+struct HalfOfSamplesPlane {
     static constexpr std::size_t values = 15;
     /// All samples of a block of this size are in the same half.
     static constexpr std::uint32_t block = 4;
@@ -23,7 +23,7 @@ struct HalfPlane {
     using Sum = WeightedMean<values>;
     static constexpr std::string_view name = "half";
     static constexpr bool by_default = false;
-    explicit HalfPlane(const PlaneSubjects&) {}
+    explicit HalfOfSamplesPlane(const SceneNames&) {}
 
     /// The last one is the number of samples in this half.
     static constexpr std::array<std::string_view, values + 1> channel_names{"half.R",
@@ -43,14 +43,14 @@ struct HalfPlane {
                                                                             "half_normal_behind.Z",  //
                                                                             "half_samples.X"};
 
-    static bool has(std::uint32_t number) { return number / block % 2 == 0; }
+    static bool contains(std::uint32_t number) { return number / block % 2 == 0; }
 
     std::vector<std::string> channels() const { return {channel_names.begin(), channel_names.end()}; }
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
-        if (!has(sample.number)) return;
-        FilmFaults again;  // already counted by the picture
-        sums[0].add(values_of(sample), 1.0f, again);
+        if (!contains(sample.number)) return;
+        FilmFaults uncounted;  // already counted by the picture
+        sums[0].add(values_of(sample), 1.0f, uncounted);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t, std::span<float> resolved) const {
         const std::array<float, values> means = sums[0].mean(0);

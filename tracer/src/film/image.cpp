@@ -24,8 +24,8 @@ Image part_of(const Image& image, int x0, int y0, int width, int height) {
     part.width = width;
     part.height = height;
     part.pixels = part_of_rows(image.pixels, image.width, x0, y0, width, height);
-    for (const Channel& channel : image.further)
-        part.further.push_back({channel.name, part_of_rows(channel.values, image.width, x0, y0, width, height)});
+    for (const Channel& channel : image.extra_channels)
+        part.extra_channels.push_back({channel.name, part_of_rows(channel.values, image.width, x0, y0, width, height)});
     part.attributes = image.attributes;
     const Crop whole = image.crop.value_or(Crop{0, 0, image.width, image.height});
     part.crop = Crop{whole.x0 + x0, whole.y0 + y0, whole.display_width, whole.display_height};
@@ -39,7 +39,7 @@ std::size_t count_non_finite(const Image& image) {
         const glm::vec3& p = image.pixels[i];
         const bool finite =
             std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b) &&
-            std::ranges::all_of(image.further, [&](const Channel& c) { return std::isfinite(c.values[i]); });
+            std::ranges::all_of(image.extra_channels, [&](const Channel& c) { return std::isfinite(c.values[i]); });
         count += finite ? 0 : 1;
     }
     return count;

@@ -1,4 +1,4 @@
-// An image, as made by the film and stored in files: a picture and further channels.
+// An image, as made by the film and stored in files: a picture and extra channels.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct Image {
     int height = 0;
     std::vector<glm::vec3> pixels;  ///< linear Rec.709 radiance, row by row, the top row first
     std::optional<Crop> crop = std::nullopt;
-    std::vector<Channel> further{};  ///< stored only in EXR files, except for "A" (output/encode.hpp)
+    std::vector<Channel> extra_channels{};  ///< stored only in EXR files, except for "A" (output/encode.hpp)
     /// Additional attributes of an EXR header: names and texts.
     std::vector<std::pair<std::string, std::string>> attributes{};
 };

@@ -14,7 +14,7 @@ class LengthPlane {
     using Sum = ValueSum;
     static constexpr std::string_view name = "length";
     static constexpr bool by_default = false;
-    explicit LengthPlane(const PlaneSubjects& subjects) : phases_(subjects.phases) {}
+    explicit LengthPlane(const SceneNames& scene_names) : phases_(scene_names.phases) {}
 
     std::vector<std::string> channels() const { return channel_names("length_", phases_, ".X"); }
     std::size_t sums() const { return phases_.size(); }

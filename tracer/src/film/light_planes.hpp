@@ -34,7 +34,7 @@ class LightGroupsPlane {
     using Sum = ValueSum;
     static constexpr std::string_view name = "lights";
     static constexpr bool by_default = false;
-    explicit LightGroupsPlane(const PlaneSubjects& subjects) : groups_(subjects.groups) {}
+    explicit LightGroupsPlane(const SceneNames& scene_names) : groups_(scene_names.groups) {}
 
     std::vector<std::string> channels() const {
         std::vector<std::string> all;

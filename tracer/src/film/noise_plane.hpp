@@ -15,13 +15,13 @@ struct NoisePlane {
     using Sum = MeanAndVariance;
     static constexpr std::string_view name = "noise";
     static constexpr bool by_default = false;
-    explicit NoisePlane(const PlaneSubjects&) {}
+    explicit NoisePlane(const SceneNames&) {}
 
     std::vector<std::string> channels() const { return {"noise.Y"}; }
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
-        FilmFaults again;  // already counted by the picture
-        sums[0].add(luminance(sample.radiance), again);
+        FilmFaults uncounted;  // already counted by the picture
+        sums[0].add(luminance(sample.radiance), uncounted);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
         values[0] = static_cast<float>(std::sqrt(sums[0].variance_of_mean(samples)));

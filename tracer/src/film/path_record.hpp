@@ -1,9 +1,9 @@
 // Data of a path, besides its radiance, for the planes that need it.
 //
-// A camera ray is followed from the camera, with the path's own choices at each interface, through smooth surfaces to
-// the first one that is not smooth: that is what one sees of the scene, in a mirror or behind glass. Paths are weighted
-// as if interfaces had reflected with the probabilities of Fresnel's equations. So means over the samples of a pixel
-// blend reflection and refraction in the proportions in which one sees them. The documentation of Open Image Denoise
+// A camera ray is followed through perfectly smooth surfaces to the first one that is not: that is what one sees of the
+// scene, in a mirror or behind glass. At each interface, it makes the same choice as the path. Paths are weighted as if
+// interfaces had reflected with the probabilities of Fresnel's equations. So means over the samples of a pixel blend
+// reflection and refraction in the proportions in which one sees them. The documentation of Open Image Denoise
 // recommends this for its albedo and normal. Rousselle, Manzi & Zwicker (Robust Denoising using Feature and Color
 // Information, Computer Graphics Forum 32(7), 2013) use it for the features of a filter.
 #pragma once
@@ -27,10 +27,10 @@ struct RecordedSurface {
     /// radiance. Its mean over paths is the share of light that is scattered: the colour of a diffuse surface, and 1
     /// for smooth glass.
     glm::vec3 albedo;
-    std::uint32_t object;          ///< the objects of phases first, then the meshes
-    std::uint32_t instance;        ///< number of the copy of an object; 0 for an object that exists once
-    Phase left;                    ///< phase on the side from which it was met
-    std::optional<Phase> entered;  ///< phase behind; nullopt for a mesh
+    std::uint32_t object;                ///< the objects of phases first, then the meshes
+    std::uint32_t instance;              ///< number of the copy of an object; 0 for an object that exists once
+    Phase phase_left;                    ///< on the side from which it was met
+    std::optional<Phase> phase_entered;  ///< on the other side; nullopt for a mesh
 };
 
 struct PathRecord {

@@ -25,7 +25,7 @@ struct CheckedPlane {
 };
 
 /// The first plane is the picture. It has three channels, which all formats support, and every film keeps it. The
-/// others become further channels of the image.
+/// others become extra channels of the image.
 template <class Picture, class... Others>
 struct PlaneList {
     static constexpr std::size_t size = 1 + sizeof...(Others);
@@ -43,7 +43,7 @@ struct PlaneList {
     static Choice all() { return Choice().set(); }
     /// The index of a plane in the list.
     template <class Plane>
-    static constexpr std::size_t place() {
+    static constexpr std::size_t index_of() {
         return static_cast<std::size_t>(std::ranges::find(names, Plane::name) - names.begin());
     }
 
@@ -52,11 +52,11 @@ struct PlaneList {
   private:
     // The sums of one plane.
     template <class Plane>
-    struct Kept {
+    struct PlaneSums {
         using Sum = typename CheckedPlane<Plane>::Type::Sum;
 
-        Kept(const PlaneSubjects& subjects, std::size_t pixels)
-            : plane(subjects), channels(plane.channels().size()), width(plane.sums()), sums(width * pixels) {}
+        PlaneSums(const SceneNames& scene_names, std::size_t pixels)
+            : plane(scene_names), channels(plane.channels().size()), width(plane.sums()), sums(width * pixels) {}
         std::span<Sum> at(std::size_t pixel) { return std::span(sums).subspan(pixel * width, width); }
         std::span<const Sum> at(std::size_t pixel) const { return std::span(sums).subspan(pixel * width, width); }
 
@@ -71,10 +71,10 @@ struct PlaneList {
 template <class Picture, class... Others>
 class PlaneList<Picture, Others...>::Sums {
   public:
-    Sums(const Choice& choice, const PlaneSubjects& subjects, std::size_t pixels) {
+    Sums(const Choice& choice, const SceneNames& scene_names, std::size_t pixels) {
         std::size_t i = 0;
-        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
-            if (i == 0 || choice[i]) kept.emplace(subjects, pixels);
+        each([&]<class Plane>(std::optional<PlaneSums<Plane>>& kept) {
+            if (i == 0 || choice[i]) kept.emplace(scene_names, pixels);
             ++i;
         });
     }
@@ -87,9 +87,9 @@ class PlaneList<Picture, Others...>::Sums {
     }
     /// Joins the sums of a pixel of another film, which must have the same planes.
     void join(std::size_t pixel, const Sums& others, std::size_t theirs) {
-        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
+        each([&]<class Plane>(std::optional<PlaneSums<Plane>>& kept) {
             if (!kept) return;
-            const auto from = std::get<std::optional<Kept<Plane>>>(others.kept_)->at(theirs);
+            const auto from = std::get<std::optional<PlaneSums<Plane>>>(others.kept_)->at(theirs);
             const auto to = kept->at(pixel);
             for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
         });
@@ -98,7 +98,7 @@ class PlaneList<Picture, Others...>::Sums {
     /// The sums of a plane at one pixel. The plane must be a chosen one.
     template <class Plane>
     std::span<const typename Plane::Sum> of(std::size_t pixel) const {
-        return std::get<std::optional<Kept<Plane>>>(kept_).value().at(pixel);
+        return std::get<std::optional<PlaneSums<Plane>>>(kept_).value().at(pixel);
     }
 
     /// Writes the sums of one pixel, plane after plane.
@@ -110,7 +110,7 @@ class PlaneList<Picture, Others...>::Sums {
     }
     /// Throws BytesError.
     void read(std::size_t pixel, ByteReader& in) {
-        each([&]<class Plane>(std::optional<Kept<Plane>>& kept) {
+        each([&]<class Plane>(std::optional<PlaneSums<Plane>>& kept) {
             if (!kept) return;
             for (auto& sum : kept->at(pixel)) sum = Plane::Sum::read(in);
         });
@@ -137,9 +137,9 @@ class PlaneList<Picture, Others...>::Sums {
         });
         return all;
     }
-    /// Writes the values of pixel `pixel` to position `place` of an image that has the further channels of channels().
+    /// Writes the values of pixel `pixel` to position `target` of an image that has the extra channels of channels().
     /// `samples` is at least 1.
-    void resolve(std::size_t pixel, std::uint32_t samples, Image& image, std::size_t place) const {
+    void resolve(std::size_t pixel, std::uint32_t samples, Image& image, std::size_t target) const {
         std::size_t channel = 0;
         std::vector<float> values;
         each([&](const auto& kept) {
@@ -148,9 +148,9 @@ class PlaneList<Picture, Others...>::Sums {
             kept->plane.resolve(kept->at(pixel), samples, values);
             for (const float value : values) {
                 if (channel < 3)
-                    image.pixels[place][static_cast<int>(channel)] = value;
+                    image.pixels[target][static_cast<int>(channel)] = value;
                 else
-                    image.further[channel - 3].values[place] = value;
+                    image.extra_channels[channel - 3].values[target] = value;
                 ++channel;
             }
         });
@@ -159,7 +159,7 @@ class PlaneList<Picture, Others...>::Sums {
     /// The minimum memory of one pixel: sums that grow (WeightsById) take more.
     std::size_t bytes_of_pixel() const {
         std::size_t bytes = 0;
-        each([&]<class Plane>(const std::optional<Kept<Plane>>& kept) {
+        each([&]<class Plane>(const std::optional<PlaneSums<Plane>>& kept) {
             if (kept) bytes += kept->width * sizeof(typename Plane::Sum);
         });
         return bytes;
@@ -175,7 +175,7 @@ class PlaneList<Picture, Others...>::Sums {
         std::apply([&](const auto&... kept) { (f(kept), ...); }, kept_);
     }
 
-    std::tuple<std::optional<Kept<Picture>>, std::optional<Kept<Others>>...> kept_;
+    std::tuple<std::optional<PlaneSums<Picture>>, std::optional<PlaneSums<Others>>...> kept_;
 };
 
 }  // namespace phasetree::tracer

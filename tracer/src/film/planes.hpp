@@ -20,6 +20,6 @@ using Planes =
     PlaneList<RadiancePlane, AlphaPlane, DepthPlane, PositionPlane, NormalPlane, AlbedoPlane, DepthBehindPlane,
               PositionBehindPlane, NormalBehindPlane, AlbedoBehindPlane, PhaseLeftPlane, PhaseEnteredPlane, ObjectPlane,
               InstancePlane, LengthPlane, DirectPlane, IndirectPlane, LightGroupsPlane, VariancePlane, NoisePlane,
-              SamplesPlane, HalfPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
+              SamplesPlane, HalfOfSamplesPlane, CryptoPhasePlane, CryptoObjectPlane, CryptoMaterialPlane>;
 
 }  // namespace phasetree::tracer

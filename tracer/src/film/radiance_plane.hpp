@@ -11,7 +11,7 @@ struct RadiancePlane {
     static constexpr std::string_view name = "beauty";
     static constexpr bool by_default = true;
 
-    explicit RadiancePlane(const PlaneSubjects&) {}
+    explicit RadiancePlane(const SceneNames&) {}
 
     std::vector<std::string> channels() const { return {"R", "G", "B"}; }
     std::size_t sums() const { return 3; }

@@ -1,5 +1,5 @@
-// Planes of the data in a PathRecord (path_record.hpp): one template for each way of making one value of a pixel's
-// samples. `What` has a name, channels, and of(sample), which returns nullopt if the sample has no value.
+// Planes of the data in a PathRecord (path_record.hpp): one template for each way of combining the samples of a pixel
+// into one value. `What` has a name, channels, and of(sample), which returns nullopt if the sample has no value.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct RecordedPlane {
 template <class What>
 struct MeanPlane : RecordedPlane<What> {
     using Sum = ValueSum;
-    explicit MeanPlane(const PlaneSubjects&) {}
+    explicit MeanPlane(const SceneNames&) {}
 
     std::size_t sums() const { return What::channels.size(); }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
@@ -46,9 +46,9 @@ struct MeanPlane : RecordedPlane<What> {
 /// The mean over the samples with a value (those that met something), weighted by What::weight(sample); What::otherwise
 /// if there are none.
 template <class What>
-struct MeanOfMetPlane : RecordedPlane<What> {
+struct MeanOfHitsPlane : RecordedPlane<What> {
     using Sum = WeightedMean<What::channels.size()>;
-    explicit MeanOfMetPlane(const PlaneSubjects&) {}
+    explicit MeanOfHitsPlane(const SceneNames&) {}
 
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults& faults) const {
@@ -65,7 +65,7 @@ struct MeanOfMetPlane : RecordedPlane<What> {
 template <class What>
 struct FirstSamplePlane : RecordedPlane<What> {
     using Sum = FirstValue<What::channels.size()>;
-    explicit FirstSamplePlane(const PlaneSubjects&) {}
+    explicit FirstSamplePlane(const SceneNames&) {}
 
     std::size_t sums() const { return 1; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {

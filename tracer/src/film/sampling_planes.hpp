@@ -12,13 +12,13 @@ struct VariancePlane {
     using Sum = MeanAndVariance;
     static constexpr std::string_view name = "variance";
     static constexpr bool by_default = false;
-    explicit VariancePlane(const PlaneSubjects&) {}
+    explicit VariancePlane(const SceneNames&) {}
 
     std::vector<std::string> channels() const { return {"variance.R", "variance.G", "variance.B"}; }
     std::size_t sums() const { return 3; }
     void add(std::span<Sum> sums, const FilmSample& sample, FilmFaults&) const {
-        FilmFaults again;  // already counted by the picture
-        for (std::size_t c = 0; c < 3; ++c) sums[c].add(sample.radiance[static_cast<int>(c)], again);
+        FilmFaults uncounted;  // already counted by the picture
+        for (std::size_t c = 0; c < 3; ++c) sums[c].add(sample.radiance[static_cast<int>(c)], uncounted);
     }
     void resolve(std::span<const Sum> sums, std::uint32_t samples, std::span<float> values) const {
         for (std::size_t c = 0; c < 3; ++c) values[c] = static_cast<float>(sums[c].variance_of_mean(samples));
@@ -30,7 +30,7 @@ struct SamplesPlane {
     using Sum = Count;
     static constexpr std::string_view name = "samples";
     static constexpr bool by_default = false;
-    explicit SamplesPlane(const PlaneSubjects&) {}
+    explicit SamplesPlane(const SceneNames&) {}
 
     std::vector<std::string> channels() const { return {"samples.X"}; }
     std::size_t sums() const { return 0; }

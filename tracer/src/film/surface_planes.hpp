@@ -84,7 +84,7 @@ struct PhaseLeft {
     static constexpr std::array<std::string_view, 1> channels{"phase_left.X"};
     static constexpr float otherwise = -1;
     static std::array<float, 1> of_surface(const FilmSample&, const RecordedSurface& r) {
-        return {static_cast<float>(r.left.index)};
+        return {static_cast<float>(r.phase_left.index)};
     }
 };
 struct PhaseEntered {
@@ -92,7 +92,7 @@ struct PhaseEntered {
     static constexpr std::array<std::string_view, 1> channels{"phase_entered.X"};
     static constexpr float otherwise = -1;
     static std::array<float, 1> of_surface(const FilmSample&, const RecordedSurface& r) {
-        return {r.entered ? static_cast<float>(r.entered->index) : -1.0f};
+        return {r.phase_entered ? static_cast<float>(r.phase_entered->index) : -1.0f};
     }
 };
 struct ObjectNumber {
@@ -118,8 +118,8 @@ using PositionPlane = FirstSamplePlane<OfFirst<Position>>;
 using NormalPlane = MeanPlane<OfFirst<Normal>>;
 using AlbedoPlane = MeanPlane<OfFirst<Albedo>>;
 /// The mean length of the paths to what is seen behind glass.
-using DepthBehindPlane = MeanOfMetPlane<OfBehind<DepthBehind>>;
-using PositionBehindPlane = MeanOfMetPlane<OfBehind<PositionBehind>>;
+using DepthBehindPlane = MeanOfHitsPlane<OfBehind<DepthBehind>>;
+using PositionBehindPlane = MeanOfHitsPlane<OfBehind<PositionBehind>>;
 using NormalBehindPlane = MeanPlane<OfBehind<NormalBehind>>;
 using AlbedoBehindPlane = MeanPlane<OfBehind<AlbedoBehind>>;
 using PhaseLeftPlane = FirstSamplePlane<OfFirst<PhaseLeft>>;

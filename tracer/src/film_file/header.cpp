@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr std::size_t longest_text = 1 << 20, longest_list = 1 << 20;
-constexpr int largest_side = 32768, most_samples = 1 << 24;
+constexpr int largest_side = 32768, max_samples = 1 << 24;
 
 void write_text(ByteWriter& out, std::string_view text) {
     text = text.substr(0, longest_text);
@@ -82,7 +82,7 @@ std::string setting(const FilmFileHeader& header, std::string_view name) {
     return found == header.settings.end() ? "" : found->second;
 }
 
-// "phasetree 0.9.0+3f2a91c04d7e (commit 8f1d19c6a3b2)"
+// "phasetree 0.10.0+3f2a91c04d7e (commit 8f1d19c6a3b2)"
 std::string build_and_commit(const FilmFileHeader& header) {
     const std::string commit = printable(setting(header, "commit"));
     return fmt::format("phasetree {}{}", header.build(), commit.empty() ? "" : fmt::format(" (commit {})", commit));
@@ -106,7 +106,7 @@ void FilmFileHeader::write(ByteWriter& out) const {
     write_int(out, static_cast<int>(film.planes.count()));
     for (std::size_t i = 0; i < Planes::size; ++i)
         if (film.planes[i]) write_text(out, Planes::names[i]);
-    for (const auto* names : {&subjects.phases, &subjects.groups, &subjects.objects}) {
+    for (const auto* names : {&scene_names.phases, &scene_names.groups, &scene_names.objects}) {
         write_int(out, static_cast<int>(names->size()));
         for (const std::string& name : *names) write_text(out, name);
     }
@@ -129,11 +129,11 @@ FilmFileHeader FilmFileHeader::read(ByteReader& in) {
     h.area = read_range(in, h.film.whole());
     h.shown = read_range(in, h.area);
     h.film.planes = read_planes(in);
-    for (auto* names : {&h.subjects.phases, &h.subjects.groups, &h.subjects.objects})
+    for (auto* names : {&h.scene_names.phases, &h.scene_names.groups, &h.scene_names.objects})
         for (std::size_t left = read_count(in, longest_list); left > 0; --left) names->push_back(read_text(in));
-    h.samples.first = read_int(in, 0, most_samples - 1);
-    h.samples.last = read_int(in, h.samples.first + 1, most_samples);
-    h.samples_in_all = read_int(in, h.samples.last, most_samples);
+    h.samples.first = read_int(in, 0, max_samples - 1);
+    h.samples.last = read_int(in, h.samples.first + 1, max_samples);
+    h.samples_in_all = read_int(in, h.samples.last, max_samples);
     h.scene = read_text(in);
     h.seed = in.number<std::uint32_t>();
     h.exposure_ev = in.real();
@@ -161,7 +161,7 @@ std::string difference(const FilmFileHeader& wanted, const FilmFileHeader& found
     // The settings contain this too, unless the file is forged.
     if (wanted.film.planes != found.film.planes || wanted.film.width != found.film.width ||
         wanted.film.height != found.film.height || !same_range(wanted.area, found.area) ||
-        !same_range(wanted.shown, found.shown) || wanted.subjects != found.subjects)
+        !same_range(wanted.shown, found.shown) || wanted.scene_names != found.scene_names)
         return "it belongs to another picture";
     return "";
 }

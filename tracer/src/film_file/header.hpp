@@ -40,7 +40,7 @@ struct FilmFileHeader {
     std::string build() const;
 
     FilmSettings film;  ///< except for the filter, of which there is only one kind
-    PlaneSubjects subjects;
+    SceneNames scene_names;
     PixelRange area;
     /// The pixels of the picture, which lie in the film's area. If blocks stop by their noise, the film contains whole
     /// blocks, because all of a block's pixels decide whether it continues.

@@ -72,7 +72,7 @@ void Parts::join(const std::function<void(const FilmTile&)>& take, const std::fu
         const int last = std::min(first + at_once, header_.bands());
         std::vector<std::optional<FilmTile>> bands(static_cast<std::size_t>(last - first));
         tbb::parallel_for(first, last, [&](int i) {
-            FilmTile band(header_.band(i), header_.film.planes, header_.subjects);
+            FilmTile band(header_.band(i), header_.film.planes, header_.scene_names);
             for (const FilmFile& file : files_) {
                 if (stopped()) return;
                 band.join(file.band(i));

@@ -68,8 +68,8 @@ bool equal(std::span<const std::byte> bytes, std::string_view text) {
 // The minimum size of a pixel in a band: the size of a row of two pixels without samples, minus that of a row of one.
 std::uint64_t least_bytes_of_pixel(const FilmFileHeader& header) {
     ByteWriter one, two;
-    FilmTile({0, 0, 1, 1}, header.film.planes, header.subjects).write_row(0, one);
-    FilmTile({0, 0, 2, 1}, header.film.planes, header.subjects).write_row(0, two);
+    FilmTile({0, 0, 1, 1}, header.film.planes, header.scene_names).write_row(0, one);
+    FilmTile({0, 0, 2, 1}, header.film.planes, header.scene_names).write_row(0, two);
     return two.bytes().size() - one.bytes().size();
 }
 
@@ -116,11 +116,11 @@ FilmTile FilmFile::band(int i) const {
     Input input(path_);
     const PixelRange area = header_.band(i);
     const auto bytes = input.block(bands_[static_cast<std::size_t>(i)], least_of_pixel_ * area.size()).first;
-    FilmTile tile(area, header_.film.planes, header_.subjects);
+    FilmTile tile(area, header_.film.planes, header_.scene_names);
     try {
         ByteReader in(bytes);
         for (int y = area.y0; y < area.y1; ++y) tile.read_row(y, in);
-        if (in.left() != 0) throw BytesError("it is damaged");
+        if (in.bytes_left() != 0) throw BytesError("it is damaged");
     } catch (const BytesError& e) {
         throw error(e.what());
     }

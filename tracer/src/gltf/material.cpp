@@ -30,7 +30,7 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Surfaces that shine less are shown as dark.
+// Surfaces that emit less are shown as dark.
 constexpr float faintest_radiance = 0.01f;
 
 // A surface that is metal by more than this everywhere counts as all metal.
@@ -197,7 +197,7 @@ class Materials::Maker {
         TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
         const auto texture = item_.item("emissiveTexture");
         const auto read = image(texture, ImageMeaning::colors);
-        // Where an image says where it shines, and is of no kind that is read, it is taken to be dark.
+        // If an image says where the surface emits, but cannot be read, the surface is taken to be dark.
         if (texture && !read) return std::nullopt;
         if (read) {
             if (read->lit_share < 0.5f) {

@@ -24,7 +24,7 @@ float brightness(const Scene& scene, const Surface& surface, const Frame& frame,
     const glm::vec3 direction = frame.to_world(outside);
     const auto light = scene.lights.seen(surface.near_side.origin, direction, Bounds::infinity, false);
     return std::max(light ? luminance(light->radiance) : 0.0f,
-                    scene.lights.glowing_luminance(surface.near_side.origin, direction));
+                    scene.lights.emissive_luminance(surface.near_side.origin, direction));
 }
 
 }  // namespace

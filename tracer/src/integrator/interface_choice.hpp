@@ -6,7 +6,7 @@
 //     q = (F + F B / (F B + (1 − F) B')) / 2,
 // where F is the Fresnel reflectance, and B and B' are the brightness of the lights in the directions of the reflected
 // and the refracted path, ignoring occlusion. For emissive surfaces and media, B is the luminance of the brightest ball
-// (lights/glowing_part.hpp) in that direction. A reflected path has the weight F/q and a refracted path (1 − F)/(1 −
+// (lights/emissive_part.hpp) in that direction. A reflected path has the weight F/q and a refracted path (1 − F)/(1 −
 // q), each at most 2.
 //
 // The direction of a path in glass is not the direction in which it will see a lamp. The estimate assumes that the path

@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 /// The density with which photons start on the line along which a ray reaches a light.
 float line_density(const Photons&, const Ray&);
 /// As above, for a ray that reaches an emissive surface.
-float line_density(const Photons&, const Ray&, const Surface& glowing);
+float line_density(const Photons&, const Ray&, const Surface& emissive);
 /// As above, for the segment of a ray, from its origin up to a distance, in an emissive medium.
 float line_density_in_medium(const Photons&, const Ray&, float distance);
 

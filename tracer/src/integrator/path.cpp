@@ -95,7 +95,7 @@ class PathIntegrator {
             if (const auto emitted = surface->emitted(wavelengths()))
                 add_seen(
                     path_.throughput * path_.chain.weight(scene, context_.photons, ray, *surface) * emitted->radiance,
-                    OfGlowingSurface{emitted->group});
+                    OfEmissiveSurface{emitted->group});
 
             // Evaluate the BSDF, at the hero wavelength alone if the surface disperses the path.
             if (surface->optics.get().disperses()) disperse();

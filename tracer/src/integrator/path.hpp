@@ -38,13 +38,14 @@ struct PathHelp {
 /// Photons are a third technique for the same integral, for chains of at least one interface: E as found from the
 /// light's end (caustics/caustics.hpp). If N photons start per pass and those within r of the surface point count, they
 /// find directions ω with the expected density
-///     N π r² (p(line)/m²) n² cos θ.
-/// Here p(line) is the density at the light, per area across the line and solid angle. m is the index around the light
-/// (p(line)/m² is EmittedPhoton::line_density), n is the index at the surface, and cos θ converts area across the line
-/// into area of the surface. The étendue, index² · area across the line · solid angle, is the same all along a chain,
-/// however its interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is the one
-/// biased estimate here: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection and
-/// Merging, SIGGRAPH Asia 2012, has the general case). Media attenuate photons on their way, but do not scatter them.
+///     N π r² (p(line)/n_l²) n² cos θ.
+/// Here p(line) is the density at the light, per area across the line and solid angle. n_l is the index around the
+/// light (p(line)/n_l² is EmittedPhoton::line_density), n is the index at the surface, and cos θ converts area across
+/// the line into area of the surface. The étendue, index² · area across the line · solid angle, is the same all along a
+/// chain, however its interfaces are curved. Fresnel's odds are the same in both directions and cancel. Gathering is
+/// the one biased estimate here: it blurs within r (Georgiev et al.: Light Transport Simulation with Vertex Connection
+/// and Merging, SIGGRAPH Asia 2012, has the general case). Media attenuate photons on their way, but do not scatter
+/// them.
 ///
 /// Rough interfaces end shadow rays and chains because a path is scattered there. Photons pass them and are scattered,
 /// too. For a lamp seen from a surface through frosted glass there are therefore three techniques: shadow rays that
@@ -56,7 +57,7 @@ struct PathHelp {
 /// Points in a scattering medium gather photons, too. There is no cos θ there. A photon is stored at one random point
 /// of its line through the medium. With the probability F(t) (photon_placement.hpp), that point is near enough to count
 /// for the point of the line at distance t behind the boundary. So the density is
-///     N π r² (p(line)/m²) n² F(t).
+///     N π r² (p(line)/n_l²) n² F(t).
 ///
 /// Wavelengths (spectrum/wavelengths.hpp). If the scene requests them, a path, its shadow rays and the photons that it
 /// gathers have the same three wavelengths from the start. Otherwise they have one, from where an interface disperses

@@ -9,8 +9,8 @@ float PathChain::weight(const Scene& scene, const Photons& photons, const Ray& r
     return weight_with(scene, [&] { return line_density(photons, ray); });
 }
 
-float PathChain::weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const {
-    return weight_with(scene, [&] { return line_density(photons, ray, glowing); });
+float PathChain::weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& emissive) const {
+    return weight_with(scene, [&] { return line_density(photons, ray, emissive); });
 }
 
 float PathChain::weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const {
@@ -20,7 +20,7 @@ float PathChain::weight_of_medium(const Scene& scene, const Photons& photons, co
 template <class LineDensity>
 float PathChain::weight_with(const Scene& scene, LineDensity&& line_density_at_end) const {
     const float per_line = by_photons.per_line_density;
-    const bool is_found = per_line > 0.0f && photons_follow(interfaces());
+    const bool is_found = per_line > 0.0f && is_photon_chain(interfaces());
     return weight(scene, is_found ? per_line * line_density_at_end() : 0.0f);
 }
 

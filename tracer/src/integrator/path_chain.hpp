@@ -30,14 +30,14 @@ struct PathChain {
     /// Whether photons that pass a rough interface at the chain's end count at an earlier vertex of the path. Otherwise
     /// they count at the rough interface.
     bool photons_count_earlier() const {
-        return pdf && by_photons.per_line_density > 0.0f && photons_follow(interfaces() + 1);
+        return pdf && by_photons.per_line_density > 0.0f && is_photon_chain(interfaces() + 1);
     }
 
     /// The MIS weight of light that is seen along the ray. Light at the end of a chain that shadow rays and photons do
     /// not follow is found by the path alone, whichever techniques are selected.
     float weight(const Scene& scene, const Photons& photons, const Ray& ray) const;
     /// As above, for the emission of a surface that the ray met.
-    float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& glowing) const;
+    float weight(const Scene& scene, const Photons& photons, const Ray& ray, const Surface& emissive) const;
     /// As above, for the emission of the ray's medium, from its origin up to a distance.
     float weight_of_medium(const Scene& scene, const Photons& photons, const Ray& ray, float distance) const;
 

@@ -23,9 +23,9 @@ float point_density(const PathContext& context, const Ray& ray, const LightSampl
 
 Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample& sampled,
                          const PathWavelengths& path_wavelengths, int interfaces_before) {
-    const auto density_at_end = [&](int length, const Surface* glowing) {
-        if (!photons_follow(interfaces_before + length)) return 0.0f;
-        if (glowing) return line_density(context.photons, ray, *glowing);
+    const auto density_at_end = [&](int length, const Surface* emissive) {
+        if (!is_photon_chain(interfaces_before + length)) return 0.0f;
+        if (emissive) return line_density(context.photons, ray, *emissive);
         const auto* point = std::get_if<OfPointLight>(&sampled.source);
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
@@ -50,20 +50,20 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         if (segment == 0) arrival.to_boundary = distance;
 
         // Find the light that the segment reaches: a lamp, what is behind everything, or an emissive surface.
-        const Surface* glowing =
-            blocked && blocked->glowing && !sampled.is_of_point_light() ? &*blocked->glowing : nullptr;
+        const Surface* emissive =
+            blocked && blocked->emissive && !sampled.is_of_point_light() ? &*blocked->emissive : nullptr;
         std::optional<Lights::Emission> light;
         if (!is_straight)
             light = context.scene.lights.seen(ray.origin, ray.direction, distance, false, ray_wavelengths.now());
         else if (escaped)
             light = Lights::Emission{to_sampled, sampled_radiance(), sampled.source};
-        if (light) glowing = nullptr;  // a lamp is in front of it
-        if (const auto emitted = glowing ? glowing->emitted(ray_wavelengths.now()) : std::nullopt)
-            light = Lights::Emission{distance, emitted->radiance, OfGlowingSurface{emitted->group}};
+        if (light) emissive = nullptr;  // a lamp is in front of it
+        if (const auto emitted = emissive ? emissive->emitted(ray_wavelengths.now()) : std::nullopt)
+            light = Lights::Emission{distance, emitted->radiance, OfEmissiveSurface{emitted->group}};
 
         // Pass the medium.
         const Medium& medium = clear_at(context.scene, ray.phase).interior;
-        const bool brings_emission = shines(medium) && !sampled.is_of_point_light();
+        const bool brings_emission = is_emissive(medium) && !sampled.is_of_point_light();
         const bool is_dark = light ? light->radiance == glm::vec3(0.0f) : !surface;
         if (is_dark && !brings_emission) return arrival;
         const float way = light ? light->distance : distance;
@@ -73,7 +73,7 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         const glm::vec3 to_path = is_dispersed_here ? ray_wavelengths.all()->hero_to_all : glm::vec3(1.0f);
         if (brings_emission && passage.emitted != glm::vec3(0.0f))
             arrival.from_media.push_back(
-                {throughput * passage.emitted * to_path, photons_follow(interfaces_before + length)
+                {throughput * passage.emitted * to_path, is_photon_chain(interfaces_before + length)
                                                              ? line_density_in_medium(context.photons, ray, way)
                                                              : 0.0f});
         throughput *= passage.left;
@@ -83,7 +83,7 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         if (light) {
             throughput *= to_path;
             arrival.light = Arrival::FromLight{throughput * light->radiance, light->source, ray.direction,
-                                               density_at_end(length, glowing)};
+                                               density_at_end(length, emissive)};
             return arrival;
         }
 

@@ -11,7 +11,7 @@ SurfaceVertex::SurfaceVertex(const PathContext& context, const PathState& path, 
       surface_(surface),
       frame_(surface.frame()),
       bsdf_(bsdf, frame_, frame_.to_local(-path.ray.direction), guiding.at(surface, bsdf)) {
-    if (sends_photons_on(bsdf, surface) && path.chain.photons_count_earlier()) {
+    if (continues_photons(bsdf, surface) && path.chain.photons_count_earlier()) {
         per_line_density_before_ = path.chain.by_photons.per_line_density / *path.chain.pdf;
         interfaces_before_ = path.chain.interfaces() + 1;
     }

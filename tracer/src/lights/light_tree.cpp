@@ -138,7 +138,7 @@ class LightTree::Builder {
 
 void LightTree::roots_are_all_lamps() {
     roots_.clear();
-    for (const auto kind : {LightNode::Kind::area, LightNode::Kind::point, LightNode::Kind::glowing})
+    for (const auto kind : {LightNode::Kind::area, LightNode::Kind::point, LightNode::Kind::emissive_part})
         for (std::uint32_t i = 0; i < lamps_[static_cast<std::size_t>(kind)]; ++i) roots_.push_back({kind, i});
 }
 

@@ -27,7 +27,7 @@ namespace phasetree::tracer {
 
 /// A lamp, by its number among the lamps of its kind, or a cluster, by its number in the tree.
 struct LightNode {
-    enum class Kind : std::uint32_t { area, point, glowing, cluster };
+    enum class Kind : std::uint32_t { area, point, emissive_part, cluster };
 
     Kind kind = Kind::area;
     std::uint32_t number = 0;
@@ -171,7 +171,7 @@ template <class Farthest, class Use>
 void LightTree::for_each_maybe_hit(const glm::vec3& origin, const glm::vec3& direction, const Farthest& farthest,
                                    const Use& use) const {
     const auto visit = [&](const auto& self, const LightNode& node) -> void {
-        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::glowing) use(node);
+        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::emissive_part) use(node);
         if (node.kind != LightNode::Kind::cluster || !may_hit(origin, direction, farthest(), node.number)) return;
         for (const LightNode& member : members(node.number)) self(self, member);
     };
@@ -196,7 +196,7 @@ void LightTree::for_each_maybe_hit_with_path(const glm::vec3& origin, const glm:
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     const auto visit = [&](const auto& self, std::size_t root, const Step& step) -> void {
         const LightNode& node = step.node;
-        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::glowing)
+        if (node.kind == LightNode::Kind::area || node.kind == LightNode::Kind::emissive_part)
             use(node, [&] { return Reached{root, probability_of(step, given)}; });
         if (node.kind != LightNode::Kind::cluster || !may_hit(origin, direction, everywhere, node.number)) return;
         for (const LightNode& member : members(node.number)) self(self, root, Step{&step, member});

@@ -83,9 +83,9 @@ void Lights::add(AnyPointLight light, std::string_view group, SharedLightSpectru
     tree_.add(LightNode::Kind::point);
 }
 
-void Lights::add(const GlowingPart& part) {
-    glowing_.push_back(part);
-    tree_.add(LightNode::Kind::glowing);
+void Lights::add(const EmissivePart& part) {
+    emissive_parts_.push_back(part);
+    tree_.add(LightNode::Kind::emissive_part);
 }
 
 void Lights::cluster_lamps() {
@@ -97,8 +97,8 @@ void Lights::cluster_lamps() {
     };
     add_all(area_, LightNode::Kind::area);
     add_all(points_, LightNode::Kind::point);
-    for (std::uint32_t i = 0; i < glowing_.size(); ++i)
-        lamps.push_back({{LightNode::Kind::glowing, i}, glowing_[i].emission_bounds()});
+    for (std::uint32_t i = 0; i < emissive_parts_.size(); ++i)
+        lamps.push_back({{LightNode::Kind::emissive_part, i}, emissive_parts_[i].emission_bounds()});
     tree_ = LightTree::of(lamps);
 }
 
@@ -110,8 +110,8 @@ void Lights::add_to_groups(const glm::vec3& found, const Wavelengths* wavelength
         groups[area_[area->index].group] += radiance;
     } else if (const auto* point = std::get_if<OfPointLight>(&source)) {
         groups[points_[point->index].group] += radiance;
-    } else if (const auto* glowing = std::get_if<OfGlowingSurface>(&source)) {
-        groups[glowing->group] += radiance;
+    } else if (const auto* emissive = std::get_if<OfEmissiveSurface>(&source)) {
+        groups[emissive->group] += radiance;
     } else if (std::holds_alternative<Background>(source) || infinite_.empty()) {
         groups[0] += radiance;
     } else if (std::ranges::all_of(infinite_, is_like_first)) {
@@ -188,8 +188,8 @@ float Lights::received_from(const LightNode& node, const LightReceiver& at) cons
                 return static_cast<float>(static_cast<double>(luminance(light.radiance())) * solid_angle * cosine);
             },
             area_[node.number].light);
-    if (node.kind == LightNode::Kind::glowing) {
-        const GlowingPart& part = glowing_[node.number];
+    if (node.kind == LightNode::Kind::emissive_part) {
+        const EmissivePart& part = emissive_parts_[node.number];
         const double cosine = at.normal ? mean_cosine(part.bounding_sphere(), at) : 1.0;
         return static_cast<float>(static_cast<double>(part.luminance()) * part.solid_angle(at.p) * cosine);
     }
@@ -242,9 +242,10 @@ float Lights::with_others(float density, const std::optional<Chosen>& chosen, co
             const float weight = weights[infinite_.size() + root];
             if (weight * probability > 0.0f) density += weight / total * probability * pdf();
         };
-        if (lamp.kind == LightNode::Kind::glowing) {
+        if (lamp.kind == LightNode::Kind::emissive_part) {
             if (chosen && chosen->lamp == lamp) return;
-            if (const float pdf = glowing_[lamp.number].pdf(at.p, direction); pdf > 0.0f) add([&] { return pdf; });
+            if (const float pdf = emissive_parts_[lamp.number].pdf(at.p, direction); pdf > 0.0f)
+                add([&] { return pdf; });
             return;
         }
         std::visit(
@@ -316,8 +317,8 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
         const glm::vec3 irradiance = light_of(from_point.irradiance, point.spectrum, wavelengths);
         return LightSample{from_point.direction, from_point.distance, irradiance, probability,
                            OfPointLight{chosen.lamp->number}};
-    } else if (chosen.lamp->kind == LightNode::Kind::glowing) {
-        sampled = glowing_[chosen.lamp->number].sample(p, u);
+    } else if (chosen.lamp->kind == LightNode::Kind::emissive_part) {
+        sampled = emissive_parts_[chosen.lamp->number].sample(p, u);
     } else {
         sampled = std::visit([&](const auto& light) { return light.sample(p, u); }, area_[chosen.lamp->number].light);
     }
@@ -345,7 +346,7 @@ std::optional<LightSample> Lights::sample(const LightReceiver& at, glm::vec2 u, 
 glm::vec3 Lights::direction_to(const LightNode& node, const glm::vec3& p) const {
     if (node.kind == LightNode::Kind::point) return seen_from(p, points_[node.number].light).direction;
     if (node.kind == LightNode::Kind::cluster) return glm::normalize(tree_.sphere(node.number).centre - p);
-    if (node.kind == LightNode::Kind::glowing) return glm::normalize(glowing_[node.number].centre() - p);
+    if (node.kind == LightNode::Kind::emissive_part) return glm::normalize(emissive_parts_[node.number].centre() - p);
     const glm::vec2 middle(0.5f);
     return std::visit([&](const auto& light) { return light.sample(p, middle).direction; }, area_[node.number].light);
 }

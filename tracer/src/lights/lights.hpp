@@ -27,7 +27,7 @@
 // instead, and no direction that a path samples otherwise leads to it.
 //
 // Emissive surfaces and media are part of the geometry, not lights of this list. Balls around them are lamps of the
-// tree that propose directions but emit nothing (glowing_part.hpp). A shadow ray, whatever proposed its direction,
+// tree that propose directions but emit nothing (emissive_part.hpp). A shadow ray, whatever proposed its direction,
 // collects the emission of the media on its way and of the emissive surface that it meets before it reaches the light
 // that is seen there.
 //
@@ -48,7 +48,7 @@
 #include <vector>
 
 #include "lights/diffuse_irradiance.hpp"
-#include "lights/glowing_part.hpp"
+#include "lights/emissive_part.hpp"
 #include "lights/kinds.hpp"
 #include "lights/light_receiver.hpp"
 #include "lights/light_tree.hpp"
@@ -68,10 +68,10 @@ struct OfAreaLight {
 struct OfPointLight {
     std::uint32_t index;
 };
-struct OfGlowingSurface {
+struct OfEmissiveSurface {
     std::uint32_t group;
 };
-using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight, OfGlowingSurface>;
+using LightSource = std::variant<InfiniteLights, Background, OfAreaLight, OfPointLight, OfEmissiveSurface>;
 
 struct LightSample {
     glm::vec3 wi;        ///< unit length, from the point towards the light
@@ -115,7 +115,7 @@ class Lights {
     void add(InfiniteLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(AreaLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
     void add(AnyPointLight light, std::string_view group = default_group, SharedLightSpectrum spectrum = {});
-    void add(const GlowingPart& part);
+    void add(const EmissivePart& part);
     /// A portal has no group because it emits nothing.
     void add(const Portal& portal) { portals_.push_back(portal); }
     /// Clusters the lamps if there are more than LightTree::most_roots. Call it after adding all lights. Adding another
@@ -144,7 +144,7 @@ class Lights {
     std::span<const ListedInfiniteLight> infinite() const { return infinite_; }
     std::span<const ListedLight<AreaLight>> area() const { return area_; }
     std::span<const ListedLight<AnyPointLight>> points() const { return points_; }
-    std::span<const GlowingPart> glowing() const { return glowing_; }
+    std::span<const EmissivePart> emissive_parts() const { return emissive_parts_; }
 
     /// Samples a direction; `u` is in [0, 1)². u.x chooses the light. Its remainder, rescaled to [0, 1), is the x of
     /// the light's own sampling, so that points stratified in the square are stratified for each light. Returns nullopt
@@ -178,7 +178,7 @@ class Lights {
 
     /// The luminance of the brightest ball around an emissive part that a ray meets: an estimate of the radiance
     /// without occlusion. 0 if it meets none.
-    float glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const;
+    float emissive_luminance(const glm::vec3& origin, const glm::vec3& direction) const;
 
     /// The radiant intensity of a point light, by its number in points(), in a direction away from it.
     glm::vec3 intensity(std::size_t index, const glm::vec3& away, const Wavelengths* wavelengths = nullptr) const;
@@ -226,7 +226,7 @@ class Lights {
     std::vector<ListedInfiniteLight> infinite_;
     std::vector<ListedLight<AreaLight>> area_;
     std::vector<ListedLight<AnyPointLight>> points_;
-    std::vector<GlowingPart> glowing_;
+    std::vector<EmissivePart> emissive_parts_;
     LightTree tree_;  ///< of the area and point lights, and of emissive parts
     std::vector<Portal> portals_;
     std::vector<std::string> groups_{std::string(default_group)};

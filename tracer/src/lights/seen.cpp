@@ -19,11 +19,11 @@ Lights::Emission Lights::emission_of(std::uint32_t area_light, float distance, c
     return {distance, light_of(radiance, area_[area_light].spectrum, wavelengths), OfAreaLight{area_light}};
 }
 
-float Lights::glowing_luminance(const glm::vec3& origin, const glm::vec3& direction) const {
+float Lights::emissive_luminance(const glm::vec3& origin, const glm::vec3& direction) const {
     float brightest = 0;
-    if (glowing_.empty()) return brightest;
-    for_each_lamp_near(LightNode::Kind::glowing, origin, direction, [&](std::uint32_t number) {
-        const GlowingPart& part = glowing_[number];
+    if (emissive_parts_.empty()) return brightest;
+    for_each_lamp_near(LightNode::Kind::emissive_part, origin, direction, [&](std::uint32_t number) {
+        const EmissivePart& part = emissive_parts_[number];
         if (part.luminance() > brightest && part.is_met(origin, direction)) brightest = part.luminance();
     });
     return brightest;

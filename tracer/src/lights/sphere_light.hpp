@@ -57,7 +57,7 @@ class SphereLight {
 };
 
 // Parameters of an emissive ball in a scene file, except its position.
-struct ShiningBallParameters {
+struct SphereEmissionParameters {
     float radius = 1.0f;
     glm::vec3 radiance{1.0f};
     float intensity = 1.0f;
@@ -65,7 +65,7 @@ struct ShiningBallParameters {
 
     template <class V>
     static void parameters(V&& v) {
-        using P = ShiningBallParameters;
+        using P = SphereEmissionParameters;
         v(&P::radius, Parameter{"radius", "m", "Radius of a sphere.", extent});
         v(&P::radiance, ColourParameter{{"radiance", "", "Radiance of the surface.", limits::non_negative, true}});
         v(&P::intensity, Parameter{"intensity", "", "Factor applied to the radiance.", limits::non_negative, true});
@@ -78,7 +78,7 @@ struct ShiningBallParameters {
 };
 
 // Parameters in a scene file.
-struct SphereLightParameters : ShiningBallParameters {
+struct SphereLightParameters : SphereEmissionParameters {
     static constexpr KindInfo info{"sphere", "A sphere that emits light."};
 
     glm::vec3 centre{0.0f};
@@ -86,7 +86,7 @@ struct SphereLightParameters : ShiningBallParameters {
     template <class V>
     static void parameters(V&& v) {
         v(&SphereLightParameters::centre, Parameter{"centre", "m", "Its centre.", coordinate});
-        ShiningBallParameters::parameters(v);
+        SphereEmissionParameters::parameters(v);
     }
     SphereLight made() const { return made_at(centre); }
 };

@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer {
 
-struct SphereLightsParameters : ShiningBallParameters {
+struct SphereLightsParameters : SphereEmissionParameters {
     static constexpr KindInfo info{"spheres", "Many equal sphere lights."};
 
     std::vector<glm::vec3> centres{};
@@ -18,7 +18,7 @@ struct SphereLightsParameters : ShiningBallParameters {
     template <class V>
     static void parameters(V&& v) {
         v(&SphereLightsParameters::centres, Parameter{"centres", "m", "Their centres.", coordinate});
-        ShiningBallParameters::parameters(v);
+        SphereEmissionParameters::parameters(v);
     }
     std::vector<AreaLight> made() const {
         std::vector<AreaLight> lights;

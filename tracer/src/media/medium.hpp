@@ -86,7 +86,7 @@ inline glm::vec3 extinction(const Medium& medium) {
         },
         medium);
 }
-inline bool shines(const Medium& medium) {
+inline bool is_emissive(const Medium& medium) {
     return emission(medium) != glm::vec3(0.0f);
 }
 

@@ -125,11 +125,11 @@ class GltfDocument {
     }
 
     void add_material(const Look& look, double thickness, float scale) {
-        const bool glows = look.kind == Look::glowing;
+        const bool is_glowing = look.kind == Look::glowing;
         const glm::vec3 color = look.kind == Look::clear ? glm::vec3(1)
-                                : glows                  ? glm::vec3(0)
+                                : is_glowing             ? glm::vec3(0)
                                                          : glm::clamp(look.color, 0.f, 1.f);
-        const bool is_rough = look.kind == Look::diffuse || glows, is_metal = look.kind == Look::metal;
+        const bool is_rough = look.kind == Look::diffuse || is_glowing, is_metal = look.kind == Look::metal;
         Json material{{"name", look.name},
                       {"pbrMetallicRoughness",
                        {{"baseColorFactor", {color.x, color.y, color.z, 1}},
@@ -138,7 +138,7 @@ class GltfDocument {
                                             : is_metal                  ? 0.2
                                             : look.kind == Look::coated ? 0.3
                                                                         : 0.0}}}};
-        if (glows) {
+        if (is_glowing) {
             const float most = std::max({look.color.x, look.color.y, look.color.z, 1.f});
             material["emissiveFactor"] = as_list(glm::clamp(look.color / most, 0.f, 1.f));
             extend(material, "KHR_materials_emissive_strength", {{"emissiveStrength", most}});

@@ -42,7 +42,7 @@ void check(const Image& image) {
         image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
         throw std::invalid_argument("an image must have width × height pixels, and at least one");
     }
-    for (const Channel& channel : image.further)
+    for (const Channel& channel : image.extra_channels)
         if (channel.values.size() != image.pixels.size())
             throw std::invalid_argument("a channel must have a value for each pixel of its image");
     if (const auto& crop = image.crop;
@@ -125,8 +125,8 @@ std::vector<unsigned char> encoded(const OIIO::ImageSpec& spec, const char* name
 // light, except for a little that denoising may leave. Over another background, the colour of the covering surface is
 // unknown.
 const Channel* alpha_of(const Image& image) {
-    const auto found = std::ranges::find(image.further, "A", &Channel::name);
-    if (found == image.further.end()) return nullptr;
+    const auto found = std::ranges::find(image.extra_channels, "A", &Channel::name);
+    if (found == image.extra_channels.end()) return nullptr;
     double covered = 0, uncovered = 0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::vec3& p = image.pixels[i];

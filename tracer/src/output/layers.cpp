@@ -30,14 +30,14 @@ bool is_rank_of(const std::string& layer, const std::string& matte) {
 
 Layer whole(const Image& image) {
     Layer all{.name = layer_of_picture, .has_picture = true, .attributes = image.attributes};
-    for (const Channel& channel : image.further) all.channels.push_back(&channel);
+    for (const Channel& channel : image.extra_channels) all.channels.push_back(&channel);
     return all;
 }
 
 std::vector<Layer> layers_of(const Image& image) {
     const auto mattes = cryptomattes_of(image);
     std::vector<Layer> layers{{.name = layer_of_picture, .has_picture = true}};
-    for (const Channel& channel : image.further) {
+    for (const Channel& channel : image.extra_channels) {
         if (channel.name == "A") {  // stored next to R, G and B, as usual for alpha
             layers.front().channels.push_back(&channel);
             continue;

@@ -72,7 +72,7 @@ void show(const Medium& interior, const Bounds& bounds, Look& look) {
                 const float half_size = 0.5f * bounds.diagonal();
                 const float scattered =
                     density * std::max({c.scattering.x, c.scattering.y, c.scattering.z}) * half_size;
-                if (shines(interior) && !c.scatters()) {
+                if (is_emissive(interior) && !c.scatters()) {
                     const glm::vec3 emission = light_of(c.emission, c.emission_spectrum, nullptr);
                     show_light(emission / glm::max(c.extinction(), glm::vec3(1e-6f)), look);
                 } else if (scattered > thin) {

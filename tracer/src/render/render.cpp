@@ -203,14 +203,14 @@ class Renderer {
 
 }  // namespace
 
-PlaneSubjects subjects_of(const Scene& scene) {
+SceneNames scene_names_of(const Scene& scene) {
     return {.phases = scene.phases.names, .groups = scene.lights.groups(), .objects = object_names(scene)};
 }
 
 FilmSettings film_settings(const Scene& scene) {
     FilmSettings settings = scene.film;
     if (NoiseLimit::of(scene.settings))
-        for (const std::size_t plane : {Planes::place<NoisePlane>(), Planes::place<SamplesPlane>()})
+        for (const std::size_t plane : {Planes::index_of<NoisePlane>(), Planes::index_of<SamplesPlane>()})
             settings.planes[plane] = true;
     return settings;
 }
@@ -220,7 +220,7 @@ PixelRange film_area(const Scene& scene, const RenderJob& job) {
 }
 
 Film film_of(const Scene& scene, const RenderJob& job) {
-    return {film_settings(scene), film_area(scene, job), subjects_of(scene)};
+    return {film_settings(scene), film_area(scene, job), scene_names_of(scene)};
 }
 
 namespace {

@@ -62,7 +62,7 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job, F
 Rendering render(const World& world, const Scene& scene, const RenderJob& job);
 
 /// The names from which the planes of a scene's film derive their channels.
-PlaneSubjects subjects_of(const Scene& scene);
+SceneNames scene_names_of(const Scene& scene);
 /// The settings of a scene's film. If pixels stop by their noise, they include the planes of noise and of sample
 /// numbers.
 FilmSettings film_settings(const Scene& scene);

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "image/luminance.hpp"
+#include "scene/emissive_parts.hpp"
 #include "scene/scene.hpp"
-#include "scene/shining_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -82,7 +82,7 @@ float luminance_of(const Set& set, const Glowing& material) {
 
 }  // namespace
 
-std::vector<ShiningPart> parts_of_mesh(const Mesh& mesh) {
+std::vector<EmissiveBall> parts_of_mesh(const Mesh& mesh) {
     if (mesh.triangles.empty()) return {};
     const auto is_smaller = [](const Set& a, const Set& b) { return a.bounds.diagonal() < b.bounds.diagonal(); };
     std::vector<Set> sets{Set(triangles_of(mesh))};
@@ -95,7 +95,7 @@ std::vector<ShiningPart> parts_of_mesh(const Mesh& mesh) {
             std::ranges::push_heap(sets, is_smaller);
         }
     }
-    std::vector<ShiningPart> parts;
+    std::vector<EmissiveBall> parts;
     for (const Set& set : sets)
         parts.push_back(part_in(set.bounds, luminance_of(set, std::get<Glowing>(mesh.material))));
     return parts;

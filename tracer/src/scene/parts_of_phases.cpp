@@ -5,7 +5,7 @@
 
 #include "image/luminance.hpp"
 #include "phasetree/trace/tracer.hpp"
-#include "scene/shining_parts.hpp"
+#include "scene/emissive_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -174,19 +174,19 @@ Bounds bounds_of_light(const Material& material) {
 
 }  // namespace
 
-std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials) {
+std::vector<EmissiveBall> parts_of_phases(const Phased& tree, std::span<const Material> materials) {
     const PhaseSet present = phases(tree);
-    std::vector<ShiningPart> parts;
+    std::vector<EmissiveBall> parts;
     std::optional<PhaseFinder> finder;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Phase phase{static_cast<std::uint8_t>(i)};
-        if (!shines(materials[i]) || !present.contains(phase)) continue;
+        if (!is_emissive(materials[i]) || !present.contains(phase)) continue;
         if (!finder) finder.emplace(tree);
         const Counts counts = glows(materials[i]) ? Counts::surface_alone : Counts::inside_too;
         const Brightness brightness(*finder, phase, materials[i]);
         for (const Bounds& box : finder->boxes_of(phase, bounds_of_light(materials[i]), counts))
             parts.push_back(part_in(box, brightness(box),
-                                    glows(materials[i]) ? GlowingPart::Of::surface : GlowingPart::Of::medium));
+                                    glows(materials[i]) ? EmissivePart::Of::surface : EmissivePart::Of::medium));
     }
     return parts;
 }

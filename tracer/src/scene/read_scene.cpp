@@ -4,7 +4,7 @@
 
 #include "phasetree/trace/tracer.hpp"
 #include "scene/file_parts.hpp"
-#include "scene/glowing.hpp"
+#include "scene/find_emissive_parts.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/meshes_alone.hpp"
 #include "scene/nothing_left.hpp"
@@ -168,12 +168,12 @@ Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) 
 
 }  // namespace
 
-bool Scene::shines() const {
+bool Scene::is_emissive() const {
     PhaseSet present = object ? phasetree::phases(object) : PhaseSet{};
     for (const PlacedObject& one : placed.objects) present = present | phasetree::phases(one.tree);
     for (std::size_t i = 0; i < materials.size(); ++i)
-        if (present.contains(static_cast<int>(i)) && tracer::shines(materials[i])) return true;
-    return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::shines(mesh.material); });
+        if (present.contains(static_cast<int>(i)) && tracer::is_emissive(materials[i])) return true;
+    return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::is_emissive(mesh.material); });
 }
 
 std::vector<std::string> object_names(const Scene& scene) {
@@ -188,7 +188,7 @@ Scene read_scene(const Document& document, NodePlaces* places) {
     Scene scene = read_parts(document, Purpose::picture, places);
     try {
         if (scene.object) (void)prepare_to_trace(scene.object);
-        find_glowing_parts(scene);
+        find_emissive_parts(scene);
     } catch (const ModelError& e) {
         throw object_error(document, document.root().find("tree").value_or(document.root()), e);
     }

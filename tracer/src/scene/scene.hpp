@@ -20,7 +20,7 @@ namespace phasetree::tracer {
 // How the light of lamps is found. `all` combines shadow rays, directions sampled at surfaces and media, and, if the
 // scene asks for caustics, photons, weighted by the power heuristic. The others use one of the first two alone, to
 // measure its contribution. The result is still correct, except that shadow rays alone miss emitters outside all balls
-// (scene/glowing.hpp).
+// (scene/find_emissive_parts.hpp).
 enum class Techniques { all, shadow_rays_alone, directions_alone };
 
 struct RenderSettings {
@@ -66,7 +66,7 @@ struct Scene {
     RenderSettings settings;
 
     // Whether any phase or mesh emits light.
-    bool shines() const;
+    bool is_emissive() const;
     // Whether anything moves while the shutter is open.
     bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
 };

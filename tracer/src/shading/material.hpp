@@ -160,9 +160,9 @@ inline bool glows(const Material& material) {
 }
 
 /// Whether its surface emits, or the medium inside.
-inline bool shines(const Material& material) {
+inline bool is_emissive(const Material& material) {
     const Clear* clear = std::get_if<Clear>(&material);
-    return clear ? shines(clear->interior) : glows(material);
+    return clear ? is_emissive(clear->interior) : glows(material);
 }
 
 inline bool is_clear(const Material& material) {

@@ -18,7 +18,7 @@ std::string_view layer_of(std::string_view channel) {
 
 std::vector<const Channel*> channels_of(const Image& image, std::string_view layer) {
     std::vector<const Channel*> found;
-    for (const Channel& channel : image.further)
+    for (const Channel& channel : image.extra_channels)
         if (layer_of(channel.name) == layer) found.push_back(&channel);
     return found;
 }
@@ -84,12 +84,12 @@ bool holds_numbers(std::string_view layer) {
 
 }  // namespace
 
-std::vector<FilmLayer> layers_of_film(const PlaneSubjects& subjects) {
+std::vector<FilmLayer> layers_of_film(const SceneNames& scene_names) {
     std::vector<FilmLayer> layers;
     for (std::size_t plane = 1; plane < Planes::size; ++plane) {
         Planes::Choice choice;
         choice[0] = choice[plane] = true;
-        const FilmTile tile({0, 0, 1, 1}, choice, subjects);
+        const FilmTile tile({0, 0, 1, 1}, choice, scene_names);
         const std::vector<std::string> channels = tile.channels();
         for (std::size_t i = 3; i < channels.size(); ++i) {
             const std::string name(layer_of(channels[i]));

@@ -18,7 +18,7 @@ struct FilmLayer {
 
 /// All layers besides the picture that a film can have, given the names of its scene. Of a Cryptomatte plane, only the
 /// first layer is listed, which holds what covers most of a pixel.
-std::vector<FilmLayer> layers_of_film(const PlaneSubjects& subjects);
+std::vector<FilmLayer> layers_of_film(const SceneNames& scene_names);
 
 /// The appearance of a layer of the image, in [0, 1]. Colours are displayed like the picture. Normals are mapped from
 /// [−1, 1] to [0, 1], and positions so that the bounding box of the ball around `centre` becomes [0, 1]³. IDs (of

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> on_display(const Picture& picture) {
 // The planes of a film for showing this layer: its own, and those that `render` keeps by default.
 Planes::Choice planes_with(const Scene& scene, const std::string& layer) {
     Planes::Choice planes = Planes::by_default();
-    for (const FilmLayer& known : layers_of_film(subjects_of(scene)))
+    for (const FilmLayer& known : layers_of_film(scene_names_of(scene)))
         if (known.name == layer) planes[known.plane] = true;
     return planes;
 }

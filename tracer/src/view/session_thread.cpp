@@ -169,7 +169,7 @@ void Session::build(const DesiredState& desired) {
         shown.resolution = scene->film.resolution();
         shown.samples = scene->settings.samples;
         shown.phases = shown_phases(viewed_->scene);
-        shown.layers = layers_of_film(subjects_of(viewed_->scene));
+        shown.layers = layers_of_film(scene_names_of(viewed_->scene));
         // Hiding a part must not move the point that the camera turns around.
         const Bounds bounds =
             is_of_meshes ? bounds_of(viewed_->scene.meshes) : phasetree::bounds(viewed_->scene.object);

@@ -1,6 +1,6 @@
 // Chains of smooth interfaces between clear phases, which shadow rays and photons follow with the probabilities of
 // Fresnel's equations (path.hpp). Photons also follow them through mirrors, rough metal and rough interfaces
-// (caustics/rough_chain.hpp).
+// (caustics/rough_chain.hpp). This is what other renderers call specular chains, except for the rough interfaces.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace phasetree::tracer {
 /// which then have the weight 1.
 inline constexpr int longest_chain = 128;
 
-/// Whether photons reach the end of a chain with this many interfaces, smooth and rough, including metals. Light that
-/// is neither refracted nor reflected is left to the other techniques.
-inline bool photons_follow(int interfaces) {
+/// Whether photons are stored at the end of a chain with this many interfaces, smooth and rough, including metals.
+/// Light that is neither refracted nor reflected is left to the other techniques.
+inline bool is_photon_chain(int interfaces) {
     return interfaces > 0 && interfaces <= longest_chain;
 }
 
@@ -40,7 +40,7 @@ inline bool is_mirror(const Bsdf& bsdf) {
 }
 
 /// Whether photons continue from a surface, wherever they land on it: one that is clear on both sides, or metal.
-inline bool sends_photons_on(const Bsdf& bsdf, const Surface& surface) {
+inline bool continues_photons(const Bsdf& bsdf, const Surface& surface) {
     return surface.far_side || bsdf.is_metal();
 }
 

@@ -82,7 +82,7 @@ struct MediumPoint {
 /// The ray met something opaque: a mesh or an opaque phase.
 struct Blocked {
     float distance;
-    std::optional<Surface> glowing{};  ///< set if it is emissive
+    std::optional<Surface> emissive{};  ///< set if it is emissive
 };
 
 /// The occluder between a point and a light: none, something opaque, or an interface of two clear phases, beyond which

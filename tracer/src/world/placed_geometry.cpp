@@ -77,7 +77,7 @@ void intersect_instance(const RTCIntersectFunctionNArguments* arguments) noexcep
     const EmbreeInstance& instance = instances.list[arguments->primID];
     const Target& target = (*instances.targets)[instance.target];
     auto& query = *reinterpret_cast<PlacedQuery*>(arguments->context);
-    if (query.query.passes_cells) return;
+    if (query.query.skips_cells) return;
     auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
 
     const RTCHit hit_before = rayhit.hit;

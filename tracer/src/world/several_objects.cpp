@@ -57,7 +57,7 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     const auto phases = carried(ray.in);
     PlacedQuery q;
     q.query.carried = std::span(phases).first(ray.in.size());
-    q.query.elsewhere = phasetree::vacuum;
+    q.query.default_phase = phasetree::vacuum;
     q.query.start = ray.hint;
     q.start = ray.start;
     q.far = far;

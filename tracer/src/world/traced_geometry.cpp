@@ -134,7 +134,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
 // Traces the ray and returns whether it meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
-    query.elsewhere = ray.phase;  // the scene has one object
+    query.default_phase = ray.phase;  // the scene has one object
     query.start = ray.hint;
     hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
     embree::intersect(embree_.get(), query.context, hit);
@@ -161,7 +161,7 @@ std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ra
     if (std::ranges::none_of(mesh_bounds_, [&](const Bounds& box) { return box.inflated(depth).contains(p_in); }))
         return std::nullopt;
     embree::Query query;
-    query.passes_cells = true;
+    query.skips_cells = true;
     RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, distance, distance + depth);
     embree::intersect(embree_.get(), query.context, hit);
     return embree::is_hit(hit) ? std::optional(hit) : std::nullopt;

@@ -13,7 +13,7 @@ std::vector<SharedLightSpectrum> spectra_of(const Scene& scene) {
     const auto add = [&](const Material& material) {
         if (const auto* glowing = std::get_if<Glowing>(&material))
             spectra.push_back(glowing->spectrum);
-        else if (const auto* clear = std::get_if<Clear>(&material); clear && shines(clear->interior))
+        else if (const auto* clear = std::get_if<Clear>(&material); clear && is_emissive(clear->interior))
             spectra.push_back(emission_spectrum(clear->interior));
     };
     for (const Material& material : scene.materials) add(material);

@@ -23,8 +23,8 @@ enum class BuildQuality {
 /// Options for building cells.
 struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 for a default; see InterfaceTracer
-    /// The maximum number of divisions from the bounds to the smallest cell. A box in which meshes or listed balls
-    /// would have to be searched at each sample may be divided three more times, unless this is less than the default.
+    /// The maximum number of divisions from the bounds to the smallest cell. If it is not less than the default, three
+    /// more are allowed where `mesh` or `balls` nodes would otherwise be searched at each sample.
     int max_depth = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that rays never enter because they are opaque. Interfaces between two of them are not searched for and
@@ -41,8 +41,8 @@ struct CellOptions {
     std::size_t max_bytes = 0;
 };
 
-/// The default of CellOptions::max_bytes: two gigabytes, or a quarter of the memory of the machine or available to
-/// this process if that is less.
+/// The default of CellOptions::max_bytes: 2 GiB, or a quarter of the memory of the machine or available to this process
+/// if that is less.
 std::size_t default_cell_bytes();
 
 /// Statistics of a build.

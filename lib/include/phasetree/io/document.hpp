@@ -18,10 +18,10 @@ struct DocumentData;
 class KeptNodes;
 class ValueIterator;
 
-/// The type of a JSON value.
+/// The type of a JSON value. (The kinds of io/kind.hpp, such as a sphere light, are something else.)
 enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
 
-/// The name of a kind with its article: "a number", "an object", …
+/// The name of a type with its article: "a number", "an object", …
 std::string_view name_of(Kind kind);
 
 /// A value of a Document. It is a handle of two words: pass it by value. It is valid as long as the Document or a copy

@@ -22,7 +22,9 @@ class KeptNodes {
   public:
     struct Node {
         std::variant<Field, Phased> handle;
-        std::uint64_t steps = 0;  ///< work of making the node, charged to the reading's work budget again on reuse
+        /// The work of making the node. On reuse, it counts again towards the limit of the work per reading, so that
+        /// the limit does not depend on what was kept.
+        std::uint64_t steps = 0;
     };
     /// What a node was made from.
     struct Source {

@@ -16,7 +16,7 @@ namespace phasetree {
 /// of the interval).
 class Keys {
   public:
-    static constexpr std::size_t most = 100'000;
+    static constexpr std::size_t most = 100'000;  ///< the maximum number of keys
 
     /// Whether a value is keyed: an object with a member "keys".
     static bool are_in(Value value) { return value.find("keys").has_value(); }

@@ -1,24 +1,19 @@
+// Declares what a program's scene files may contain besides the tree. A kind of thing, such as a sphere light, is a
+// plain struct of its parameters, written {"sphere": {…}}:
+//
+//     struct SphereLightParameters {
+//         static constexpr KindInfo info{"sphere", "A ball that emits light."}; glm::vec3 centre{}; float radius = 1;
+//         glm::vec3 radiance{1.0f}; template <class V> static void parameters(V&& v) {
+//             using P = SphereLightParameters;
+//             v(&P::centre, Parameter{"centre", "m", "Its centre."});
+//             v(&P::radius, Parameter{"radius", "m", "Its radius.", limits::positive});
+//             v(&P::radiance, ColourParameter{{"radiance", "", "What it emits.", limits::non_negative, true}});
+//         }
+//     };
+//
+// The reader and its checks (io/read_kind.hpp), the reference page and the schema (io/reference.hpp) are all derived
+// from this list. The members' initialisers are the defaults of optional parameters.
 #pragma once
-
-/// Declares what a program's scene files may contain besides the tree. A kind of thing, such as a sphere light, is a
-/// plain struct of its parameters, written {"sphere": {…}}:
-///
-///     struct SphereLightParameters {
-///         static constexpr KindInfo info{"sphere", "A ball that shines."};
-///         glm::vec3 centre{};
-///         float radius = 1;
-///         glm::vec3 radiance{1.0f};
-///         template <class V>
-///         static void parameters(V&& v) {
-///             using P = SphereLightParameters;
-///             v(&P::centre, Parameter{"centre", "m", "Its centre."});
-///             v(&P::radius, Parameter{"radius", "m", "Its radius.", limits::positive});
-///             v(&P::radiance, ColourParameter{{"radiance", "", "What it emits.", limits::non_negative, true}});
-///         }
-///     };
-///
-/// The reader and its checks (io/read_kind.hpp), the reference page and the schema (io/reference.hpp) are all derived
-/// from this list. The members' initialisers are the defaults of optional parameters.
 
 #include <optional>
 #include <stdexcept>

@@ -13,8 +13,8 @@ namespace phasetree {
 /// What other programs call a kind of node, material, light, mesh or camera, and its name here: {"cube", "box"}.
 std::span<const std::pair<std::string_view, std::string_view>> names_elsewhere();
 
-/// The kind that an unknown name probably means: what another program calls so, otherwise the closest one by spelling.
-/// nullopt if none of the kinds is similar.
+/// The kind that an unknown name probably means: the one that another program calls by this name, otherwise the closest
+/// one by spelling. nullopt if none of the kinds is similar.
 std::optional<std::string> meant_kind(std::string_view name, std::span<const std::string_view> kinds);
 
 /// The same for any range of strings that outlives the call.

@@ -47,7 +47,7 @@ class NumberTable {
         }
     }
 
-    /// Whether a header was read. Check this at the end with Header::required.
+    /// Whether a header was read. With Header::required, check this after the last line.
     bool has_header() const { return separator_ != no_header; }
     /// Whether rows have this column. Without a header they have all columns.
     bool has(std::size_t column) const;

@@ -31,6 +31,17 @@ requires std::convertible_to<std::ranges::range_reference_t<const Strings>, std:
     return closest(word, std::span<const std::string_view>(views));
 }
 
+/// The end of a message about an unknown name that is close to none of the valid ones: "; the keys are "a", "b"" for
+/// the kind "key". Empty if there are no valid names, or more than twelve.
+std::string valid_names(std::string_view kind, std::span<const std::string_view> names);
+
+/// The same for any range of strings that outlives the call.
+template <std::ranges::forward_range Strings>
+std::string valid_names(std::string_view kind, const Strings& names) {
+    const std::vector<std::string_view> views(std::ranges::begin(names), std::ranges::end(names));
+    return valid_names(kind, std::span<const std::string_view>(views));
+}
+
 /// Whether a key is another spelling of a name: British (colour, centre) instead of American (color, center), or vice
 /// versa. Readers accept both; the documentation has only the name.
 bool is_other_spelling(std::string_view key, std::string_view name);

@@ -19,7 +19,8 @@ T power_of_two(const T& k) {
         rest = half;
         factor *= factor;
     }
-    // The last digit determines whether k is negative. 2⁻¹²⁸ would be subnormal, so its root is multiplied twice.
+    // The last digit determines whether k is negative. The factor 2⁻¹²⁸ would be subnormal, so the result is multiplied
+    // twice by its square root.
     const T share = rest * (1.f - 5.42101086e-20f) + 5.42101086e-20f;
     return result * share * share;
 }

@@ -12,8 +12,8 @@ namespace phasetree {
 /// Subnormals are slow, and carry no information in a distance. Every task that traces rays must hold one, so that all
 /// threads compute the same results.
 ///
-/// x86-64 and arm64 differ in one case: only arm64 flushes a result that is subnormal before rounding, but would round
-/// to the smallest normal number.
+/// x86-64 and arm64 differ in one case: if the exact result is below the smallest normal number but rounds to it,
+/// x86-64 returns that number, and arm64 returns zero.
 class FlushSubnormals {
   public:
 #if defined(__SSE__) || defined(_M_X64)

@@ -155,10 +155,10 @@ template <class Yes, class No>
     return condition ? yes() : no();
 }
 
-/// Return f. Number types that bound values in a box (Enclosure) may instead return a second expression, which equals f
-/// wherever certain comparisons are true, if they are true throughout the box. `other` is called with a function
-/// `certainly`, which returns whether a comparison is true throughout the box. It returns a pair: whether all
-/// comparisons are, and the expression.
+/// Return f. Number types that bound values in a box (Enclosure) may instead return a second expression that equals f
+/// under a condition, if the condition is true throughout the box. `other` is called with a function `certainly`, which
+/// returns whether a comparison is true throughout the box. It returns a pair: whether the condition is, and the
+/// expression.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;

@@ -10,8 +10,8 @@
 
 namespace phasetree {
 
-/// An estimate, and its standard error: in two of three cases the number is no farther away than that, in 19 of 20 no
-/// farther than twice that. Unlike the intervals of Measured, this is not certain.
+/// An estimate, and its standard error: in two of three cases the true area is within one standard error of the
+/// estimate, in 19 of 20 within two. Unlike the intervals of Measured, this is not certain.
 struct EstimatedArea {
     double area = 0;  ///< in squared units of length
     double standard_error = 0;
@@ -21,7 +21,7 @@ struct AreaOptions {
     /// Lines are traced until the standard error of each phase's area is at most this fraction of the area. Positive.
     double tolerance = 2e-3;
     double seconds = std::numeric_limits<double>::infinity();  ///< end after about this time
-    std::size_t max_lines = std::size_t{1} << 22;              ///< end after at most this many lines
+    std::size_t max_lines = std::size_t{1} << 22;  ///< end after at most this many lines, or 2048 if that is more
     std::function<bool()> cancelled{};  ///< polled from any thread; return true to stop and get what is known so far
 };
 
@@ -35,15 +35,15 @@ struct AreaResult {
     std::vector<OfPhase> phases;      ///< the whole surfaces, in ascending order, without the vacuum
     std::vector<OfContact> contacts;  ///< the interfaces that lines have met, in ascending order
     std::size_t lines = 0;
-    bool is_within_tolerance = false;
+    bool is_within_tolerance = false;  ///< also false if no line has met an interface
 };
 
 /// Estimate the areas of all interfaces within the bounds, which must contain everything that is not vacuum.
 ///
 /// By Cauchy and Crofton, random lines through a ball of radius R meet a surface of area A in the ball in A/(2πR²)
 /// points on average. Lines come from a low-discrepancy sequence, in 32 copies that are shifted at random; the standard
-/// error follows from how much the copies differ. So interfaces smaller than the distance between lines may be missed
-/// altogether.
+/// error follows from how much the copies differ. An interface smaller than the distance between lines may be missed by
+/// all of them. Neither the area nor the standard error then shows it.
 ///
 /// Uses all threads of TBB's arena. The result is the same for any number of threads, unless time ends it or it is
 /// cancelled. Throws ModelError if the bounds are empty or infinite, or if the tolerance or the time is not positive.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct MeasuredPhase {
     double density = 1;
     bool has_density = false;
     Body body;
-    /// The sides of the smallest box around the phase. If the phase may be empty, some of the intervals are infinite.
+    /// The sides of the smallest box around the phase. If the phase may be empty, the intervals are infinite.
     std::array<Measured, 3> box_low{}, box_high{};
 };
 
@@ -51,7 +52,8 @@ struct MeasureOptions {
     double tolerance = 1e-3;
     /// Measuring ends after this time, whatever is known by then. Positive.
     double seconds = std::numeric_limits<double>::infinity();
-    /// Measuring ends after this many boxes. Unlike the time, this limit gives equal results on all machines.
+    /// Measuring ends once a division of the object takes more than about this many boxes. Unlike the time, this limit
+    /// gives equal results on all machines.
     std::size_t max_boxes = std::size_t{1} << 26;
     /// Densities of phases, in units of mass per cubed unit of length. Not negative.
     std::vector<std::pair<Phase, double>> densities{};
@@ -69,6 +71,8 @@ enum class MeasureEnd {
     boxes,      ///< MeasureOptions::max_boxes
     cancelled   ///< MeasureOptions::cancelled returned true
 };
+/// "tolerance", "precision", "time", "boxes" or "interrupted".
+std::string_view name_of(MeasureEnd);
 
 struct MeasureResult {
     Bounds bounds;                      ///< a box around the object, with a margin of vacuum
@@ -77,21 +81,22 @@ struct MeasureResult {
     /// The phases with densities as one body. Nothing if no densities are given.
     std::optional<Body> all;
     MeasureEnd end = MeasureEnd::tolerance;
-    std::size_t boxes = 0;  ///< examined in the finest complete division and the parts of a later one
+    /// The number of boxes that were examined for this result. Divisions that a finer one has replaced do not count.
+    std::size_t boxes = 0;
 };
 
 /// Measure the phases of an object.
 ///
-/// The method is branch and bound. The bounds of the object are divided into boxes. In each, the program is pruned, and
-/// its values are enclosed, as for interface cells. If the enclosures prove that a box is in one phase, all of its
-/// volume counts for that phase. In any other box, a phase's component is enclosed between two parallel planes where
-/// possible: the phase certainly contains the part of the box below one of them and nothing above the other. Where that
-/// is not possible, its share of the box is anything between nothing and all. Boxes that leave too much in doubt are
-/// divided.
+/// The method is adaptive subdivision with guaranteed bounds. The bounds of the object are divided into boxes. In each,
+/// the program is pruned, and its values are enclosed, as for interface cells. If the enclosures prove that a box is in
+/// one phase, all of its volume counts for that phase. In any other box, a phase's component is enclosed between two
+/// linear functions with the same gradient where possible. Their zeros are parallel planes: the phase certainly
+/// contains the part of the box below one of them and nothing above the other. Where that is not possible, its share of
+/// the box is anything between nothing and all. Boxes that leave too much in doubt are divided.
 ///
 /// *What is certain.* An interval contains the measure of the set of points whose smallest component is that of the
-/// phase. It does so for two kinds of components: those computed in real numbers, and those computed in 32 bits as
-/// labels are. Their difference, the rounding error of any component, is taken to be at most half a resolution (see
+/// phase. This holds whether components are computed in real numbers or, as for labels, in 32 bits. The difference
+/// between the two, the rounding error of any component, is taken to be at most half a resolution (see
 /// InterfaceTracer). That allowance is the one assumption, and is the same for tracing (lib/README.md, "Allowances for
 /// rounding errors"). It limits how narrow intervals can get: to about two resolutions times a phase's area. Sums of
 /// boxes are computed in double, and the interval includes a bound of their rounding errors: each term takes part in at

@@ -59,10 +59,9 @@ struct PhaseMesh {
     std::vector<glm::vec3> vertices;
     std::vector<Triangle> triangles;
     float spacing = 0;  ///< in use
-    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. Each edge of
-    /// the grid whose ends have different labels shows one of its crossings. All others are missing: further crossings
-    /// of such an edge, and all crossings of edges whose ends have the same label, whether they had it at first or only
-    /// after mesh_of changed labels.
+    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. The mesh
+    /// shows one crossing of each edge of the grid whose ends have different labels after mesh_of has changed labels
+    /// (see there). All other crossings are missing.
     std::size_t crossings = 0, skipped = 0;
 
     /// The phases that have triangles.
@@ -93,8 +92,12 @@ inline constexpr int max_cubes_along = 1024;
 /// Labels are first changed where a phase would touch itself only along an edge or at a point (after Latecki, *3D
 /// Well-Composed Pictures*, Graphical Models and Image Processing 1997). Each phase's surface is then a closed
 /// manifold: each edge has two triangles, and the triangles around a vertex form a single fan. A wall at least 1.2
-/// times as thick as the spacing is meshed without holes. A thinner wall may have holes or be missing, and triangles
-/// may intersect there.
+/// times as thick as the spacing is meshed without holes. A thinner wall may have holes or be missing.
+///
+/// Triangles neither cross nor touch each other, other than in common vertices and edges. Where they would, vertices
+/// are moved into their cubes, and more are added on the edges and sides of the grid (after Ju and Udeshi,
+/// *Intersection-free Contouring on an Octree Grid*, Pacific Graphics 2006). They stay apart by the smaller of a 64th
+/// of the spacing and two units in the last place of the farthest coordinate, so rounding does not make them cross.
 PhaseMesh mesh_of(const Bounds& bounds, const LineTracer& lines, const MeshOptions& options = {});
 
 /// A closed surface. Triangles are counterclockwise as seen from outside.

@@ -24,9 +24,9 @@ class Phased;
 /// root's box are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
 /// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
-/// The six supports are stored as a Bounds: a box along the root's axes, relative to the node's own origin. A map that
-/// folds space may map two opposite directions to one. The support stored as a low side may then exceed that of the
-/// high side. Such a box does not count as empty; only Bounds{} does.
+/// The six supports are stored as a Bounds, those of the low sides negated: a box along the root's axes, relative to
+/// the node's own origin. A map that folds space may map two opposite directions to one, so that low > high. Here, such
+/// a box does not count as empty, although Bounds::empty() is true; only Bounds{} does.
 class BoundsQuery {
   public:
     /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node
@@ -61,7 +61,7 @@ class BoundsQuery {
         return intersect(placed(box), gathered(supports));
     }
     /// Returns the answer of a node that maps space. Its support along d is that of its child along towards(d), plus
-    /// beyond(d); ask() asks the child.
+    /// beyond(d), which is d·v for a translation by v; ask() asks the child.
     template <class Towards, class Beyond, class Ask>
     Bounds through(const Towards& towards, const Beyond& beyond, const Ask& ask) {
         const Directions outer = directions_;

@@ -32,15 +32,15 @@ concept DataPrimitive = requires(const N& n, const float* data, const Vec3<float
     { N::distance(data, p) } -> std::same_as<float>;
 };
 
-/// A primitive with a long equation. It states its cost (StatesCost) and how it is enclosed in a box (StatesEnclosing,
-/// unless it is local: LocalPrimitive); without either, the library does not compile.
+/// A primitive that is expensive to evaluate. It must state its cost (StatesCost) and, unless it is local
+/// (LocalPrimitive), how it is enclosed in a box (StatesEnclosing). Otherwise the library does not compile.
 template <class N>
 concept LongPrimitive = DataPrimitive<N> || requires {
     N::is_long;
 };
 
-/// A primitive that states what evaluating it for a batch of eight points costs: `half_instructions`, in halves of the
-/// cost of a simple instruction such as an addition. A rough estimate is enough.
+/// A primitive that states what evaluating it for a batch of eight points costs. A simple instruction, such as an
+/// addition, has the cost 2 in `half_instructions`. A rough estimate is enough.
 template <class N>
 concept HasConstantCost = requires {
     { N::half_instructions } -> std::convertible_to<unsigned>;
@@ -67,10 +67,10 @@ concept CheckedData = DataPrimitive<N> && requires(std::span<const float> floats
     { N::is_sound(floats) } -> std::same_as<bool>;
 };
 
-/// A long primitive that simplifies in a small box. N::Specialised, a primitive with data, has the same values there,
-/// to the last bit. specialise() appends its floats for the points of `range`; if there is nothing to gain, it appends
-/// nothing and returns false. If the primitive was already specialised for an enclosing box, `of` holds the floats of
-/// that specialisation; otherwise it is empty.
+/// A long primitive that can be specialised to a small box. N::Specialised, a primitive with data, has the same values
+/// there, to the last bit. specialise() appends its floats for the points of `range`; if there is nothing to gain, it
+/// appends nothing and returns false. `of` holds the floats of an earlier specialisation, if the primitive was already
+/// specialised to an enclosing box; otherwise it is empty.
 template <class N>
 concept LocalPrimitive = PatternPrimitive<N> &&
     requires(const N& n, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {
@@ -88,9 +88,9 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. Take any point within `reach` of p,
-/// and the surface point nearest to it. A ball of radius rolling_radius(p, reach) inside the solid touches the surface
-/// there. The radius is a lower bound, and infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. rolling_radius(p, reach) is a lower
+/// bound of the radius of curvature at the surface points nearest to points within `reach` of p: at each of them, a
+/// ball of this radius inside the solid touches the surface. It is infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;
@@ -103,7 +103,7 @@ concept PointMap = std::is_trivially_copyable_v<M> && requires(const M& m, const
     { m(p) } -> std::same_as<Vec3<float>>;
 };
 
-/// A map that folds space, so that it jumps. The number of jumps along an axis is unlimited.
+/// A map that repeats space, and therefore jumps. The number of jumps along an axis is unlimited.
 template <class M>
 concept FoldingMap = PointMap<M> && requires(const M& m, int axis, double low, double high) {
     { m.finest_spacing() } -> std::same_as<float>;  // the smallest distance between two jumps along an axis

@@ -17,8 +17,9 @@ namespace phasetree {
 /// a third phase between them. A bracket may span such a sliver, and is then up to 2.75 resolutions long.
 ///
 /// If the phase that the caller says the ray is in (`carried` in first_crossing()) occurs nowhere near the start of the
-/// ray, a crossing is reported right there. It has zero length: p_in and p_out are the point where the search begins,
-/// which is in `to`, and `from` is the carried phase.
+/// search, a crossing is reported there. The search starts where the ray is first in the box that is searched: the
+/// object's bounds for InterfaceTracer, the cell's box for InterfaceCells. This crossing has zero length: p_in and
+/// p_out are that point, which is in `to`, and `from` is the carried phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out
@@ -44,9 +45,11 @@ struct CrossingNormal {
 
 /// Counters of the cost of tracing, for statistics.
 struct TraceCounters {
-    std::uint64_t visits = 0;    ///< searches: one per cell that a ray meets
-    std::uint64_t batches = 0;   ///< evaluations of eight points
-    std::uint64_t phantoms = 0;  ///< steps of one resolution that found no change of label
+    std::uint64_t visits = 0;   ///< searches: one per cell that a ray meets
+    std::uint64_t batches = 0;  ///< evaluations of eight points
+    /// Suspected crossings that were none: a step of at most one resolution that might have crossed an interface, but
+    /// in which the label does not change.
+    std::uint64_t phantoms = 0;
 };
 
 }  // namespace phasetree

@@ -79,8 +79,8 @@ Bounds bounds(const Phased&);
 /// The phases that can occur in the object. Bit 0 is set if the vacuum is one of them.
 PhaseSet phases(const Phased&);
 
-/// The values at a point, computed by walking the tree with arrays of phases as in the paper. Slow: this is the
-/// reference that the fast evaluators are tested against.
+/// The values at a point, computed by walking the tree with arrays of phases, as in the paper (Galin et al., *The
+/// PhaseTree*, SIGGRAPH 2026). Slow: this is the reference that the fast evaluators are tested against.
 float distance(const Field&, const glm::vec3& p);
 Phases<float> distances(const Phased&, const glm::vec3& p);
 

@@ -28,15 +28,15 @@ class InterfaceTracer {
   public:
     /// Prepare an object for tracing.
     ///
-    /// `resolution`, in the scene's unit of length, is the thickness of a phase along a ray that is guaranteed to be
-    /// found. Thinner phases may be missed. A thicker phase may be missed in two cases:
-    ///   - the ray is in the phase for at most 2.75 resolutions, and deeper inside than a sixteenth of a resolution for
-    ///     at most one of them;
-    ///   - the ray grazes the phase and is nowhere deeper inside than a sixteenth of a resolution.
+    /// `resolution`, in the scene's unit of length, is the smallest thickness of a phase along a ray that is found.
+    /// Thinner phases may be missed. There are two exceptions, in which a thicker phase may be missed as well:
+    ///   - at most 2.75 resolutions of the ray are in the phase, and of these at most one resolution is deeper inside
+    ///     than a sixteenth of a resolution;
+    ///   - the ray grazes the phase: it is nowhere deeper inside than a sixteenth of a resolution.
     ///
     /// 0 selects 2·10⁻⁶ of the object's diagonal, or 10⁻⁶ of its farthest coordinate if that is more. All values are
-    /// clamped: at least 2.5·10⁻⁷ of the farthest coordinate or of the diagonal, otherwise at most a hundredth of the
-    /// diagonal. resolution() and warning() return what is in use.
+    /// clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the diagonal or of the farthest
+    /// coordinate, whichever is more. resolution() and warning() return what is in use.
     ///
     /// Throws ModelError if the object is unbounded or empty, or too far from the origin for its size.
     explicit InterfaceTracer(const Phased& object, float resolution = 0);
@@ -50,7 +50,7 @@ class InterfaceTracer {
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
     ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
-    ///               by more than rounding explains, there is a crossing at the start.
+    ///               by more than rounding explains, there is a crossing where the search starts (see Crossing).
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,

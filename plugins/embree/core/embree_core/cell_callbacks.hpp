@@ -1,6 +1,5 @@
+// Embree callbacks of an RTCGeometry whose primitives are an object's cells.
 #pragma once
-
-/// Embree callbacks of an RTCGeometry whose primitives are an object's cells.
 
 #include <algorithm>
 #include <limits>
@@ -33,17 +32,18 @@ inline double entry(const Bounds& box, const TracedRay& ray) {
     return result;
 }
 
-/// Whether a crossing that a ray meets in a cell, no farther than the ray's hit so far, replaces it. Which of equally
-/// near crossings is the hit does not depend on the order in which Embree visits cells: that of the first object, and
-/// in an object that of the cell that the ray enters first. (Embree may skip a cell that is entered only at the hit.)
-inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object, const SeenRay& seen,
-                         float t, float far, const RTCHit& hit) {
+/// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. Of equally near
+/// crossings, the hit is that of the first object, and within an object that of the cell that the ray enters first. So
+/// the hit does not depend on the order in which Embree visits cells. (Embree may skip a cell that is entered only at
+/// the hit.)
+inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object,
+                         const PreparedRay& prepared, float t, float far, const RTCHit& hit) {
     if (t < far || hit.geomID == RTC_INVALID_GEOMETRY_ID) return true;
     const ObjectInstance other = ObjectInstance::of(hit);
     if (object != other) return object < other;
     if (hit.primID >= cells.size()) return false;
-    return std::pair(entry(cells.bounds(cell), seen.traced), cell) <
-           std::pair(entry(cells.bounds(hit.primID), seen.traced), hit.primID);
+    return std::pair(entry(cells.bounds(cell), prepared.traced), cell) <
+           std::pair(entry(cells.bounds(hit.primID), prepared.traced), hit.primID);
 }
 
 /// For a single ray whose context is a Query. The hit's normal is not evaluated: Ng is minus the ray's direction.
@@ -51,8 +51,8 @@ void intersect_cell_for_query(const InterfaceCells&, const RTCIntersectFunctionN
 void occluded_cell_for_query(const InterfaceCells&, const RTCOccludedFunctionNArguments*) noexcept;
 
 /// For any packet and any context. Calls carried(i) for the phase that lane i carries, if any, and hit(i, crossing,
-/// seen), with the lane's SeenRay, for each lane whose ray crosses an interface in the cell. If memory runs out, the
-/// remaining lanes are skipped, because there is no way to report it.
+/// prepared), with the lane's PreparedRay, for each lane whose ray crosses an interface in the cell. If memory runs
+/// out, the remaining lanes are skipped, because there is no way to report it.
 template <class Arguments, class Carried, class Hit>
 void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCRayN* rays, Carried&& carried,
                    Hit&& hit) noexcept try {
@@ -60,9 +60,9 @@ void each_crossing(const InterfaceCells& cells, const Arguments& arguments, RTCR
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (arguments.valid[i] != -1) continue;
         const RTCRay ray = rtcGetRayFromRayN(rays, arguments.N, i);
-        const SeenRay seen(ray);
-        if (const auto crossing = search_cell(cells, arguments.primID, seen, ray, carried(i), std::nullopt, unused))
-            hit(i, *crossing, seen);
+        const PreparedRay prepared(ray);
+        if (const auto crossing = search_cell(cells, arguments.primID, prepared, ray, carried(i), std::nullopt, unused))
+            hit(i, *crossing, prepared);
     }
 } catch (const std::bad_alloc&) {
 }
@@ -74,25 +74,27 @@ void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFu
     const unsigned n = arguments.N, cell = arguments.primID;
     RTCRayN* const rays = RTCRayHitN_RayN(arguments.rayhit, n);
     RTCHitN* const hits = RTCRayHitN_HitN(arguments.rayhit, n);
-    each_crossing(cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const SeenRay& seen) {
-        float& far = RTCRayN_tfar(rays, n, i);
-        // Rounding must not move a hit outside the ray.
-        const float t = std::max(crossing.t_in / seen.length, std::min(RTCRayN_tnear(rays, n, i), far));
-        const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
-        if (!replaces_hit(cells, cell, object, seen, t, far, rtcGetHitFromHitN(hits, n, i))) return;
-        far = t;
-        const glm::vec3 normal = -cells.normal(cell, crossing, seen.traced.direction).unit;
-        write_hit(hits, n, i, crossing, normal, cell, arguments.geomID, *arguments.context);
-        report(i, crossing, seen.length);
-    });
+    each_crossing(
+        cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const PreparedRay& prepared) {
+            float& far = RTCRayN_tfar(rays, n, i);
+            // Rounding must not move a hit outside the ray.
+            const float t = std::max(crossing.t_in / prepared.length, std::min(RTCRayN_tnear(rays, n, i), far));
+            const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
+            if (!replaces_hit(cells, cell, object, prepared, t, far, rtcGetHitFromHitN(hits, n, i))) return;
+            far = t;
+            const glm::vec3 normal = -cells.normal(cell, crossing, prepared.traced.direction).unit;
+            write_hit(hits, n, i, crossing, normal, cell, arguments.geomID, *arguments.context);
+            report(i, crossing, prepared.length);
+        });
 }
 
 /// Mark the rays of the packet that cross an interface in the cell as occluded.
 template <class Carried>
 void occluded_cell_for_packet(const InterfaceCells& cells, const RTCOccludedFunctionNArguments& arguments,
                               Carried&& carried) noexcept {
-    each_crossing(cells, arguments, arguments.ray, carried,
-                  [&](unsigned i, const Crossing&, const SeenRay&) { write_occlusion(arguments.ray, arguments.N, i); });
+    each_crossing(cells, arguments, arguments.ray, carried, [&](unsigned i, const Crossing&, const PreparedRay&) {
+        write_occlusion(arguments.ray, arguments.N, i);
+    });
 }
 
 }  // namespace phasetree::embree

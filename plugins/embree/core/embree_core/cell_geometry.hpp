@@ -16,7 +16,7 @@ namespace phasetree::embree {
 ///     u, v         the index of the phase left and of the phase entered
 ///     primID       the cell
 ///
-/// Directions may have any length. Rays with numbers that are not finite hit nothing.
+/// Directions may have any length. Rays whose origin or direction is not finite hit nothing.
 ///
 /// The boxes of neighbouring cells overlap slightly, so that rounding cannot hide a crossing at a common face from
 /// both. Both may find it. Embree visits cells in any order and keeps the nearest hit, so closest-hit and occlusion

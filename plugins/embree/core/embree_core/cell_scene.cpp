@@ -44,7 +44,7 @@ CellScene::~CellScene() {
 std::optional<CellScene::Hit> CellScene::first_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
     if (!is_within_range(ray)) return std::nullopt;
     Query query;
-    query.elsewhere = carried;  // the scene has one object
+    query.default_phase = carried;  // the scene has one object
     RTCRayHit rayhit = rayhit_of(ray.origin, ray.direction, ray.near, ray.far);
     intersect(scene_, query.context, rayhit);
     if (query.is_out_of_memory) throw std::bad_alloc();
@@ -55,7 +55,7 @@ std::optional<CellScene::Hit> CellScene::first_crossing(const UnitRay& ray, std:
 bool CellScene::any_crossing(const UnitRay& ray, std::optional<Phase> carried) const {
     if (!is_within_range(ray)) return false;
     Query query;
-    query.elsewhere = carried;  // the scene has one object
+    query.default_phase = carried;  // the scene has one object
     RTCRay embree_ray = ray_of(ray.origin, ray.direction, ray.near, ray.far);
     const bool is_occluded = occluded(scene_, query.context, embree_ray);
     if (query.is_out_of_memory && !is_occluded) throw std::bad_alloc();

@@ -10,14 +10,14 @@
 
 namespace phasetree::embree {
 
-/// A ray as cells see it. Embree passes the same ray from cell to cell, so it is prepared once.
-struct SeenRay {
+/// A ray prepared for searching cells. Embree passes the same ray from cell to cell, so this is done once.
+struct PreparedRay {
     glm::vec3 origin{0}, direction{0};  ///< as given
     float length = 0;                   ///< of the direction; 0 if the ray cannot hit anything
     TracedRay traced;
 
-    SeenRay() = default;
-    explicit SeenRay(const RTCRay& given)
+    PreparedRay() = default;
+    explicit PreparedRay(const RTCRay& given)
         : origin(given.org_x, given.org_y, given.org_z),
           direction(given.dir_x, given.dir_y, given.dir_z),
           length(usable_length(origin, direction)),
@@ -32,21 +32,21 @@ struct SeenRay {
 /// Find the first crossing of a ray within a cell, between the ray's tnear and tfar. All tracing through Embree goes
 /// through this function.
 ///
-/// The whole of the ray in the cell is searched, beyond tfar too. Its bits then do not depend on tfar, which Embree
-/// sets to the nearest hit so far, and so not on the order in which Embree visits cells, which differs from processor
-/// to processor.
-inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const SeenRay& seen,
+/// All of the ray in the cell is searched, even beyond tfar. The bits of the crossing then do not depend on tfar.
+/// Embree sets tfar to the nearest hit so far, so it depends on the order in which Embree visits cells, which differs
+/// from processor to processor.
+inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned cell, const PreparedRay& prepared,
                                            const RTCRay& ray, std::optional<Phase> carried,
                                            const std::optional<LeavingHint>& leaving_hint, TraceCounters& counters) {
-    const float near = std::max(ray.tnear * seen.length, 0.0f), far = ray.tfar * seen.length;
+    const float near = std::max(ray.tnear * prepared.length, 0.0f), far = ray.tfar * prepared.length;
     std::optional<Crossing> crossing;
     if (!(near <= far)) return crossing;
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    crossing = cells.first_crossing(cell, seen.traced, near, infinity, carried, leaving_hint, counters);
+    crossing = cells.first_crossing(cell, prepared.traced, near, infinity, carried, leaving_hint, counters);
     if (!crossing) return crossing;
     // For a ray that starts at an interface, rounding may put the crossing slightly before the start.
     crossing->t_in = std::max(crossing->t_in, near);
-    if (!(crossing->t_in / seen.length <= ray.tfar)) crossing.reset();
+    if (!(crossing->t_in / prepared.length <= ray.tfar)) crossing.reset();
     return crossing;
 }
 

@@ -1,6 +1,6 @@
-// Best-first branch and bound over boxes. A box is excluded if s at its centre, the distance within which the label
-// cannot change, exceeds half the box's diagonal. Rays from the query point towards the nearest remaining box find
-// interfaces that are certified on both sides, which bound the distance from above.
+// Best-first branch and bound over boxes. A box is excluded if the label cannot change within half the box's diagonal
+// of its centre. Rays from the query point towards the nearest remaining box find interfaces that are certified on both
+// sides, which bound the distance from above.
 
 #include "embree_core/closest.hpp"
 
@@ -43,7 +43,7 @@ class Metric {
 
     double distance(const glm::vec3& p) const { return glm::length(map_ * (glm::dvec3(p) - glm::dvec3(from_))); }
     // A lower bound of the distance to the box.
-    double below(const Bounds& box) const {
+    double lower_bound(const Bounds& box) const {
         if (is_similarity_) {
             const glm::vec3 nearest = glm::clamp(from_, box.low, box.high);
             return scale_ * glm::length(glm::dvec3(nearest) - glm::dvec3(from_));
@@ -53,7 +53,7 @@ class Metric {
     }
     double stretch() const { return stretch_; }
     // The radius of the largest world-space ball within the image of a ball of the object's space.
-    double ball(double radius) const { return shrink_ * radius; }
+    double inscribed_radius(double radius) const { return shrink_ * radius; }
 
   private:
     glm::vec3 from_;
@@ -63,9 +63,9 @@ class Metric {
 };
 
 struct Candidate {
-    double below;
+    double lower_bound;
     Bounds box;
-    bool operator<(const Candidate& other) const { return below > other.below; }  // the nearest on top
+    bool operator<(const Candidate& other) const { return lower_bound > other.lower_bound; }  // the nearest on top
 };
 
 // The octants of one or more boxes, as many as fit into a batch of points.
@@ -107,16 +107,17 @@ class Search {
           rounding_(cells_.resolution()),
           near_enough_(4 * static_cast<double>(cells_.resolution()) * metric_.stretch()),
           opaque_(cells_.opaque()),
-          nearest_(static_cast<double>(radius)) {}
+          upper_(static_cast<double>(radius)) {}
 
     Closest run() {
         if (cells_.bounds().contains(point_)) guess_from_distances();
-        left_.push({metric_.below(cells_.bounds()), cells_.bounds()});
-        nearest_undivided_ = nearest_;
+        remaining_.push({metric_.lower_bound(cells_.bounds()), cells_.bounds()});
+        nearest_undivided_ = upper_;
         for (int batches = 0; !is_done() && batches < max_batches; ++batches) divide_nearest();
-        const double rest = left_.empty() ? nearest_undivided_ : std::min(left_.top().below, nearest_undivided_);
-        best_.empty_radius = static_cast<float>(std::max(lower_, std::min(rest, nearest_)));
-        best_.distance = static_cast<float>(nearest_);
+        const double rest =
+            remaining_.empty() ? nearest_undivided_ : std::min(remaining_.top().lower_bound, nearest_undivided_);
+        best_.empty_radius = static_cast<float>(std::max(empty_radius_, std::min(rest, upper_)));
+        best_.distance = static_cast<float>(upper_);
         if (best_.found) best_.empty_radius = std::min(best_.empty_radius, best_.distance);
         return best_;
     }
@@ -141,8 +142,8 @@ class Search {
         const auto found = object_.first_crossing(ray, std::nullopt);
         if (!found || (opaque_.contains(found->crossing.from) && opaque_.contains(found->crossing.to))) return;
         const double distance = metric_.distance(found->crossing.p_in);
-        if (distance > nearest_ || (best_.found && distance == nearest_)) return;
-        nearest_ = distance;
+        if (distance > upper_ || (best_.found && distance == upper_)) return;
+        upper_ = distance;
         best_.found = true;
         best_.point = found->crossing.p_in;
         best_.here = found->crossing.from;
@@ -162,25 +163,25 @@ class Search {
         });
         if (second < 0) return;
         const float free = opaque_.empty() ? phi[second] : clear_distance(point_);
-        lower_ = metric_.ball(static_cast<double>(std::max(free - rounding_, 0.0f)));
+        empty_radius_ = metric_.inscribed_radius(static_cast<double>(std::max(free - rounding_, 0.0f)));
         const glm::vec3 down = whole_.gradient(point_, Phase{static_cast<std::uint8_t>(second)});
         if (glm::length(down) > 0) shoot(point_ - glm::normalize(down) * std::max(2 * phi[second], 8 * rounding_), 0);
     }
 
     bool is_done() const {
         // Boxes that are no nearer than the interface found need not be divided.
-        if (left_.empty() || !(left_.top().below < nearest_)) return true;
-        const double next = std::min(left_.top().below, nearest_undivided_);
-        if (next >= nearest_) return true;
-        return best_.found && (next >= nearest_ * (1 - tolerance_) || nearest_ - next <= near_enough_);
+        if (remaining_.empty() || !(remaining_.top().lower_bound < upper_)) return true;
+        const double next = std::min(remaining_.top().lower_bound, nearest_undivided_);
+        if (next >= upper_) return true;
+        return best_.found && (next >= upper_ * (1 - tolerance_) || upper_ - next <= near_enough_);
     }
 
     // Divides the nearest boxes into octants, and keeps those that may have a closer interface.
     void divide_nearest() {
         Octants octants;
-        while (octants.has_room() && !left_.empty() && left_.top().below < nearest_) {
-            const Bounds box = left_.top().box;
-            left_.pop();
+        while (octants.has_room() && !remaining_.empty() && remaining_.top().lower_bound < upper_) {
+            const Bounds box = remaining_.top().box;
+            remaining_.pop();
             shoot(box.centre(), box.diagonal());
             octants.add_parts_of(box);
         }
@@ -191,12 +192,12 @@ class Search {
             const float reach = 0.5f * part.diagonal();
             const float free = opaque_.empty() ? samples.distance[i] : clear_distance(part.centre());
             if (free - rounding_ > reach) continue;
-            const double below = metric_.below(part);
-            if (below >= nearest_) continue;
+            const double lower_bound = metric_.lower_bound(part);
+            if (lower_bound >= upper_) continue;
             if (reach < cells_.resolution())
-                nearest_undivided_ = std::min(nearest_undivided_, below);
+                nearest_undivided_ = std::min(nearest_undivided_, lower_bound);
             else
-                left_.push({below, part});
+                remaining_.push({lower_bound, part});
         }
     }
 
@@ -212,9 +213,9 @@ class Search {
     const PhaseSet opaque_;
 
     Closest best_;
-    double nearest_;    // the distance of best_, or the radius that is searched; in world space, like the members below
-    double lower_ = 0;  // nothing is nearer
-    std::priority_queue<Candidate> left_;
+    double upper_;  // the distance of best_, or the radius that is searched; in world space, like the members below
+    double empty_radius_ = 0;  // nothing is nearer
+    std::priority_queue<Candidate> remaining_;
     double nearest_undivided_ = 0;  // a bound for the boxes that are too small to divide
 };
 

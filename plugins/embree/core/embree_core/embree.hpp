@@ -1,6 +1,5 @@
+// Includes Embree's header, and hides the differences between Embree 3 and Embree 4.
 #pragma once
-
-/// Includes Embree's header, and hides the differences between Embree 3 and Embree 4.
 
 #if PHASETREE_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>

@@ -1,6 +1,5 @@
+// Packets of rays, lane by lane: access for callbacks.
 #pragma once
-
-/// Packets of rays, lane by lane: access for callbacks.
 
 #include "embree_core/rays.hpp"
 #include "phasetree/model/crossing.hpp"

@@ -23,11 +23,11 @@ struct Query {
     /// In: the phases of some objects that the ray is in. The caller owns the memory.
     std::span<const CarriedPhase> carried;
     /// In: the phase of all other objects. Without a value, each object uses the phase at the ray's start.
-    std::optional<Phase> elsewhere;
+    std::optional<Phase> default_phase;
     /// In: the crossing at which the ray starts, if any.
     StartHint start;
     /// In: whether to skip cells, so that only other geometries of the scene are found.
-    bool passes_cells = false;
+    bool skips_cells = false;
     /// Out: the crossing of the last hit reported by a CellGeometry, in object space. If the ray's final hit is on a
     /// CellGeometry, this is the crossing of that hit. The hit's primID is then the cell, whose
     /// InterfaceCells::normal() returns the normal, and ObjectInstance::of(hit) is the object whose phase changes.
@@ -37,15 +37,15 @@ struct Query {
     /// Out: a cell could not be searched because memory ran out, so the hit may be wrong. Exceptions cannot pass
     /// through Embree.
     bool is_out_of_memory = false;
-    /// The last ray seen. It stays the same from cell to cell of one object.
-    SeenRay seen;
+    /// The last ray, prepared for its next cell. It stays the same from cell to cell of one object.
+    PreparedRay prepared;
 
     Query() { initialise(context); }
 
     /// Set the phases that the ray is in. They must outlive the query.
     void carry(const RayPhases& phases) {
         carried = phases.carried();
-        elsewhere = phases.elsewhere();
+        default_phase = phases.default_phase();
     }
     void carry(RayPhases&&) = delete;
 };

@@ -25,10 +25,10 @@ class RayPhases {
     RayPhases() = default;
     /// A ray that is in this phase in each object for which set() is not called. For a ray that starts outside all
     /// objects, pass the vacuum.
-    explicit RayPhases(std::optional<Phase> elsewhere) : elsewhere_(elsewhere) {}
+    explicit RayPhases(std::optional<Phase> default_phase) : default_phase_(default_phase) {}
 
     /// The phase for an object; nullopt for the phase at the ray's start.
-    std::optional<Phase> of(const ObjectInstance& object) const { return find(carried_, elsewhere_, object); }
+    std::optional<Phase> of(const ObjectInstance& object) const { return find(carried_, default_phase_, object); }
     /// Set the phase of an object.
     void set(const ObjectInstance& object, Phase phase) {
         const auto known = std::ranges::find(carried_, object, &CarriedPhase::object);
@@ -39,19 +39,19 @@ class RayPhases {
     }
 
     std::span<const CarriedPhase> carried() const { return carried_; }
-    std::optional<Phase> elsewhere() const { return elsewhere_; }
+    std::optional<Phase> default_phase() const { return default_phase_; }
 
-    /// The carried phase of an object, or `elsewhere` if there is none.
-    static std::optional<Phase> find(std::span<const CarriedPhase> carried, std::optional<Phase> elsewhere,
+    /// The carried phase of an object, or `default_phase` if there is none.
+    static std::optional<Phase> find(std::span<const CarriedPhase> carried, std::optional<Phase> default_phase,
                                      const ObjectInstance& object) {
         for (const CarriedPhase& known : carried)
             if (known.object == object) return known.phase;
-        return elsewhere;
+        return default_phase;
     }
 
   private:
     std::vector<CarriedPhase> carried_;
-    std::optional<Phase> elsewhere_;
+    std::optional<Phase> default_phase_;
 };
 
 }  // namespace phasetree::embree

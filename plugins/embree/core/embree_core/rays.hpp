@@ -1,6 +1,5 @@
+// Conversions between Embree's rays and those for tracing.
 #pragma once
-
-/// Conversions between Embree's rays and those for tracing.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -59,9 +58,9 @@ inline float usable_length(const glm::vec3& origin, const glm::vec3& direction) 
     return is_finite && std::isfinite(length) ? length : 0.f;
 }
 
-/// Normalise a direction of the given length. A direction that is already a unit vector up to rounding is unchanged:
-/// dividing it by its rounded length would move the samples of a ray that starts at a crossing off the crossing's
-/// bracket.
+/// Normalise a direction of the given length. A direction that is already a unit vector up to rounding is unchanged.
+/// Dividing it by its rounded length would change the points of the ray slightly, so a ray that starts at a crossing
+/// would no longer sample the bracket that was found for it (Crossing).
 inline glm::vec3 unit_direction(const glm::vec3& direction, float length) {
     return std::abs(length - 1) < 1e-6f ? direction : direction / length;
 }

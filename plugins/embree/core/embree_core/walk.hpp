@@ -4,8 +4,8 @@
 
 namespace phasetree::embree {
 
-/// Iterates over the crossings along a ray. Each step starts at the end of the previous crossing, in exactly that point
-/// and phase.
+/// Iterates over the crossings along a ray. Each step starts exactly at p_out of the previous crossing, in the phase
+/// entered there.
 class Walk {
   public:
     Walk(const CellScene& scene, const UnitRay& ray, std::optional<Phase> carried)

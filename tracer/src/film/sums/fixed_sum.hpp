@@ -28,7 +28,7 @@ template <std::size_t Words, int Fraction>
 class FixedSum {
   public:
     /// The maximum number of samples for which a sum cannot overflow.
-    static constexpr std::uint32_t most_samples = std::uint32_t{1} << 31;
+    static constexpr std::uint32_t max_samples = std::uint32_t{1} << 31;
     static constexpr int limit_exponent = static_cast<int>(64 * Words) - 32 - Fraction;
 
     /// Adds a value, rounded to a multiple of 2^−Fraction.
@@ -101,7 +101,7 @@ class FixedSum {
     void write(ByteWriter& out) const {
         const std::uint64_t sign = is_negative() ? 0xff : 0;
         std::size_t low = 0, high = bytes;
-        while (low < most_low && byte(low) == 0) ++low;
+        while (low < max_low && byte(low) == 0) ++low;
         while (high > low && byte(high - 1) == sign && (high == low + 1 ? sign == 0 : sign_of(high - 2) == sign))
             --high;
         out.number(static_cast<std::uint8_t>(high - low + low * (bytes + 1)));
@@ -111,7 +111,7 @@ class FixedSum {
     static FixedSum read(ByteReader& in) {
         const auto head = in.template number<std::uint8_t>();
         const std::size_t low = head / (bytes + 1), count = head % (bytes + 1);
-        if (low > most_low || low + count > bytes) throw BytesError("it contains a number of invalid length");
+        if (low > max_low || low + count > bytes) throw BytesError("it contains a number of invalid length");
         FixedSum sum;
         for (std::size_t i = low; i < low + count; ++i) sum.set_byte(i, in.template number<std::uint8_t>());
         if (count > 0 && sum.sign_of(low + count - 1) != 0)
@@ -121,8 +121,8 @@ class FixedSum {
 
   private:
     static constexpr std::size_t bytes = 8 * Words;
-    // Such that one byte can encode both numbers.
-    static constexpr std::size_t most_low = std::min<std::size_t>(bytes, (255 - bytes) / (bytes + 1));
+    // The maximum number of zero bytes to omit, such that one byte can encode both numbers.
+    static constexpr std::size_t max_low = std::min<std::size_t>(bytes, (255 - bytes) / (bytes + 1));
 
     static constexpr std::array<std::uint64_t, Words> largest() {
         std::array<std::uint64_t, Words> words{};

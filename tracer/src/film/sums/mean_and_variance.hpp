@@ -11,9 +11,9 @@ class MeanAndVariance {
   public:
     void add(float value, FilmFaults& faults) {
         const auto v = static_cast<double>(value);
-        FilmFaults again;  // the square has the same faults
+        FilmFaults uncounted;  // the square has the same faults
         sum_.add(v, faults);
-        squares_.add(v * v, again);  // exact: twice the 24 digits of a float
+        squares_.add(v * v, uncounted);  // exact: at most 48 bits, twice the 24 of a float
     }
     MeanAndVariance& operator+=(const MeanAndVariance& other) {
         sum_ += other.sum_;

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// Maps p to the corresponding point in the cell around `centre`. The map jumps at the cells' faces, so its slope is
-/// unbounded; the recorder is given `jump` for it. In cells of the object that touch no face, pruning divides by it
-/// again (src/pruning/jumps.cpp).
+/// Maps p to the corresponding point in the lattice cell around `centre`. The map jumps at the faces of lattice cells,
+/// so its slope is unbounded; the recorder is given the number `jump` instead. In boxes that touch no such face,
+/// pruning divides the slope by `jump` again (src/pruning/jumps.cpp).
 struct FoldMap {
     glm::vec3 centre{0};
     glm::vec3 spacing{1};

@@ -28,7 +28,7 @@ struct PlacementMap {
     AffineMap affine() const { return {.row = {{cosine, sine, 0}, {-sine, cosine, 0}, {0, 0, inverse}}, .before = by}; }
 };
 
-/// p ↦ R⁻¹(p − v)/s for any rotation R.
+/// p ↦ R⁻¹(p − v)/s for any rotation R, such as that of a copy that stands on a slope.
 struct StandingMap {
     glm::vec3 by{0};
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the columns of R, divided by s

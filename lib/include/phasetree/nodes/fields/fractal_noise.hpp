@@ -11,9 +11,9 @@ namespace phasetree {
 /// *Octaves.* Each has half the size and half the weight of the previous one, so each adds the same slope. The weights
 /// sum to 1, so the range is [−1, 1].
 ///
-/// *Positions* are projected onto a cube of 2¹⁷ sizes, which never increases distances. Beyond the cube the noise is
-/// constant along its normals. The lattice's hash (math/lattice_hash.hpp) therefore only receives numbers that it
-/// computes exactly.
+/// *Positions* are clamped to a cube with sides of 2¹⁷ sizes, which never increases distances. Beyond the cube the
+/// noise is constant along its normals. The lattice's hash (math/lattice_hash.hpp) therefore only receives numbers that
+/// it computes exactly.
 ///
 /// distance() is the noise divided by the bound of its slope, and therefore 1-Lipschitz like every primitive.
 struct FractalNoise {

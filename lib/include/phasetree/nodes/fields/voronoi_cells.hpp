@@ -12,8 +12,9 @@ namespace phasetree {
 /// derivatives with respect to bₜ are (v + c)⁹/(bₜ + c)⁹, which are positive and sum to at most 1. On a cell's faces v
 /// ≤ 0, so g/2 − max(v, 0) is continuous from cell to cell.
 ///
-/// The bisectors of sites that are not visited (voronoi_sites.hpp) are at least half of (their distance − the nearest
-/// site's) away. All bₜ are clamped to that, so nothing jumps when the point moves on and other sites are visited.
+/// If the nearest site is at distance d, and a site that is not visited (voronoi_sites.hpp) at distance d′, their
+/// bisector is at least (d′ − d)/2 away. All bₜ are clamped to the least such bound, so nothing jumps when the point
+/// moves on and other sites are visited.
 ///
 /// In a small box few sites matter: those that may be the nearest, and those whose bisector is not clamped.
 struct VoronoiCells {

@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// The φᵢ within φₖ is that of A. In the paper's equation it is the φᵢ that was just reduced.
+/// The equation of φₖ contains aᵢ, the component of A before the change. The paper's equation has φᵢ there, which was
+/// just reduced.
 struct Change {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"change", "5.2", "φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀",

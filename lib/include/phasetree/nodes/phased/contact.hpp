@@ -14,7 +14,8 @@ namespace detail {
 /// terms of −f are negative, so B keeps it. Outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀), because what B loses is within
 /// A.
 ///
-/// I1: f is a convex combination. I2: b' ≥ b preserves the proof for ∪₋, including φ₀, because φ₀ ≥ b₀.
+/// The invariants I1 and I2 of lib/README.md: I1 holds because f is a convex combination. I2: b' ≥ b preserves the
+/// proof for ∪₋, including φ₀, because φ₀ ≥ b₀.
 ///
 /// For two objects with one phase each, the result is max(aᵢ, f) and max(bⱼ, −f): ∪₋ gives φᵢ = max(aᵢ, min(−bⱼ, f)),
 /// and f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ) is at most aᵢ where aᵢ + bⱼ ≥ 0, and at most −bⱼ elsewhere.
@@ -34,7 +35,8 @@ inline constexpr Parameter contact_alpha{
     limits::fraction};
 }  // namespace detail
 
-/// The paper's φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) would leave most of A ∪ B empty; and α → 0 makes f tend to −bⱼ.
+/// The signs of f are the opposite of the paper's, whose φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) would leave most of A ∪ B
+/// empty. For α → 0, f tends to −bⱼ, and B gets the whole overlap.
 ///
 /// Everything outside the contact is as in A ∪₋ B: the other phases of A and B remain, and those of B replace those of
 /// A.

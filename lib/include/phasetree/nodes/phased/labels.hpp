@@ -14,18 +14,18 @@ namespace phasetree {
 /// A segmented scan. Each voxel belongs to one phase, and surfaces between voxel centres are smooth.
 ///
 /// *Method.* mₖ is 1 at the voxels of phase k and 0 at others, blurred by a Gaussian of σ voxels; the mₖ sum to 1. At
-/// distance t from a flat interface mₖ is Φ(t/σ), where Φ is the normal distribution, so gₖ = σ Φ⁻¹(mₖ) is the depth of
-/// a point in phase k. Φ⁻¹ is increasing, so gₖ is largest where mₖ is. gₖ is clamped to ±2.5 σ.
+/// distance t from a flat interface mₖ is N(t/σ), where N is the cumulative normal distribution, so gₖ = σ N⁻¹(mₖ) is
+/// the depth of a point in phase k. N⁻¹ is increasing, so gₖ is largest where mₖ is. gₖ is clamped to ±2.5 σ.
 ///
-/// Blurring can remove a voxel from its phase. There, the phase's own g is raised and the others' are lowered until its
-/// own exceeds them by as much as it was below before, but by at least 0.02 and at most 0.3 voxels. A wall or a thread
-/// one voxel thick is thus preserved, about half a voxel thick.
+/// Blurring can remove a voxel from its phase: its own g is then less than the largest of the others, by e. There, its
+/// own g is raised and the others are lowered until it exceeds them by e, clamped to 0.02 … 0.3 voxels. A wall or a
+/// thread one voxel thick is thus preserved, about half a voxel thick.
 ///
 /// Dₖ is the triquadratic B-spline through the −gₖ at the voxels' centres, divided by the steepest slope of all of them
 /// (VoxelGrid::steepest_spline): a smooth, 1-Lipschitz field. As in voronoi,
 ///     φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,
-/// of which exactly one is negative wherever no two D are equal. At the centre of a voxel that is its own phase's,
-/// because the spline interpolates g there.
+/// of which exactly one is negative wherever no two D are equal. At the centre of a voxel, the negative one is that of
+/// the voxel's phase, because the spline interpolates g there.
 ///
 /// The object ends with the box of its voxels, outside of which all is vacuum. It is cut by the box as in
 /// intersect_shape.
@@ -33,8 +33,8 @@ struct Labels {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{
         "labels", "",
-        "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ Φ⁻¹(blurred share of phase k)/λ, within the box of the "
-        "voxels",
+        "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative "
+        "normal distribution, within the box of the voxels",
         "A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of "
         "each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about "
         "two voxels and do not grow beyond."};

@@ -4,8 +4,8 @@
 
 namespace phasetree {
 
-/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. Section 5.1 of the paper prints it as the
-/// phase-specific intersection: the sum of the sets is right, but the name is wrong.
+/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. Section 5.1 of the paper prints these sets correctly,
+/// but under the wrong name: as the phase-specific intersection.
 ///
 /// I2: φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0, and φₖ + φ₀ ≥ min(aₖ + a₀, f − f).
 struct UniteShapeBelow {

@@ -10,7 +10,7 @@
 namespace phasetree {
 
 /// An outline as a primitive with data: the number of pieces, half the thickness (0 for a filled outline), and the
-/// pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive.
+/// pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive (src/model/local_data.hpp).
 ///
 /// Only a few pieces can be the nearest. Whether a point is inside depends on all pieces to its right; but of the
 /// pieces to the right of the whole box, only the heights of their ends matter. Pieces meet at their ends, so most of
@@ -19,8 +19,9 @@ namespace phasetree {
 struct OutlineInBox {
     static constexpr std::size_t head = 2;  ///< floats of a whole outline before its pieces
 
-    /// The data of the specialised primitive: the number of pieces, half the thickness, −1 if the lowest points of the
-    /// box would be inside without its pieces and 1 otherwise, the number of heights, the heights, and the pieces.
+    /// The data of the specialised primitive: the number of pieces, half the thickness, a sign, the number of heights,
+    /// the heights, and the pieces. The sign is −1 if, without these pieces, the lowest points of the box would be
+    /// inside, and otherwise 1.
     struct Specialised {
         static constexpr std::size_t head = 4;
         static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;

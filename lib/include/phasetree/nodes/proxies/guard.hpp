@@ -1,7 +1,7 @@
-// A simpler volume that replaces a field or an object away from it (paper, Sections 4.1 and 7.3; Hubert-Brierre et al.,
-// "Accelerating Signed Distance Functions", 2025). A bounding node that switches, "b > m ? b : f", is discontinuous,
-// and anything built on it is no longer 1-Lipschitz. This one stays 1-Lipschitz (see "Fields above a discontinuity" in
-// lib/README.md):
+// A simpler volume that replaces a field or an object at points away from that volume (paper, Sections 4.1 and 7.3;
+// Hubert-Brierre et al., "Accelerating Signed Distance Functions", 2025). A bounding node that switches, "b > m ? b :
+// f", is discontinuous, and anything built on it is no longer 1-Lipschitz. This one stays 1-Lipschitz (see "Fields
+// above a discontinuity" in lib/README.md):
 //
 //     g(f) = max(b, min(f, 2m − b))
 //

@@ -4,9 +4,9 @@
 
 namespace phasetree {
 
-/// A bounding volume from outside, b = g − e, and one of the complement of the core from inside, −c with c = g + e
-/// (guard.hpp). If the surface lies between {g = −e} and {g = e}, the zero set is the child's. Elsewhere, the proxy's
-/// two surfaces cut it off or fill it.
+/// Two bounding volumes (guard.hpp): {b < 0} with b = g − e contains the child's solid, and {−c < 0} with c = g + e
+/// contains its complement, everything but the proxy's core. If the child's surface lies between {g = −e} and {g = e},
+/// the zero set is the child's. Elsewhere, these two surfaces of the proxy cut it off or fill it.
 template <class Child>
 struct Proxy {
     static constexpr NodeInfo info{"proxy", "4.1, 7.3",

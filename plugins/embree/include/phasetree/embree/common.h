@@ -26,9 +26,10 @@ extern "C" {
 #define PHASETREE_API
 #endif
 
-/* The version of this interface: 100 · PHASETREE_API_NUMBER + Embree's major version. Structures and functions of one
- * number never change. Pass PHASETREE_API_VERSION wherever a function has a parameter apiVersion. A library that does
- * not support that number, or was built for the other Embree, returns PHASETREE_ERROR_VERSION. */
+/* The version of this interface: 100 · PHASETREE_API_NUMBER + Embree's major version. As long as PHASETREE_API_NUMBER
+ * stays the same, structures and functions do not change. Pass PHASETREE_API_VERSION wherever a function has a
+ * parameter apiVersion. A library that does not support that version, or was built for the other Embree, returns
+ * PHASETREE_ERROR_VERSION. */
 #define PHASETREE_API_NUMBER 2
 #define PHASETREE_API_VERSION (100 * PHASETREE_API_NUMBER + RTC_VERSION_MAJOR)
 

@@ -41,16 +41,16 @@ typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
     /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
      * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or 10⁻⁶ of their largest coordinate if
-     * that is more. All values are clamped: at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, otherwise
-     * at most a hundredth of the diagonal. phasetreeGetGeometryStatistics returns the value in use,
-     * phasetreeGetGeometryWarning the reason. */
+     * that is more. All values are clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the
+     * diagonal or of the largest coordinate, whichever is more. phasetreeGetGeometryStatistics returns the value in
+     * use, phasetreeGetGeometryWarning the reason. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
      * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
      * quarters of the build time and usually makes rays slower; use it for objects under edit. MEDIUM and HIGH are
      * equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
-    unsigned int cellDivisions; /* maximum depth of division, at most 20; 0 for the default */
+    unsigned int cellDivisions; /* maximum depth of the division into cells, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
      * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
@@ -107,7 +107,8 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * PHASETREE_ERROR_INVALID_TREE  the tree is unbounded, or empty: nothing is left of it, or all of it is vacuum. The
  *                               message says which, and names the nodes that make the tree unbounded. Call
  *                               phasetreeGetTreeBounds to find out beforehand.
- * Clears Embree's error code of the calling thread (rtcGetDeviceError).
+ *
+ * The call clears Embree's error code of the calling thread (rtcGetDeviceError).
  *
  * A hit is a change of phase along a ray. Embree's members of the ray and the hit are set as follows.
  *     tfar         Where the ray leaves the phase that it is in.
@@ -116,7 +117,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  *     primID       The cell.
  *     geomID, instID, instPrimID   As usual.
  * The ray is in the phase at its start, at tnear, unless its context says otherwise (PhasetreeRayContext). Directions
- * may have any length. Rays with numbers that are not finite hit nothing.
+ * may have any length. Rays whose origin or direction is not finite hit nothing.
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
  * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, each crossing leaves

@@ -10,13 +10,14 @@ extern "C" {
 
 /* A crossing: a change of phase along a ray, bracketed by two points that are each proven to be in their phase.
  *
- * The bracket is at most one resolution long, or up to 2.75 where rounding puts a third phase between abutting solids.
- * A reflected ray continues from pointIn in phaseLeft, a transmitted ray from pointOut in phaseEntered. Do not offset
- * the point along a normal: a ray that carries its phase (PhasetreeRay) does not hit this crossing again. */
+ * The bracket is at most one resolution long, or up to 2.75 resolutions where rounding puts a third phase between
+ * abutting solids. phasetreeDecodeHit lengthens it by less than two resolutions. A reflected ray continues from pointIn
+ * in phaseLeft, a transmitted ray from pointOut in phaseEntered. Do not offset the point along a normal: a ray that
+ * carries its phase (PhasetreeRay) does not hit this crossing again. */
 typedef struct PhasetreeHit {
     unsigned int phaseLeft, phaseEntered;
     unsigned int cell;
-    float tIn, tOut;               /* on the ray */
+    float tIn, tOut;               /* on the ray: tIn is in phaseLeft, tOut in phaseEntered */
     float pointIn[3], pointOut[3]; /* in geometry space */
 } PhasetreeHit;
 
@@ -29,8 +30,9 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
     return (unsigned int)((const float*)hits)[4 * N + i];
 }
 
-/* Decodes the hit of an ordinary ray query: finds the exact bracket of the crossing. Decode a hit to continue a ray
- * from it. To shade a surface, RTCHit.u and v (the two phases) and Ng (the normal) are enough.
+/* Decodes the hit of an ordinary ray query: finds the bracket of the crossing, and moves its far end forward a little
+ * (see below). Decode a hit to continue a ray from it. To shade a surface, RTCHit.u and v (the two phases) and Ng (the
+ * normal) are enough.
  *
  * rayhit         as left by the query: the ray's origin, direction, tnear, time and tfar, and a hit of this geometry.
  * objectToWorld  the transform of the instance through which the ray hit the geometry, at the ray's time: 12 floats,
@@ -57,8 +59,9 @@ PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, cons
 PHASETREE_API PhasetreeError phasetreeGetHitTreePoint(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                       const float* objectToWorld, float treePoint[3]);
 
-/* States that a ray starts in `phase` of the geometry geomID inside the instance instID (and instPrimID, in Embree 4).
- * instID is RTC_INVALID_GEOMETRY_ID without an instance, and the innermost instance if they are nested. */
+/* A phase that a ray carries: the ray starts in `phase` of the geometry geomID inside the instance instID (and
+ * instPrimID, in Embree 4). Despite its name, it says nothing about absorption or scattering. instID is
+ * RTC_INVALID_GEOMETRY_ID without an instance, and the innermost instance if they are nested. */
 typedef struct PhasetreeMedium {
     unsigned int geomID, instID, instPrimID;
     unsigned int phase;
@@ -68,8 +71,8 @@ typedef struct PhasetreeMedium {
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
      * phase at the ray's start, as with an ordinary context. If the ray starts in a phase other than the one it
-     * carries, and rounding does not explain the difference, a crossing is reported where the search notices it: at the
-     * start if an interface is close, otherwise where the ray next approaches one. Owned by the application; not
+     * carries, and rounding does not explain the difference, a crossing is reported where the search begins: at the
+     * ray's start if that is in a cell, otherwise where the ray enters the next cell. Owned by the application; not
      * modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;

@@ -12,7 +12,7 @@ extern "C" {
 /* Options of phasetreeMakeGeometryMesh. Initialise them with phasetreeInitMeshOptions. */
 typedef struct PhasetreeMeshOptions {
     float spacing; /* of the grid, about the size of the smallest detail kept; 0 for a 256th of the longest side. At
-                    * most 1024 grid points along a side of the object */
+                    * most 1024 spacings along a side of the object's bounds */
     /* Polled from any thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
@@ -55,7 +55,7 @@ typedef struct PhasetreeMesh {
  * The mesh contains all phases, shown or hidden, in the tree's own space regardless of motion. Uses the threads of
  * TBB's default arena; the result does not depend on their number. With the default spacing it takes about a second.
  *
- * PHASETREE_ERROR_INVALID_ARGUMENT   the spacing is not positive and finite, or needs too many grid points
+ * PHASETREE_ERROR_INVALID_ARGUMENT   the spacing is negative or not finite, or too small for the bounds
  * PHASETREE_ERROR_INVALID_OPERATION  the geometry was built with opaque phases, inside which interfaces are unknown
  * PHASETREE_ERROR_CANCELLED          options->cancelled returned true */
 PHASETREE_API PhasetreeError phasetreeMakeGeometryMesh(PhasetreeGeometry geometry, const PhasetreeMeshOptions* options,

@@ -80,9 +80,10 @@ PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, 
 typedef struct PhasetreeClosest {
     bool found;
     /* No interface is closer than emptyRadius, guaranteed. If `found`, `point` is within one resolution of an interface
-     * between the phases `here` and `there`, and `distance` is its distance from the query point. Otherwise emptyRadius
-     * is the radius searched: at least the one requested, or less if the evaluations ran out. `distance` is then the
-     * radius requested, and the other members are not set. */
+     * between the phases `here` and `there`, and `distance` is its distance from the query point. If not, `distance` is
+     * the radius requested, and the other members are not set. emptyRadius is then usually no less than that radius. It
+     * is less if the search ended early (see phasetreeFindClosestInterface), or could not exclude an interface in a box
+     * of about the resolution's size. */
     float emptyRadius;
     float distance;
     float point[3];

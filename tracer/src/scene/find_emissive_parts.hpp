@@ -1,5 +1,5 @@
 // Finds the emitting phases and meshes, whether their surface or their interior emits, and covers them with balls,
-// towards which shadow rays are sent (lights/glowing_part.hpp).
+// towards which shadow rays are sent (lights/emissive_part.hpp).
 //
 // The choice of balls affects only the noise. Light from outside all balls is found by directions that paths sample,
 // and by shadow rays that were proposed for something else.
@@ -11,6 +11,6 @@ struct Scene;
 
 /// Adds the balls to the scene's lights, and the groups of lights that its materials name. Everything else in the scene
 /// must be complete. Call Lights::cluster_lamps() afterwards. Throws ModelError for a tree that cannot be traced.
-void find_glowing_parts(Scene&);
+void find_emissive_parts(Scene&);
 
 }  // namespace phasetree::tracer

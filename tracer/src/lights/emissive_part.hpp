@@ -16,12 +16,12 @@
 
 namespace phasetree::tracer {
 
-class GlowingPart {
+class EmissivePart {
   public:
     /// What emits in the ball.
     enum class Of { surface, medium };
     /// `luminance` is approximately that of the radiance from there. Both numbers are positive.
-    GlowingPart(const BoundingSphere& ball, float luminance, Of of = Of::surface)
+    EmissivePart(const BoundingSphere& ball, float luminance, Of of = Of::surface)
         : ball_(ball.centre, ball.radius, glm::vec3(luminance)), of_(of) {}
 
     bool is_of_surface() const { return of_ == Of::surface; }

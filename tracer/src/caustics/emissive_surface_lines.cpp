@@ -1,4 +1,4 @@
-#include "caustics/glowing_lines.hpp"
+#include "caustics/emissive_surface_lines.hpp"
 
 #include "caustics/chord.hpp"
 #include "phasetree/math/bounds.hpp"

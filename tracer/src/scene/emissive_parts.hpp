@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lights/bounding_sphere.hpp"
-#include "lights/glowing_part.hpp"
+#include "lights/emissive_part.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/model/handle.hpp"
 #include "shading/material.hpp"
@@ -22,10 +22,11 @@ namespace phasetree::tracer {
 
 struct Mesh;
 
-struct ShiningPart {
+/// A ball around an emissive part, in the space of its object or mesh.
+struct EmissiveBall {
     BoundingSphere ball;
     float luminance;  ///< rough luminance of the radiance that it emits
-    GlowingPart::Of of = GlowingPart::Of::surface;
+    EmissivePart::Of of = EmissivePart::Of::surface;
 };
 
 /// A part is never rated below this fraction of the maximum that it could emit, however little is emitted at the
@@ -33,14 +34,14 @@ struct ShiningPart {
 inline constexpr float least_brightness = 1.0f / 32;
 
 /// The ball around a box, with this luminance.
-inline ShiningPart part_in(const Bounds& box, float luminance, GlowingPart::Of of = GlowingPart::Of::surface) {
+inline EmissiveBall part_in(const Bounds& box, float luminance, EmissivePart::Of of = EmissivePart::Of::surface) {
     constexpr float most = 1e30f;  // keeps products within single precision
     return {{box.centre(), 0.5f * box.diagonal()}, luminance < most ? luminance : most, of};
 }
 
 /// Parts of the phases that emit, given the materials by phase. Throws ModelError for a tree that cannot be traced.
-std::vector<ShiningPart> parts_of_phases(const Phased& tree, std::span<const Material> materials);
+std::vector<EmissiveBall> parts_of_phases(const Phased& tree, std::span<const Material> materials);
 /// Parts of a mesh with an emissive material.
-std::vector<ShiningPart> parts_of_mesh(const Mesh& mesh);
+std::vector<EmissiveBall> parts_of_mesh(const Mesh& mesh);
 
 }  // namespace phasetree::tracer

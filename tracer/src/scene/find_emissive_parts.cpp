@@ -1,4 +1,4 @@
-#include "scene/glowing.hpp"
+#include "scene/find_emissive_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "scene/emissive_parts.hpp"
 #include "scene/scene.hpp"
-#include "scene/shining_parts.hpp"
 
 namespace phasetree::tracer {
 
@@ -18,7 +18,7 @@ namespace {
 // emitters would take too long.
 constexpr std::uint64_t most_copies_searched = 10'000'000;
 // If there are more emitting copies than this, none of them has balls.
-constexpr std::size_t most_shining_copies = 10'000;
+constexpr std::size_t max_emissive_copies = 10'000;
 // While there are more balls than this, the object with the most is reduced to one ball per copy.
 constexpr std::size_t most_parts = 50'000;
 
@@ -41,81 +41,81 @@ std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& p
     return placed;
 }
 
-void add(std::span<const ShiningPart> parts, const Places& places, Lights& lights) {
-    for (const ShiningPart& part : parts)
-        if (const auto ball = around(part.ball, places)) lights.add(GlowingPart(*ball, part.luminance, part.of));
+void add(std::span<const EmissiveBall> parts, const Places& places, Lights& lights) {
+    for (const EmissiveBall& part : parts)
+        if (const auto ball = around(part.ball, places)) lights.add(EmissivePart(*ball, part.luminance, part.of));
 }
 
 // A single ball around all parts.
-ShiningPart merged(std::span<const ShiningPart> parts) {
+EmissiveBall merged(std::span<const EmissiveBall> parts) {
     Bounds box;
     float sum = 0;
-    auto of = GlowingPart::Of::medium;
-    for (const ShiningPart& part : parts) {
+    auto of = EmissivePart::Of::medium;
+    for (const EmissiveBall& part : parts) {
         box = unite(box, {part.ball.centre - part.ball.radius, part.ball.centre + part.ball.radius});
         sum += part.luminance;
-        if (part.of == GlowingPart::Of::surface) of = part.of;
+        if (part.of == EmissivePart::Of::surface) of = part.of;
     }
     return part_in(box, sum / static_cast<float>(parts.size()), of);
 }
 
 // The emitting parts of an object, and the transforms and numbers of its copies.
-struct ShiningObject {
-    std::vector<ShiningPart> parts;
+struct EmissiveObject {
+    std::vector<EmissiveBall> parts;
     std::map<std::uint32_t, Places> copies;
 
     std::size_t parts_in_all() const { return parts.size() * copies.size(); }
 };
 
-std::vector<ShiningObject> shining_objects(const Scene& scene) {
+std::vector<EmissiveObject> emissive_objects(const Scene& scene) {
     const PlacedObjects& placed = scene.placed;
-    std::vector<ShiningObject> objects(placed.objects.size());
+    std::vector<EmissiveObject> objects(placed.objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) try {
             objects[i].parts = parts_of_phases(placed.objects[i].tree, scene.materials);
         } catch (const ModelError&) {
             // The object cannot be traced, which building the world reports.
         }
-    std::size_t shining = 0;
+    std::size_t emissive = 0;
     for (std::size_t moment = 0; moment < Places().size(); ++moment)
         placed.each_copy(
             [&](std::uint32_t copy, const PlacedObject& object, const Transform& to_scene) {
-                ShiningObject& of = objects[static_cast<std::size_t>(&object - placed.objects.data())];
+                EmissiveObject& of = objects[static_cast<std::size_t>(&object - placed.objects.data())];
                 if (of.parts.empty()) return true;
                 of.copies[copy][moment] = to_scene;
-                if (moment == 0) ++shining;
-                return shining <= most_shining_copies;
+                if (moment == 0) ++emissive;
+                return emissive <= max_emissive_copies;
             },
             0.5 * static_cast<double>(moment));
-    if (shining > most_shining_copies) return {};
+    if (emissive > max_emissive_copies) return {};
     return objects;
 }
 
 void add_objects(Scene& scene) {
     if (scene.placed.copies() > most_copies_searched) return;
-    std::vector<ShiningObject> objects = shining_objects(scene);
+    std::vector<EmissiveObject> objects = emissive_objects(scene);
     const auto in_all = [&] {
         std::size_t sum = 0;
-        for (const ShiningObject& object : objects) sum += object.parts_in_all();
+        for (const EmissiveObject& object : objects) sum += object.parts_in_all();
         return sum;
     };
     while (in_all() > most_parts) {
-        ShiningObject& most = *std::ranges::max_element(objects, {}, &ShiningObject::parts_in_all);
+        EmissiveObject& most = *std::ranges::max_element(objects, {}, &EmissiveObject::parts_in_all);
         most.parts = {merged(most.parts)};
     }
-    for (const ShiningObject& object : objects)
+    for (const EmissiveObject& object : objects)
         for (const auto& [copy, places] : object.copies) add(object.parts, places, scene.lights);
 }
 
 }  // namespace
 
-void find_glowing_parts(Scene& scene) {
+void find_emissive_parts(Scene& scene) {
     const auto join_group = [&](Material& material) {
         if (Glowing* glowing = std::get_if<Glowing>(&material))
             glowing->group_number = static_cast<std::uint32_t>(scene.lights.group_of(glowing->group));
     };
     for (Material& material : scene.materials) join_group(material);
     for (Mesh& mesh : scene.meshes) join_group(mesh.material);
-    if (!scene.shines()) return;
+    if (!scene.is_emissive()) return;
     if (scene.object)
         add(parts_of_phases(scene.object, scene.materials), Places(), scene.lights);
     else

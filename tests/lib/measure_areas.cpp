@@ -1,0 +1,84 @@
+// Estimates of areas from lines through a ball whose crossings are known: when they end, and what they then say.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "phasetree/measuring/areas.hpp"
+#include "phasetree/model/handle.hpp"
+
+namespace test_measure_areas {
+
+using namespace phasetree;
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+constexpr Phase first{1};
+
+// The crossings of a ball about the origin.
+LineTracer ball(double radius) {
+    return [=](const glm::vec3& origin, const glm::vec3& direction, float, std::vector<CrossingOnLine>& found) {
+        const glm::dvec3 o(origin), d(direction);
+        const double b = glm::dot(o, d), root = b * b - glm::dot(o, o) + radius * radius;
+        if (!(root > 0)) return;
+        found.push_back({static_cast<float>(-b - std::sqrt(root)), vacuum, first});
+        found.push_back({static_cast<float>(-b + std::sqrt(root)), first, vacuum});
+    };
+}
+
+const Bounds bounds{{-4, -3, -2}, {4, 3, 2}};
+
+}  // namespace
+
+TEST_CASE("lines are traced until they have met something") {
+    const double radius = 0.1, area = 4 * pi * radius * radius;
+    const AreaResult few = estimate_areas(bounds, ball(radius), {.tolerance = 0.25, .max_lines = 1});
+    CHECK(few.lines == 2048);
+    CHECK(few.phases.empty());
+    CHECK_FALSE(few.is_within_tolerance);
+    const AreaResult enough = estimate_areas(bounds, ball(radius), {.tolerance = 0.25});
+    CHECK(enough.is_within_tolerance);
+    REQUIRE(enough.phases.size() == 1);
+    CHECK(enough.phases[0].standard_error <= 0.25 * enough.phases[0].area);
+    CHECK(std::abs(enough.phases[0].area - area) < 4 * enough.phases[0].standard_error);
+}
+
+TEST_CASE("more lines make areas more precise, and the error is no larger than the standard error says") {
+    const double area = 4 * pi * 2.25;
+    double before = area;
+    for (const std::size_t lines : {std::size_t{1} << 12, std::size_t{1} << 16, std::size_t{1} << 20}) {
+        const AreaResult r = estimate_areas(bounds, ball(1.5), {.tolerance = 1e-9, .max_lines = lines});
+        CHECK(r.lines == lines);
+        CHECK_FALSE(r.is_within_tolerance);
+        REQUIRE(r.phases.size() == 1);
+        REQUIRE(r.contacts.size() == 1);
+        CHECK(r.contacts[0].area == r.phases[0].area);
+        CHECK(std::abs(r.phases[0].area - area) < 4 * r.phases[0].standard_error);
+        CHECK(r.phases[0].standard_error < 0.5 * before);
+        // Independent lines that meet the ball with this probability would have a larger one.
+        const double radius = 0.5 * glm::length(glm::dvec3(bounds.extent())), share = 2.25 / (radius * radius);
+        CHECK(r.phases[0].standard_error < 1.2 * area * std::sqrt((1 - share) / (share * static_cast<double>(lines))));
+        before = r.phases[0].standard_error;
+    }
+}
+
+TEST_CASE("a cancelled estimate is that of fewer lines") {
+    std::atomic<int> polls{0};
+    AreaOptions options{.tolerance = 1e-9};
+    options.cancelled = [&] { return ++polls > 1000; };
+    const AreaResult cancelled = estimate_areas(bounds, ball(1.5), options);
+    CHECK(cancelled.lines < options.max_lines);
+    REQUIRE(cancelled.phases.size() == 1);
+    const AreaResult again = estimate_areas(bounds, ball(1.5), {.tolerance = 1e-9, .max_lines = cancelled.lines});
+    CHECK(again.lines == cancelled.lines);
+    CHECK(again.phases.at(0).area == cancelled.phases[0].area);
+    CHECK(again.phases.at(0).standard_error == cancelled.phases[0].standard_error);
+
+    options.cancelled = [] { return true; };
+    const AreaResult none = estimate_areas(bounds, ball(1.5), options);
+    CHECK(none.lines == 2048);  // which are so few that they are always traced
+    CHECK_FALSE(none.is_within_tolerance);
+}
+
+}  // namespace test_measure_areas

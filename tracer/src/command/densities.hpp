@@ -1,0 +1,28 @@
+// Densities of phases, for masses.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "phasetree/io/tree.hpp"
+#include "phasetree/model/phase.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace phasetree::tracer {
+
+// Adds the option --density PHASE=VALUE, which may be repeated.
+void add_densities(CLI::App& command, std::vector<std::string>& texts);
+
+// Parses the option's values, in kg/m³. Throws UsageError if one is malformed, names a phase that the object lacks, or
+// names the same phase as another.
+std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree);
+
+// The phase of the object with this name. Throws UsageError that begins with the option's name.
+Phase phase_named(const std::string& name, const SceneTree& tree, const std::string& option);
+
+}  // namespace phasetree::tracer
