@@ -13,7 +13,7 @@ import time
 import numpy as np
 import phasetree as pt
 
-TOLERANCES = (0.2, 0.05)
+TOLERANCES = (0.2, 0.05, 0.005)
 BLOCK = 1 << 17
 
 

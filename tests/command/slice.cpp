@@ -223,6 +223,23 @@ TEST_CASE("names of phases are escaped, and the legend has areas and a scale bar
     CHECK(bytes_of(shell.directory / "slice.svg").find(">0.02 in, z = 0</text>") != std::string::npos);
 }
 
+TEST_CASE("outlines are thin on the page, however large the object") {
+    for (const char* const radius : {"0.001", "1", "1000"}) {
+        const SliceShell shell(R"({"set": {"phase": "glass", "of": {"sphere": {"radius": )" + std::string(radius) +
+                               "}}}}");
+        REQUIRE(shell.slice({"--z", "0"}).code == 0);
+        const std::string svg = bytes_of(shell.directory / "slice.svg");
+        const std::size_t at = svg.find("<g ");
+        REQUIRE(at != std::string::npos);
+        const std::string group = svg.substr(at, svg.find('>', at) - at);
+        const std::string matrix = attribute(group, "transform");
+        const double scale = std::stod(matrix.substr(matrix.find('(') + 1));
+        CHECK(scale * std::stod(attribute(group, "stroke-width")) == doctest::Approx(0.6).epsilon(1e-4));
+        // Some programs ignore it.
+        CHECK(svg.find("vector-effect") == std::string::npos);
+    }
+}
+
 TEST_CASE("a picture does not depend on threads") {
     SliceShell shell(
         R"({"under": [)" + ball + R"(, {"set": {"phase": "gold", "of": {"torus": {"major": 1, "minor": 0.4}}}}]})",

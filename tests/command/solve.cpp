@@ -114,7 +114,8 @@ TEST_CASE("a target that is met exactly in the middle of the bracket is found ne
 
 TEST_CASE("a cap of a ball has the volume of the closed form, and the rest of the file is kept") {
     const SolveShell shell;
-    std::string text = R"({"version": 1, "phases": {"é\u0041": null}, /* é */ "tree": {"intersect_shape": {"shape": {"plane": {"offset" : 1.50e0}},
+    std::string text =
+        R"({"version": 1, "phases": {"é\u0041": null}, /* é */ "tree": {"intersect_shape": {"shape": {"plane": {"offset" : 1.50e0}},
         "of": {"set": {"phase": "é\u0041", "of": {"sphere": {"radius": 2}}}}}}} // the end)";
     write_text(shell.directory / "scene.json", text);
     const double h = 2.5, cap = pi * h * h * (6 - h) / 3;

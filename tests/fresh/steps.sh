@@ -60,9 +60,10 @@ step_command() {
 # view PHASETREE SCENE: the live view answers with its page, and ends on Ctrl-C.
 view() {
     local log=$HOME/logs/view.log address='' page i process status
-    # In the background a shell ignores Ctrl-C for its children unless job control is on.
+    # In the background a shell ignores Ctrl-C for its children unless job control is on. Whoever started this script in
+    # the background may have ignored it already.
     set -m
-    "$1" view "$2" >"$log" 2>&1 &
+    env --default-signal=INT "$1" view "$2" >"$log" 2>&1 &
     process=$!
     set +m
     for ((i = 0; i < 600; ++i)); do

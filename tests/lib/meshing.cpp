@@ -89,8 +89,8 @@ TEST_CASE("the mesh of a box has its faces, its edges and its corners") {
         }
         for (const PhaseMesh::Triangle& t : mesh.triangles) CHECK(t.behind > t.front);
     }
-    // Two corners that no line of the grid meets, and eight vertices along an edge of the box, where labels were changed
-    // and triangles between vertices on the box would cross each other.
+    // Two corners that no line of the grid meets, and eight vertices along an edge of the box, where labels were
+    // changed and triangles between vertices on the box would cross each other.
     CHECK(off <= 10);
     CHECK(vertices > 18'000);
     // Diagonals of quadrilaterals that are not chosen by the surface make more than 1 in 100.

@@ -86,9 +86,23 @@ void check_sides(const Slice& slice) {
     }
 }
 
+// Whether phases change within a distance of a point.
+bool is_near_change(const Evaluator& evaluator, const SlicePlane& plane, const glm::dvec2& p, double distance) {
+    Evaluator::Workspace& workspace = Evaluator::thread_workspace();
+    const auto label = [&](double u, double v) {
+        return evaluator.label(plane.point(static_cast<float>(u), static_cast<float>(v)), workspace);
+    };
+    const Phase here = label(p.x, p.y);
+    for (int i = 0; i < 48; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 24, r = i < 24 ? distance : 0.5 * distance;
+        if (label(p.x + r * std::cos(angle), p.y + r * std::sin(angle)) != here) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
-TEST_CASE("far from outlines the drawn phase is the label, and neighbours share sides") {
+TEST_CASE("outlines are where phases change, far from them the drawn phase is the label, and neighbours share sides") {
     Uniform rng(1);
     std::size_t far = 0;
     for (int round = 0; round < 12; ++round) {
@@ -102,6 +116,13 @@ TEST_CASE("far from outlines the drawn phase is the label, and neighbours share 
         for (int i = 0; i < Phase::capacity; ++i) sum += found.area(Phase{static_cast<std::uint8_t>(i)});
         CHECK(std::abs(sum) < 1e-12);
         const Evaluator evaluator(record(object));
+        for (const Slice::Loop& loop : found.loops)
+            for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+                const glm::dvec2 a = found.vertices[loop.vertices[i]];
+                const glm::dvec2 b = found.vertices[loop.vertices[(i + 1) % loop.vertices.size()]];
+                for (const glm::dvec2& p : {a, 0.5 * (a + b)})
+                    CHECK(is_near_change(evaluator, plane, p, options.tolerance));
+            }
         for (int i = 0; i < 200; ++i) {
             const float u = between(rng, -1.5f, 1.5f), v = between(rng, -1.5f, 1.5f);
             const Drawn drawn = drawn_at(found, {u, v});
@@ -111,6 +132,23 @@ TEST_CASE("far from outlines the drawn phase is the label, and neighbours share 
         }
     }
     CHECK(far > 1500);
+}
+
+TEST_CASE("a detail that falls between the corners of squares is counted, with its place") {
+    const Field speck = warped(Translate{.by = {0.613f, -0.271f, 0}}, Sphere{.radius = 0.002f});
+    const Phased object =
+        Over{.of = {Set{.phase = second, .of = speck}, Set{.phase = first, .of = Box{.size = {3, 3, 3}}}}};
+    SliceOptions options;
+    options.tolerance = 0.2;
+    const Slice coarse = slice(object, {2, 0}, options);
+    CHECK(coarse.area(second) == 0);
+    REQUIRE(coarse.unexplained > 0);
+    REQUIRE(coarse.first_unexplained);
+    CHECK(glm::length(glm::dvec2(*coarse.first_unexplained) - glm::dvec2(0.613, -0.271)) < options.tolerance);
+    options.tolerance = 0.002;
+    const Slice fine = slice(object, {2, 0}, options);
+    CHECK(fine.area(second) > 0);
+    CHECK(fine.unexplained == 0);
 }
 
 TEST_CASE("areas are those of closed forms") {

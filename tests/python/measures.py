@@ -100,7 +100,7 @@ class Measures(unittest.TestCase):
             self.assertNotIn("area", phase)
             self.assertLessEqual(phase["volume"]["low"], self.volumes[phase["name"]])
             self.assertGreaterEqual(phase["volume"]["high"], self.volumes[phase["name"]])
-        self.assertIn("the time is over", table.stdout)
+        self.assertIn("time ran out", table.stdout)
         self.assertNotIn("contact", table.stdout)
 
     def test_the_command_rejects_bad_arguments(self):

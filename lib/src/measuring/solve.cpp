@@ -7,8 +7,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "phasetree/nodes/phased/remove.hpp"
+#include "phasetree_support/power_of_ten.hpp"
 
 namespace phasetree {
 
@@ -34,12 +36,18 @@ enum class Side { below, above, undecided };
 
 // The nearest number with few digits, for a bracket of this width.
 double rounded(double x, double width) {
-    const double exponent = std::floor(std::log10(width * share_of_digit));
+    if (!(width > 1e-300 && width < 1e300)) return x;
+    const int exponent = support::exponent_of_ten(width * share_of_digit);
     // Quotients of integers have the shortest texts; 10²² is the largest power that is exact.
     const double power = std::pow(10.0, std::abs(exponent));
     const double digits = exponent < 0 ? x * power : x / power;
     if (!(std::abs(exponent) <= 22) || !(std::abs(digits) < 0x1p52)) return x;
     return exponent < 0 ? std::round(digits) / power : std::round(digits) * power;
+}
+
+// How often something is halved until it is smaller by this factor.
+double halvings(double factor) {
+    return std::log(factor) / std::numbers::ln2;
 }
 
 // A number between the ends of the bracket, and how precisely it would be measured next.
@@ -69,7 +77,7 @@ class Solver {
         width_ = options_.width > 0 ? options_.width : 1e-3 * first_width;
         const std::optional<SolveEnd> ended = measure_ends(low, high);
         if (ended) return *ended;
-        steps_ = std::max(1.0, std::log2(first_width / width_)) + 1;
+        steps_ = std::max(1.0, halvings(first_width / width_)) + 1;
         SolveEnd end = SolveEnd::width;
         double tolerance = tolerance_of_ends_;
         while (result_.high->at - result_.low->at > width_) {
@@ -78,7 +86,7 @@ class Solver {
                 end = *stopped;
                 break;
             }
-            done_ = std::log2(first_width / (result_.high->at - result_.low->at));
+            done_ = halvings(first_width / (result_.high->at - result_.low->at));
             tell();
         }
         find_best(tolerance);
@@ -292,6 +300,22 @@ void check(const SolveTarget& target, double low, double high, const SolveOption
 }  // namespace
 
 }  // namespace measuring
+
+std::string_view name_of(SolveEnd end) {
+    switch (end) {
+        case SolveEnd::width:
+            return "tolerance";
+        case SolveEnd::undecided:
+            return "undecided";
+        case SolveEnd::same_side:
+            return "same side";
+        case SolveEnd::seconds:
+            return "time";
+        case SolveEnd::cancelled:
+            return "interrupted";
+    }
+    return "";
+}
 
 SolveResult solve(const ObjectOf& object, const SolveTarget& target, double low, double high,
                   const SolveOptions& options) {

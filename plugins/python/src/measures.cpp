@@ -67,22 +67,6 @@ py::tuple measures(const Phased& object, double tolerance, std::optional<double>
                           high.array(), name_of(result.end), result.boxes);
 }
 
-const char* name_of(SolveEnd end) {
-    switch (end) {
-        case SolveEnd::width:
-            return "tolerance";
-        case SolveEnd::undecided:
-            return "undecided";
-        case SolveEnd::same_side:
-            return "same side";
-        case SolveEnd::seconds:
-            return "time";
-        case SolveEnd::cancelled:
-            return "cancelled";
-    }
-    return "";
-}
-
 // (number, [low, high, estimate]), or None.
 py::object point(const std::optional<SolvePoint>& p) {
     if (!p) return py::none();

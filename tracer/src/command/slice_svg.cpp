@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "command/slice_picture.hpp"
+#include "phasetree_support/power_of_ten.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 // In pixels.
-constexpr double longest_drawn_side = 760, page_margin = 20, legend_row = 22, least_page_width = 320;
+constexpr double longest_drawn_side = 760, page_margin = 20, legend_row = 22, least_page_width = 320, line_width = 0.6;
 
 // Text between tags. XML 1.0 allows no control characters.
 std::string xml_text(std::string_view text) {
@@ -52,7 +53,7 @@ std::string path_data(const Slice& slice, Phase phase) {
 
 // The length of the scale bar: 1, 2 or 5 times a power of ten, at most a third of the picture.
 double length_of_bar(double longest) {
-    const double power = std::pow(10.0, std::floor(std::log10(longest / 3)));
+    const double power = std::pow(10.0, support::exponent_of_ten(longest / 3));
     double length = power;
     for (const double factor : {2.0, 5.0})
         if (factor * power <= longest / 3) length = factor * power;
@@ -97,14 +98,15 @@ std::string slice_svg(const Slice& slice, const SliceFrame& frame) {
         "<title>{2}</title>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
         page_width, page_height, xml_text(frame.plane));
-    // The scene's coordinates, with the second axis upwards.
+    // The scene's coordinates, with the second axis upwards. So are the widths of lines: not every program knows
+    // vector-effect="non-scaling-stroke".
     svg += fmt::format(
-        "<g transform=\"matrix({} 0 0 {} {} {})\" fill-rule=\"evenodd\" stroke=\"#303030\" stroke-width=\"0.6\" "
+        "<g transform=\"matrix({} 0 0 {} {} {})\" fill-rule=\"evenodd\" stroke=\"#303030\" stroke-width=\"{:.6g}\" "
         "stroke-linejoin=\"round\">\n",
-        scale, -scale, page_margin - scale * u, page_margin + scale * (v + height));
+        scale, -scale, page_margin - scale * u, page_margin + scale * (v + height), line_width / scale);
     for (const Phase phase : shown)
-        svg += fmt::format("<path data-phase=\"{}\" fill=\"{}\" vector-effect=\"non-scaling-stroke\" d=\"{}\"/>\n",
-                           xml_text(frame.names[phase]), hex_color(frame.colors[phase.index]), path_data(slice, phase));
+        svg += fmt::format("<path data-phase=\"{}\" fill=\"{}\" d=\"{}\"/>\n", xml_text(frame.names[phase]),
+                           hex_color(frame.colors[phase.index]), path_data(slice, phase));
     svg += "</g>\n";
     const double bar = length_of_bar(longest);
     double y = below + 0.5 * legend_row;
@@ -117,8 +119,8 @@ std::string slice_svg(const Slice& slice, const SliceFrame& frame) {
         y += legend_row;
         svg += fmt::format(
             "<rect x=\"{:.0f}\" y=\"{:.2f}\" width=\"14\" height=\"14\" fill=\"{}\" stroke=\"#303030\" "
-            "stroke-width=\"0.6\"/>\n<text x=\"{:.0f}\" y=\"{:.2f}\">{}, {:.6g} {}²</text>\n",
-            page_margin, y - 12, hex_color(frame.colors[phase.index]), page_margin + 22, y,
+            "stroke-width=\"{}\"/>\n<text x=\"{:.0f}\" y=\"{:.2f}\">{}, {:.6g} {}²</text>\n",
+            page_margin, y - 12, hex_color(frame.colors[phase.index]), line_width, page_margin + 22, y,
             xml_text(frame.names[phase]), slice.area(phase), frame.lengths.name);
     }
     return svg + "</svg>\n";

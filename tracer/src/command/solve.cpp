@@ -126,6 +126,7 @@ int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
         check_same_folder(document, document.root(), *chosen.output);
     }
     const SceneTree tree = read_model(document, chosen.object);
+    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const Quantity quantity = quantity_of(chosen.quantity, tree, lengths, densities_of(chosen.densities, tree));
     const NumberToSet number = number_to_set(chosen.number, document);
     EditedScene scene(file, document, number.pointer, chosen.object);

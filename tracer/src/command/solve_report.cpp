@@ -11,22 +11,6 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-std::string_view word_of(SolveEnd end) {
-    switch (end) {
-        case SolveEnd::width:
-            return "tolerance";
-        case SolveEnd::undecided:
-            return "undecided";
-        case SolveEnd::same_side:
-            return "same side";
-        case SolveEnd::seconds:
-            return "time";
-        case SolveEnd::cancelled:
-            return "interrupted";
-    }
-    return "";
-}
-
 std::string_view sentence_of(SolveEnd end) {
     switch (end) {
         case SolveEnd::width:
@@ -36,7 +20,7 @@ std::string_view sentence_of(SolveEnd end) {
         case SolveEnd::same_side:
             return "both ends are on the same side";
         case SolveEnd::seconds:
-            return "the time is over; allow more with --time";
+            return "time ran out; allow more with --time";
         case SolveEnd::cancelled:
             return "interrupted";
     }
@@ -102,7 +86,7 @@ void print_solution_json(const SolveReport& report) {
     json["quantity"] = q.name;
     json["unit"] = q.unit_name;
     json["target"] = q.shown(q.target.value);
-    json["stopped"] = word_of(r.end);
+    json["stopped"] = name_of(r.end);
     json["measurements"] = r.measurements;
     json["value"] = json_of_point(r.best, q);
     json["low"] = json_of_point(r.low, q);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,9 @@ enum class SolveEnd {
     seconds,    ///< the time is over
     cancelled   ///< SolveOptions::cancelled returned true
 };
+
+/// In the order of SolveEnd: "tolerance", "undecided", "same side", "time" or "interrupted".
+std::string_view name_of(SolveEnd);
 
 struct SolveResult {
     SolveEnd end = SolveEnd::width;

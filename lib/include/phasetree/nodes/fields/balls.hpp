@@ -62,7 +62,7 @@ struct Balls {
     /// The data, if a loop over all balls is acceptable; otherwise throws ModelError.
     static const float* few_balls(const float* data);
 
-    /// See LocalDataPrimitive (src/model/local_data.hpp).
+    /// See LocalDataPrimitive.
     struct Specialised {
         std::vector<float> values{};
 
@@ -89,7 +89,7 @@ struct Balls {
                            std::vector<float>& floats) {
         return specialise(data, range, std::numeric_limits<double>::infinity(), of, floats);
     }
-    /// See RequiredDataPrimitive (src/model/local_data.hpp). Values above `farthest` may be wrong as long as they stay
+    /// See RequiredDataPrimitive. Values above `farthest` may be wrong as long as they stay
     /// above it.
     static bool specialise(const float* data, const PointRange& range, double farthest, std::span<const float> of,
                            std::vector<float>& floats) {

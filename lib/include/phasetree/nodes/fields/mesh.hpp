@@ -80,7 +80,7 @@ struct Mesh {
     static const float* few_pieces(const float* data);
     static constexpr std::size_t max_pieces_in_shader = 2000;
 
-    /// See LocalDataPrimitive (src/model/local_data.hpp).
+    /// See LocalDataPrimitive.
     struct Specialised {
         std::vector<float> values{};
 
