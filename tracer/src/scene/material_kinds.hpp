@@ -286,9 +286,9 @@ struct CoatedParameters : FilmParameters, PerturbationParameters {
 struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParameters {
     static constexpr KindInfo info{
         "principled",
-        "A layered standard material with the names of OpenPBR Surface 1.1: metal, or a gloss over a diffuse base; a "
-        "coat and fuzz over it. Its roughnesses are the square root of the α of other materials. It is opaque: for "
-        "transmission and subsurface scattering, use a phase of \"clear\"."};
+        "Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a "
+        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other "
+        "materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
 
     Number base_weight = Principled{}.base_weight;
     Texture base_color = Principled{}.color;
@@ -324,11 +324,11 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
         color(&P::base_color, "base_color",
               "Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; "
               "default 0.8.");
-        fraction(&P::base_weight, "base_weight", "Factor of the base colour.");
+        fraction(&P::base_weight, "base_weight", "Multiplies the base colour.");
         fraction(&P::base_diffuse_roughness, "base_diffuse_roughness",
                  "Roughness of the diffuse base: 0 is Lambert's law, 1 is clay.");
         fraction(&P::base_metalness, "base_metalness", "0 is a gloss over a diffuse base, 1 is metal.");
-        fraction(&P::specular_weight, "specular_weight", "Factor of the reflectance of the gloss and of the metal.");
+        fraction(&P::specular_weight, "specular_weight", "Multiplies the reflectance of the gloss and of the metal.");
         color(&P::specular_color, "specular_color",
               "Tint of the gloss, and of the metal at 82° (\"F82-tint\"); default white.");
         fraction(&P::specular_roughness, "specular_roughness",
@@ -339,16 +339,16 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
         grain_parameters<P>(v);
         fraction(&P::coat_weight, "coat_weight", "Share of the surface that has a clear coat.");
         color(&P::coat_color, "coat_color",
-              "Colour that the coat gives to the light that passes it twice at normal incidence; default white.");
+              "Tint of light that crosses the coat twice at normal incidence; default white.");
         fraction(&P::coat_roughness, "coat_roughness", "Roughness of the coat.");
         v(&P::coat_ior, Parameter{"coat_ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
         fraction(&P::coat_darkening, "coat_darkening",
-                 "How much the coat darkens the base by sending light back to it: 1 is physical, 0 keeps the base's "
+                 "How much the coat darkens the base by reflecting light back to it: 1 is physical, 0 keeps the base's "
                  "colour.");
         fraction(&P::fuzz_weight, "fuzz_weight", "Share of the surface that has fuzz: velvet, dust.");
         color(&P::fuzz_color, "fuzz_color", "Colour of the fuzz; default white.");
         fraction(&P::fuzz_roughness, "fuzz_roughness",
-                 "Roughness of the fuzz: velvet has little, dust much. Values below 0.26 count as that.");
+                 "Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26.");
         film_parameters<P>(v);
         fraction(&P::film_weight, "film_weight", "With a film: share of the surface that has it.");
         v(&P::emission_radiance,

@@ -3,8 +3,8 @@
 //
 // Strokes run along one direction, projected onto the surface, like those of a brush; or around an axis, like those of
 // a lathe: at p along axis × (p − through). On a mesh from a glTF file, they may run at an angle to the tangents of its
-// texture coordinates. If that has no direction on the surface (where the surface is perpendicular
-// to the strokes, or on the axis), an arbitrary direction is used.
+// texture coordinates. Where none of these gives a direction on the surface (because the strokes are perpendicular to
+// it, or on the axis), the direction is arbitrary.
 //
 // References: Ward, Measuring and Modeling Anisotropic Reflection, SIGGRAPH 1992; Heitz 2014 (sampling/ggx.hpp) for
 // stretched microfacets.

@@ -1,7 +1,7 @@
 // A dielectric interface above something opaque: the gloss of a plastic, or a clear coat.
 //
-//   E(ω)    its directional albedo: Fresnel's F when smooth; when rough, the GGX integral of F over the visible
-//   normals,
+//   E(ω)    its directional albedo: Fresnel's F when smooth;
+//           when rough, the GGX integral of F over the visible normals,
 //           tabulated
 //   T = 1 − E, the light that enters, including light that meets microfacets again, so that no energy is lost
 //   T̄       the same under uniform light
