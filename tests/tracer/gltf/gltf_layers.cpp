@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tracer/gltf/gltf_scene_mesh.hpp"
+#include "phasetree_support/temporary_directory.hpp"
+#include "scene/read_parts.hpp"
+#include "tracer/gltf/gltf_corner.hpp"
 
 namespace test_gltf_layers {
 
@@ -122,10 +124,16 @@ TEST_CASE("anisotropy is a grain across the direction of the stretch, by the mes
     coordinates.tangent = {1, 0, 0}, coordinates.bitangent = {0, 1, 0};
     CHECK(layers.grain->direction_at({{0, 0, 0}, {0, 0, 1}, coordinates}) == glm::vec3(0, 1, 0));
     CHECK(layers.grain->direction_at(glm::vec3(0)) == glm::vec3(0));
-    // A mesh of a scene has tangents, of its own or made.
-    const Mesh mesh = scene_mesh(Corner().file(one_node + meshes(all_attributes + R"(, "material": 0)") +
-                                               R"(, "materials": [{"extensions": {)" + brushed + "}}]"));
-    CHECK(mesh.tangents.values.size() == 3);
+    // A mesh of a scene gets tangents if the file has none.
+    const phasetree::support::TemporaryDirectory folder;
+    phasetree::support::write_text(folder / "a.glb",
+                                   Corner().file(one_node + meshes(all_attributes + R"(, "material": 0)") +
+                                                 R"(, "materials": [{"extensions": {)" + brushed + "}}]"));
+    const auto document =
+        phasetree::Document::from_text(R"([{"gltf": {"file": ")" + (folder / "a.glb").string() + "\"}}]");
+    const MeshGroup group = read_meshes(document, document.root());
+    REQUIRE(group.meshes.size() == 1);
+    CHECK(group.meshes[0].tangents.values.size() == 3);
 }
 
 TEST_CASE("a layered material may emit light and have normals") {
