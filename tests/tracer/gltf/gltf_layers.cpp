@@ -37,7 +37,7 @@ float constant(const Number& number) {
 
 }  // namespace
 
-TEST_CASE("only what needs layers has them: other materials, and factors of 0, are as they were") {
+TEST_CASE("materials without layers, and factors of 0, do not become principled") {
     CHECK(std::holds_alternative<Coated>(part_of("{" + plastic + "}").material));
     for (const char* const nothing :
          {R"("KHR_materials_clearcoat": {})", R"("KHR_materials_sheen": {"sheenColorFactor": [0, 0, 0]})",
@@ -52,7 +52,7 @@ TEST_CASE("only what needs layers has them: other materials, and factors of 0, a
         part_with(R"("KHR_materials_specular": {"specularFactor": 0.5})", R"("name": "metal")").material));
 }
 
-TEST_CASE("a clear coat is on a base of the same colour, roughness and index") {
+TEST_CASE("a clear coat keeps the colour, roughness and index of its base") {
     const Principled layers = layers_of(R"("KHR_materials_clearcoat": {"clearcoatFactor": 0.75,
         "clearcoatRoughnessFactor": 0.5}, "KHR_materials_ior": {"ior": 1.4})");
     CHECK(is_near(color_at(layers.color, glm::vec3(0)), {0.5f, 0.25f, 0.75f}));
@@ -148,7 +148,7 @@ TEST_CASE("a layered material may emit light and have normals") {
     CHECK(glows(part.material));
 }
 
-TEST_CASE("what layers lose is said") {
+TEST_CASE("warnings name what layers lose") {
     const auto said_of = [](const std::string& extensions, const std::string& rest = plastic) {
         Corner corner;
         const std::size_t view = corner.add_view(png(std::vector<unsigned char>(12, 255)));

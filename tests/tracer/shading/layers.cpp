@@ -81,7 +81,7 @@ TEST_CASE("what layers are made of") {
     CHECK_FALSE(needs_tangents(material(R"("grain_along": [1, 0, 0])")));
 }
 
-TEST_CASE("layers that cannot be are rejected") {
+TEST_CASE("impossible layers are rejected") {
     // Every number and colour of the layers may be an image, and none on a phase.
     for (const char* const key :
          {"base_color", "base_weight", "base_metalness", "base_diffuse_roughness", "specular_color",

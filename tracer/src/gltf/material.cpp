@@ -56,7 +56,8 @@ class Materials::Maker {
         if (const auto extensions = item_.item("extensions")) made_.extensions = extensions->keys();
         if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
             note_loss("uses the specular-glossiness workflow, which is not supported; it is rendered as a white metal");
-        // What is laid first is laid by the mesh's first coordinates, as a map of normals has to be for its tangents.
+        // The first image decides which coordinates the mesh has. Tangents belong to these, so a normal map comes
+        // first.
         const bool is_layered = has_layers(pbr);
         std::optional<NormalMap> normals = is_layered ? normal_map() : std::nullopt;
         std::optional<Glowing> glowing = emission(is_layered);
@@ -246,7 +247,7 @@ class Materials::Maker {
         return {.color = base, .ior = ior, .roughness = alpha_, .perturbation = normals};
     }
 
-    // Whether it has an extension that only layers can show.
+    // Whether one of its extensions needs `principled`.
     bool has_layers(const Item& pbr) const {
         const auto has = [&](std::string_view name, std::string_view factor) {
             const auto found = extension(name);
@@ -280,7 +281,7 @@ class Materials::Maker {
         add_film(all);
         add_grain(all);
         if (!has_specular() || least_of(all.metalness) == 1.0f) return all;
-        // Of a metal, glTF's specular extension says nothing. Light that both emit cannot be mixed.
+        // glTF's specular extension does not apply to metal. A mix cannot contain materials that emit light.
         if (greatest_of(all.metalness) == 0.0f || all.emission) {
             if (greatest_of(all.metalness) > 0.0f)
                 note_loss("is partly metallic and emissive; its specular factors apply to its metal, too");
@@ -294,14 +295,14 @@ class Materials::Maker {
         return Mix{std::make_shared<const Mixture>(Mixture{std::move(all), std::move(metal)}), metallic_};
     }
 
-    // A factor, times a channel of an image: from `at_0`, where the channel is 0, to the factor.
+    // A factor times a channel of an image, if there is one: `at_0` where the channel is 0, `value` where it is 1.
     Number factor(const Item& owner, std::string_view texture_key, float value, int channel, ImageMeaning meaning,
                   float at_0 = 0) {
         const auto texture = owner.item(texture_key);
         const auto read = image(texture, meaning);
         if (!read) return value;
         const glm::vec2 range = read->image->range(channel);
-        // In quarters, so that images share the tables that are made for a range.
+        // Ranges are rounded to quarters, so that images share tables.
         return MeshImageNumber{.range = {at_0, value},
                                .image = read->image,
                                .of_image = {std::floor(4 * range.x) / 4, std::ceil(4 * range.y) / 4},
@@ -334,7 +335,7 @@ class Materials::Maker {
         const auto sheen = extension("KHR_materials_sheen");
         const glm::vec3 color = sheen ? fraction(sheen->vec3("sheenColorFactor", glm::vec3(0))) : glm::vec3(0);
         if (!(largest(color) > 0)) return;
-        // glTF's sheen hides the base by its largest component.
+        // In glTF, the largest component of the colour determines how much of the base is hidden.
         all.fuzz_weight = largest(color);
         all.fuzz_color = color_factor(*sheen, "sheenColorTexture", color / largest(color));
         all.fuzz_roughness = factor(*sheen, "sheenRoughnessTexture", fraction_of(*sheen, "sheenRoughnessFactor", 0), 0,
@@ -353,8 +354,8 @@ class Materials::Maker {
                                 ImageMeaning::numbers, thickness("iridescenceThicknessMinimum", 100)),
             .ior = std::clamp(film->number("iridescenceIor", 1.3f), 1.0f, 4.0f)};
     }
-    // glTF stretches the roughness along a direction in the tangent plane, to α + (1 − α) strength². Grooves run across
-    // it.
+    // glTF increases the roughness along a direction in the tangent plane, to α + (1 − α) strength². Grooves are
+    // perpendicular to it.
     void add_grain(Principled& all) {
         const auto anisotropy = extension("KHR_materials_anisotropy");
         const float strength = anisotropy ? fraction_of(*anisotropy, "anisotropyStrength", 0) : 0;

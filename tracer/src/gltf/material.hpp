@@ -7,7 +7,7 @@
 //     GGX is the square of the roughness.
 //   * The metal is a conductor whose reflectance at normal incidence is glTF's colour.
 //   * A material with a clear coat, sheen, specular factors, anisotropy or iridescence is `principled`
-//     (shading/bsdf/principled.hpp), and may emit light, too. Other materials do without its tables.
+//     (shading/bsdf/principled.hpp), and may emit light, too. Other materials avoid the cost of its tables.
 //   * Any other material that emits light is `glowing`. It reflects the rest diffusely, whatever its roughness. If an
 //     image makes most of it dark, as of lamps on a machine, it is a surface like others and does not emit.
 //   * Where the alpha of its colour counts, meshes have holes, or let the part 1 − alpha of the light through

@@ -108,7 +108,7 @@ struct Principled {
     Number film_weight = 1.0f;          ///< share of the surface that has the film
     std::optional<NormalPerturbation> perturbation{};
     std::optional<Grain> grain{};       ///< of the gloss and the metal; if set, `roughness` is that across it
-    std::optional<Glowing> emission{};  ///< its colour does not count
+    std::optional<Glowing> emission{};  ///< its colour is ignored
 
     /// Calls a function with each texture, and with each number that may vary.
     template <class Function>
@@ -209,7 +209,7 @@ inline Material vacuum() {
     return Clear{};
 }
 
-/// The emission of its surface; null if there is none. Of a layered surface, only what describes the light counts.
+/// The emission of its surface; null if there is none. Ignore the colour of that of a layered surface.
 inline const Glowing* emission_of(const Material& material) {
     if (const Principled* const layers = std::get_if<Principled>(&material))
         return layers->emission ? &*layers->emission : nullptr;
