@@ -20,6 +20,7 @@ GLASS = pt.phase("glass", pt.clear(ior=1.5))
 WATER = pt.phase("water", pt.clear(ior=1.33, absorption=(0.3, 0.1, 0.05)))
 BALL = pt.sphere(1).smooth(0.4) | pt.capsule((0, 0, 0), (0, 0, 1.5), 0.3)
 BOTTLE = BALL.thin_shell(GLASS, WATER, half_thickness=0.1)
+LAYERS = pt.principled((0.5, 0.1, 0.1), base_metalness=0.3, coat_weight=1, fuzz_weight=pt.numbers.field(pt.sphere(1), [(0, 0), (1, 0.5)]))
 CAMERA = pt.camera((0, -6, 1), look_at=(0, 0, 0.3))
 SKY = pt.lights.gradient((1, 1, 1), (0.7, 0.7, 0.7), (0.2, 0.2, 0.2))
 FLOOR = pt.meshes.floor(pt.coated(pt.textures.speckle((0.2, 0.1, 0.1), (0.4, 0.2, 0.2))), height=-1.2)
@@ -61,7 +62,7 @@ def examples():
         "Image": [SCENE.render(planes=["depth"])],
         "Measures": [BOTTLE.measure(tolerance=0.3)],
         "Object": [BOTTLE, pt.phase("bare")(BALL), BOTTLE.with_phases(WATER, GLASS)],
-        "Part": [GLASS.material, SKY, FLOOR, CAMERA, SCENE.image, pt.textures.speckle((0, 0, 0), (1, 1, 1))],
+        "Part": [GLASS.material, LAYERS, SKY, FLOOR, CAMERA, SCENE.image, pt.textures.speckle((0, 0, 0), (1, 1, 1))],
         "Phase": [GLASS, pt.phase("bare"), pt.vacuum],
         "PhaseMesh": [BOTTLE.mesh(0.3)],
         "Places": [pt.places("a", POINTS)],

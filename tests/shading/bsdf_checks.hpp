@@ -123,7 +123,7 @@ inline glm::vec3 direction(double theta_degrees, double phi_degrees = 30.0) {
 // The p-values of one BSDF seen from one direction, and of the same with defects of 1 %.
 struct BsdfReport {
     double directions;         // sampled directions against the pdf
-    double directions_skewed;  // the same with samples skewed by 1 %
+    double directions_skewed;  // the same with samples skewed by 1 %; 1 if that is not tried
     double directions_scaled;  // the same with the pdf scaled by 1.01
     double pdf_integral;       // at most 1
     double weight;             // mean weight against the integral of evaluate
@@ -131,15 +131,14 @@ struct BsdfReport {
     double albedo;             // integral of evaluate
 };
 
-inline BsdfReport examine(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::uint32_t seed) {
+inline BsdfReport examine(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::uint32_t seed, bool tries_skew = true) {
     const std::size_t samples = samples_to_detect(1e-4, direction_cells);
     const std::vector<double> pdf = integrate_cells([&](const glm::vec3& wi) { return bsdf.pdf(wo, wi); });
     const double albedo = total(integrate_cells([&](const glm::vec3& wi) { return bsdf.evaluate(wo, wi).x; }));
     const Sampled right = draw(bsdf, wo, samples, seed);
-    const Sampled skewed = draw(bsdf, wo, samples, seed, 1.01f);
     // The quadrature of `albedo` is good to some 1e-5.
     return {direction_p_value(right, pdf),
-            direction_p_value(skewed, pdf),
+            tries_skew ? direction_p_value(draw(bsdf, wo, samples, seed, 1.01f), pdf) : 1.0,
             direction_p_value(right, pdf, 1.01),
             total(pdf),
             mean_p_value(right.weight, albedo, 2e-5 * albedo),

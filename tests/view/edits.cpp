@@ -22,10 +22,10 @@ Scene ball(const std::string& material) {
                                           "ball.json"));
 }
 
-Clear edited_to(const view::Look& look) {
+Clear edited_to(const view::Look& look, const std::string& material = R"({"clear": {"glass": "sf11"}})") {
     view::Edits edits;
     edits.looks["glass"] = look;
-    return std::get<Clear>(view::edited(ball(R"({"clear": {"glass": "sf11"}})"), edits).materials[1]);
+    return std::get<Clear>(view::edited(ball(material), edits).materials[1]);
 }
 
 }  // namespace
@@ -50,6 +50,22 @@ TEST_CASE("a clear phase's colour is what is left of light after half the diagon
     CHECK(std::exp(-medium->absorption.rgb().z * half) == doctest::Approx(0.9).epsilon(1e-4));
 }
 
+TEST_CASE("an opaque phase made clear keeps its index, and the width of its gloss") {
+    const view::Look clear{.is_clear = true};
+    const Clear varnish = edited_to(clear, R"({"coated": {"color": [0.5, 0.5, 0.5], "ior": 1.7, "roughness": 0.25}})");
+    CHECK(varnish.ior == 1.7f);
+    CHECK(std::get<float>(varnish.roughness) == 0.25f);
+    // Roughness 0.5 of `principled` is α = 0.25 as well.
+    const std::string glossy = R"({"principled": {"specular_ior": 1.7, "specular_roughness": 0.5}})";
+    const Clear layers = edited_to(clear, glossy);
+    CHECK(layers.ior == 1.7f);
+    CHECK(std::get<float>(layers.roughness) == 0.25f);
+    // The page shows the same numbers.
+    const view::Optics shown = view::looking(view::optics_of(ball(glossy).materials[1], 1), clear);
+    CHECK(shown.ior == 1.7f);
+    CHECK(shown.roughness == 0.25f);
+}
+
 TEST_CASE("every kind of material tells its name and what of it can be changed") {
     struct Case {
         const char *material, *kind;
@@ -59,7 +75,8 @@ TEST_CASE("every kind of material tells its name and what of it can be changed")
     for (const Case& c : {Case{R"({"clear": {"ior": 1.5}})", "clear", true, true, true},
                           Case{R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "diffuse", true, false, true},
                           Case{R"({"conductor": {"metal": "gold"}})", "conductor", false, false, true},
-                          Case{R"({"coated": {"color": [0.5, 0.5, 0.5]}})", "coated", true, true, true}}) {
+                          Case{R"({"coated": {"color": [0.5, 0.5, 0.5]}})", "coated", true, true, true},
+                          Case{R"({"principled": {"coat_weight": 1}})", "principled", true, true, true}}) {
         CAPTURE(c.material);
         const view::Optics optics = view::optics_of(ball(c.material).materials[1], 1);
         CHECK(optics.kind == c.kind);

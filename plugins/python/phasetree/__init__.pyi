@@ -2702,6 +2702,41 @@ class materials:
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
+    def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+        r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other materials. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
+
+        base_color: Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; default 0.8. (colour or texture; default none)
+        base_weight: Multiplies the base colour. (number or field; at least 0 and at most 1; default 1)
+        base_diffuse_roughness: Roughness of the diffuse base: 0 is Lambert's law, 1 is clay. (number or field; at least 0 and at most 1; default 0)
+        base_metalness: 0 is a gloss over a diffuse base, 1 is metal. (number or field; at least 0 and at most 1; default 0)
+        specular_weight: Multiplies the reflectance of the gloss and of the metal. (number or field; at least 0 and at most 1; default 1)
+        specular_color: Tint of the gloss, and of the metal at 82° ("F82-tint"); default white. (colour or texture; default none)
+        specular_roughness: Roughness of the gloss and of the metal; its square is the α of GGX. With a grain, it applies across the grain. (number or field; at least 0 and at most 1; default 0.3)
+        specular_ior: Refractive index of the gloss. (number; at least 1 and at most 4; default 1.5)
+        grain_along: Brushed metal: direction of the grain, in the space of the object, or of the scene for a mesh; transforms within a tree do not rotate it. It is projected onto the surface; where the surface is perpendicular to it, the grain is arbitrary. The roughness applies across the grain and must not be 0. ([x, y, z], not all zero; default none)
+        grain_around: Instead of a direction, for metal turned on a lathe: direction of the axis around which the grain runs. ([x, y, z], not all zero; default none)
+        grain_through: With an axis: a point on it, in the space of the object, or of the scene for a mesh; by default the origin. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+        grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
+        coat_weight: Share of the surface that has a clear coat. (number or field; at least 0 and at most 1; default 0)
+        coat_color: Tint of light that crosses the coat twice at normal incidence; default white. (colour or texture; default none)
+        coat_roughness: Roughness of the coat. (number or field; at least 0 and at most 1; default 0)
+        coat_ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.6)
+        coat_darkening: How much the coat darkens the base by reflecting light back to it: 1 is physical, 0 keeps the base's colour. (number or field; at least 0 and at most 1; default 1)
+        fuzz_weight: Share of the surface that has fuzz: velvet, dust. (number or field; at least 0 and at most 1; default 0)
+        fuzz_color: Colour of the fuzz; default white. (colour or texture; default none)
+        fuzz_roughness: Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26. (number or field; at least 0 and at most 1; default 0.5)
+        film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
+        film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+        film_weight: With a film: share of the surface that has it. (number or field; at least 0 and at most 1; default 1)
+        emission_radiance: Radiance of the surface where the emission colour is 1, the same in all directions; n² times that inside a material of index n. (number; at least 0 and at most 1e12; default 0)
+        emission_color: Colour of the emitted light; default white. (colour or texture; default none)
+        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+        """
+    @staticmethod
     def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
         r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
@@ -2713,7 +2748,7 @@ class materials:
         """
     @staticmethod
     def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
-        r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing.
+        r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or emit light.
 
         first: Material where the amount is 0. (opaque material)
         second: Material where the amount is 1. (opaque material)
@@ -2792,6 +2827,41 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
+def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+    r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other materials. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
+
+    base_color: Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; default 0.8. (colour or texture; default none)
+    base_weight: Multiplies the base colour. (number or field; at least 0 and at most 1; default 1)
+    base_diffuse_roughness: Roughness of the diffuse base: 0 is Lambert's law, 1 is clay. (number or field; at least 0 and at most 1; default 0)
+    base_metalness: 0 is a gloss over a diffuse base, 1 is metal. (number or field; at least 0 and at most 1; default 0)
+    specular_weight: Multiplies the reflectance of the gloss and of the metal. (number or field; at least 0 and at most 1; default 1)
+    specular_color: Tint of the gloss, and of the metal at 82° ("F82-tint"); default white. (colour or texture; default none)
+    specular_roughness: Roughness of the gloss and of the metal; its square is the α of GGX. With a grain, it applies across the grain. (number or field; at least 0 and at most 1; default 0.3)
+    specular_ior: Refractive index of the gloss. (number; at least 1 and at most 4; default 1.5)
+    grain_along: Brushed metal: direction of the grain, in the space of the object, or of the scene for a mesh; transforms within a tree do not rotate it. It is projected onto the surface; where the surface is perpendicular to it, the grain is arbitrary. The roughness applies across the grain and must not be 0. ([x, y, z], not all zero; default none)
+    grain_around: Instead of a direction, for metal turned on a lathe: direction of the axis around which the grain runs. ([x, y, z], not all zero; default none)
+    grain_through: With an axis: a point on it, in the space of the object, or of the scene for a mesh; by default the origin. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
+    grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
+    coat_weight: Share of the surface that has a clear coat. (number or field; at least 0 and at most 1; default 0)
+    coat_color: Tint of light that crosses the coat twice at normal incidence; default white. (colour or texture; default none)
+    coat_roughness: Roughness of the coat. (number or field; at least 0 and at most 1; default 0)
+    coat_ior: Refractive index of the coat. (number; at least 1 and at most 4; default 1.6)
+    coat_darkening: How much the coat darkens the base by reflecting light back to it: 1 is physical, 0 keeps the base's colour. (number or field; at least 0 and at most 1; default 1)
+    fuzz_weight: Share of the surface that has fuzz: velvet, dust. (number or field; at least 0 and at most 1; default 0)
+    fuzz_color: Colour of the fuzz; default white. (colour or texture; default none)
+    fuzz_roughness: Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26. (number or field; at least 0 and at most 1; default 0.5)
+    film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
+    film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+    film_weight: With a film: share of the surface that has it. (number or field; at least 0 and at most 1; default 1)
+    emission_radiance: Radiance of the surface where the emission colour is 1, the same in all directions; n² times that inside a material of index n. (number; at least 0 and at most 1e12; default 0)
+    emission_color: Colour of the emitted light; default white. (colour or texture; default none)
+    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+    """
+
 def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
     r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
@@ -2803,7 +2873,7 @@ def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float
     """
 
 def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
-    r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing.
+    r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or emit light.
 
     first: Material where the amount is 0. (opaque material)
     second: Material where the amount is 1. (opaque material)

@@ -96,11 +96,11 @@ TEST_CASE("an extension that is required and not read is named, with what to do"
     CHECK(said_of(R"("KHR_meshopt_compression")") ==
           "it requires KHR_meshopt_compression, which phasetree cannot read; compress with EXT_meshopt_compression "
           "(gltfpack -c), or not at all");
-    CHECK(said_of(R"("KHR_materials_clearcoat")") ==
-          "it requires KHR_materials_clearcoat, which phasetree cannot read; export without it, or give the mesh a "
+    CHECK(said_of(R"("KHR_materials_unlit")") ==
+          "it requires KHR_materials_unlit, which phasetree cannot read; export without it, or give the mesh a "
           "\"material\" here");
     const std::string of_material =
-        Corner().file("\"extensionsRequired\": [\"KHR_materials_clearcoat\"], " + one_node + meshes(all_attributes));
+        Corner().file("\"extensionsRequired\": [\"KHR_materials_unlit\"], " + one_node + meshes(all_attributes));
     CHECK(gltf::read_gltf(of_material, gltf::ReadMaterials::none).not_shown.empty());
     CHECK(said_of(R"("ACME_teapot")") == "it requires ACME_teapot, which phasetree cannot read; export without it");
     // Messages quote nothing but names.
@@ -117,17 +117,18 @@ TEST_CASE("one sentence lists the extensions that are used and not read, and wha
     CHECK(sentences(plain).empty());
     CHECK(sentences(plain + R"(, "extensionsUsed": ["KHR_texture_transform", "KHR_xmp_json_ld", "KHR_materials_ior"])")
               .empty());
-    CHECK(sentences(plain + R"(, "extensionsUsed": ["KHR_materials_clearcoat", "KHR_lights_punctual", "ACME_teapot",
+    CHECK(sentences(plain + R"(, "extensionsUsed": ["KHR_materials_unlit", "KHR_lights_punctual", "ACME_teapot",
                                 "\u001b[2J", 7], "extensions": {"KHR_lights_punctual": {}})") ==
           std::vector<std::string>{
               "uses unsupported extensions: ACME_teapot (unknown), KHR_lights_punctual (missing: lights; add them to "
-              "\"lights\"), KHR_materials_clearcoat (missing: clear coats) and 2 more"});
+              "\"lights\"), KHR_materials_unlit (missing: unlit colours; surfaces are lit like others) and 2 more"});
     // Materials may have extensions that the document forgets to list.
-    const std::string sheen = R"("materials": [{"extensions": {"KHR_materials_sheen": {}}}])";
-    CHECK(sentences(sheen) ==
-          std::vector<std::string>{"uses unsupported extensions: KHR_materials_sheen (missing: sheen of cloth)"});
+    const std::string scattering = R"("materials": [{"extensions": {"KHR_materials_subsurface": {}}}])";
+    CHECK(sentences(scattering) ==
+          std::vector<std::string>{
+              "uses unsupported extensions: KHR_materials_subsurface (missing: subsurface scattering)"});
     // They do not matter if the scene has a material of its own.
-    CHECK(sentences(sheen + R"(, "extensionsUsed": ["KHR_materials_sheen", "EXT_texture_webp"])",
+    CHECK(sentences(scattering + R"(, "extensionsUsed": ["KHR_materials_subsurface", "EXT_texture_webp"])",
                     gltf::ReadMaterials::none)
               .empty());
     std::string many = "\"A\"";

@@ -101,12 +101,12 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     CHECK(some.not_shown.at(3) == "\"print\" is partly transmissive; it is rendered as opaque");
 
     const gltf::GltfFile odd =
-        file({R"({"name": "varnish", )" + plain + R"(, "extensions": {"KHR_materials_clearcoat": {},
+        file({R"({"name": "varnish", )" + plain + R"(, "extensions": {"KHR_materials_subsurface": {},
         "KHR_materials_\u001b[2J": {}}})",
               R"({"name": "dial", "emissiveFactor": [0.001, 0, 0]})"});
     CHECK(odd.not_shown.at(0) == "\"dial\" is faintly emissive; it is rendered without emission");
     CHECK(odd.not_shown.at(1) ==
-          "uses unsupported extensions: KHR_materials_clearcoat (missing: clear coats) and 1 more");
+          "uses unsupported extensions: KHR_materials_subsurface (missing: subsurface scattering) and 1 more");
     CHECK(std::holds_alternative<Conductor>(odd.parts.at(1).material));
     // Names are for people: one line, and short.
     const gltf::Part escape = part_of("{\"name\": \"a\\u001b[2Jb\\u009bc" + std::string(99, 'x') + "\"}");

@@ -49,6 +49,11 @@ TEST_CASE("a page shows each kind of material as what it is") {
     const Look varnish = look_of_material(R"({"coated": {"color": [0.1, 0.2, 0.3]}})");
     CHECK(varnish.kind == Look::coated);
     CHECK(varnish.color.z == doctest::Approx(0.3));
+    const Look layers = look_of_material(R"({"principled": {"base_color": [0.1, 0.2, 0.6], "base_weight": 0.5}})");
+    CHECK(layers.kind == Look::coated);
+    CHECK(layers.color.z == doctest::Approx(0.3));
+    CHECK(look_of_material(R"({"principled": {"base_metalness": 1}})").kind == Look::metal);
+    CHECK(look_of_material(R"({"principled": {"emission_radiance": 5}})").kind == Look::glowing);
     const Look gold = look_of_material(R"({"conductor": {"metal": "gold"}})");
     CHECK(gold.kind == Look::metal);
     CHECK(gold.color.x > gold.color.z);

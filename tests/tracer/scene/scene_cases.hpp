@@ -165,6 +165,11 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.of->second);
             }
             if constexpr (requires { m.color; }) tell(told, m.color);
+            if constexpr (requires { m.metalness; }) {
+                m.for_each_parameter([&](const auto& parameter) { tell(told, parameter); });
+                told.push_back(m.coat_ior);
+                if (m.emission) tell(told, tracer::Material(*m.emission));
+            }
             if constexpr (requires { m.light; }) {
                 tell(told, m.light);
                 told.push_back(m.radiance);
@@ -289,7 +294,7 @@ inline std::vector<Case> cases_of_materials() {
     // A bump needs a height, and a height a bump.
     const auto bumped = [](const std::string& needed, std::map<std::string, std::string> instead) {
         for (const char* const key : {"bump", "bump_height"})
-            instead[key] = needed + R"(, "bump": {"marble": {}}, "bump_height": 0.1)";
+            instead[key] = needed + (needed.empty() ? "" : ", ") + R"("bump": {"marble": {}}, "bump_height": 0.1)";
         return instead;
     };
     material("diffuse", R"("color": [0.1, 0.2, 0.3])", bumped(R"("color": [0.1, 0.2, 0.3])", {}));
@@ -307,6 +312,14 @@ inline std::vector<Case> cases_of_materials() {
     material(
         "coated", R"("color": [0.1, 0.2, 0.3])",
         bumped(R"("color": [0.1, 0.2, 0.3])", {{"film_ior", R"("color": [0.1, 0.2, 0.3], "film_thickness": 300)"}}));
+    material("principled", "",
+             bumped("", {{"film_ior", R"("film_thickness": 300)"},
+                         {"film_weight", R"("film_thickness": 300)"},
+                         {"grain_through", R"("grain_around": [0, 0, 1])"},
+                         {"grain_aspect", R"("grain_along": [1, 0, 0])"},
+                         {"emission_color", R"("emission_radiance": 1)"},
+                         {"emission_spectrum", R"("emission_radiance": 1)"},
+                         {"group", R"("emission_radiance": 1)"}}));
     material("glowing", "");
     material("mix", R"("first": {"diffuse": {"color": [0.1, 0.2, 0.3]}}, "second": {"diffuse": {"color": [1, 1, 1]}})");
     return all;

@@ -48,6 +48,9 @@ TEST_CASE("spectral furnace: all kinds of surfaces and media give back what they
              Case{R"({"diffuse": {"color": [1, 1, 1]}})"},
              Case{R"({"coated": {"color": [1, 1, 1], "roughness": 0.2, "film_thickness": 300}})"},
              Case{R"({"coated": {"color": [1, 1, 1], "film_thickness": 300}})"},
+             Case{R"({"principled": {"base_color": [1, 1, 1], "base_metalness": 0.5, "coat_weight": 0.5,
+                                     "fuzz_weight": 0.5}})"},
+             Case{R"({"principled": {"base_color": [1, 1, 1], "film_thickness": 300, "film_weight": 0.5}})"},
              Case{R"({"conductor": {"eta": [1, 1, 1], "k": [1e6, 1e6, 1e6], "roughness": 0.3}})"},
          }) {
         CAPTURE(c.material);

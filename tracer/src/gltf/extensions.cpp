@@ -24,7 +24,7 @@ enum class Use {
 struct Extension {
     std::string_view name;
     Use use;
-    std::string_view missing = "";                  // what the picture lacks, if it is not read
+    std::string_view missing = "";                  // what the picture lacks where it is not read
     std::string_view remedy = "export without it";  // what to do about a file that requires it
 };
 
@@ -34,8 +34,13 @@ constexpr std::array known_extensions{
     Extension{"EXT_mesh_gpu_instancing", Use::read},
     Extension{"EXT_meshopt_compression", Use::read},
     Extension{"KHR_draco_mesh_compression", Use::read},
+    Extension{"KHR_materials_anisotropy", Use::read, "anisotropic reflections"},
+    Extension{"KHR_materials_clearcoat", Use::read, "clear coats"},
     Extension{"KHR_materials_emissive_strength", Use::read},
     Extension{"KHR_materials_ior", Use::read},
+    Extension{"KHR_materials_iridescence", Use::read, "thin films"},
+    Extension{"KHR_materials_sheen", Use::read, "sheen of cloth"},
+    Extension{"KHR_materials_specular", Use::read, "the strength and colour of specular reflection"},
     Extension{"KHR_materials_transmission", Use::read},
     Extension{"KHR_mesh_quantization", Use::read},
     Extension{"KHR_node_visibility", Use::read},
@@ -76,16 +81,11 @@ constexpr std::array known_extensions{
     Extension{"EXT_texture_avif", Use::refused, "images in AVIF", as_png},
     Extension{"EXT_texture_webp", Use::refused, "images in WebP", as_png},
     Extension{"KHR_gaussian_splatting", Use::refused, "Gaussian splats", "export triangles"},
-    Extension{"KHR_materials_anisotropy", Use::refused, "anisotropic reflections"},
-    Extension{"KHR_materials_clearcoat", Use::refused, "clear coats"},
     Extension{"KHR_materials_diffuse_roughness", Use::refused, "the roughness of diffuse reflection"},
     Extension{"KHR_materials_diffuse_transmission", Use::refused, "transmission through thin surfaces"},
     Extension{"KHR_materials_dispersion", Use::refused, "dispersion"},
-    Extension{"KHR_materials_iridescence", Use::refused, "thin films"},
     Extension{"KHR_materials_pbrSpecularGlossiness", Use::refused, "colours of the specular-glossiness workflow",
               "export metallic-roughness materials"},
-    Extension{"KHR_materials_sheen", Use::refused, "sheen of cloth"},
-    Extension{"KHR_materials_specular", Use::refused, "the strength and colour of specular reflection"},
     Extension{"KHR_materials_subsurface", Use::refused, "subsurface scattering"},
     Extension{"KHR_materials_unlit", Use::refused, "unlit colours; surfaces are lit like others"},
     Extension{"KHR_materials_volume", Use::refused, "absorption inside clear materials"},
@@ -102,8 +102,7 @@ constexpr std::array known_extensions{
 };
 
 // Read where clear materials become phases.
-constexpr std::array<std::string_view, 3> extensions_of_phases{"KHR_materials_dispersion", "KHR_materials_iridescence",
-                                                               "KHR_materials_volume"};
+constexpr std::array<std::string_view, 2> extensions_of_phases{"KHR_materials_dispersion", "KHR_materials_volume"};
 
 const Extension* find(std::string_view name) {
     const auto* const found = std::ranges::find(known_extensions, name, &Extension::name);

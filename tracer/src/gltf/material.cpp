@@ -56,11 +56,19 @@ class Materials::Maker {
         if (const auto extensions = item_.item("extensions")) made_.extensions = extensions->keys();
         if (!given && extension("KHR_materials_pbrSpecularGlossiness"))
             note_loss("uses the specular-glossiness workflow, which is not supported; it is rendered as a white metal");
-        // What is laid first is laid by the mesh's first coordinates, as a map of normals has to be for its tangents.
-        std::optional<Glowing> glowing = emission();
-        const std::optional<NormalMap> normals = glowing ? std::nullopt : normal_map();
+        // The first image decides which coordinates the mesh has. Tangents belong to these, so a normal map comes
+        // first.
+        const bool is_layered = has_layers(pbr);
+        std::optional<NormalMap> normals = is_layered ? normal_map() : std::nullopt;
+        std::optional<Glowing> glowing = emission(is_layered);
+        if (!glowing && !is_layered) normals = normal_map();
         read_color(pbr, by_vertices);
         read_opacity(pbr, by_vertices);
+        if (is_layered) {
+            read_roughness(pbr);
+            made_.material = layers(normals, std::move(glowing));
+            return;
+        }
         if (glowing) {
             glowing->color = color_;
             made_.material = std::move(*glowing);
@@ -156,8 +164,10 @@ class Materials::Maker {
     void read_roughness(const Item& pbr) {
         const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
         metallic_ = metallic;
+        mean_roughness_ = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
         // Surfaces of one roughness share their tables, which take a tenth of a second. No eye sees a 64th.
         const float roughness = std::round(32 * std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f)) / 32;
+        roughness_ = roughness;
         alpha_ = roughness * roughness;
         const auto texture = pbr.item("metallicRoughnessTexture");
         if (const auto read = image(texture, ImageMeaning::numbers)) {
@@ -173,6 +183,10 @@ class Materials::Maker {
                                      .channel = 1,
                                      .is_squared = true,
                                      .coordinates = coordinates};
+            MeshImageNumber perceived = std::get<MeshImageNumber>(alpha_);
+            perceived.is_squared = false;
+            roughness_ = perceived;
+            mean_roughness_ *= read->mean.y;
         }
     }
 
@@ -185,7 +199,7 @@ class Materials::Maker {
     }
 
     // What it emits, without its colour; nothing if it is dark.
-    std::optional<Glowing> emission() {
+    std::optional<Glowing> emission(bool keeps_normal_map) {
         const glm::vec3 emissive = item_.vec3("emissiveFactor", glm::vec3(0));
         const auto strength = extension("KHR_materials_emissive_strength");
         const float radiance = largest(emissive) * (strength ? strength->number("emissiveStrength", 1) : 1.0f);
@@ -207,7 +221,8 @@ class Materials::Maker {
             light.image = read->image;
             light.coordinates = lay(*texture, *read);
         }
-        if (item_.has("normalTexture")) note_loss("is emissive and has a normal map, which is ignored");
+        if (item_.has("normalTexture") && !keeps_normal_map)
+            note_loss("is emissive and has a normal map, which is ignored");
         return Glowing{.light = light, .radiance = radiance};
     }
 
@@ -218,14 +233,152 @@ class Materials::Maker {
         return metal;
     }
 
-    Coated coated(const std::optional<NormalMap>& normals) const {
+    float index() const {
         const auto ior_extension = extension("KHR_materials_ior");
         // 0 is glTF's word for a surface whose reflection other extensions say.
         const float wanted = ior_extension ? ior_extension->number("ior", 1.5f) : 1.5f;
-        const float ior = wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
+        return wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
+    }
+
+    Coated coated(const std::optional<NormalMap>& normals) const {
+        const float ior = index();
         TintedMeshImage base = color_;
         base.internal_reflectance = CoatingAlbedo(ior, 0.0f).at(0.0f).internal().x;
         return {.color = base, .ior = ior, .roughness = alpha_, .perturbation = normals};
+    }
+
+    // Whether one of its extensions needs `principled`.
+    bool has_layers(const Item& pbr) const {
+        const auto has = [&](std::string_view name, std::string_view factor) {
+            const auto found = extension(name);
+            return found && found->number(factor, 0) > 0;
+        };
+        const auto sheen = extension("KHR_materials_sheen");
+        const bool is_metal = pbr.number("metallicFactor", 1) > nearly_all && !pbr.has("metallicRoughnessTexture");
+        return has("KHR_materials_clearcoat", "clearcoatFactor") ||
+               has("KHR_materials_anisotropy", "anisotropyStrength") ||
+               has("KHR_materials_iridescence", "iridescenceFactor") ||
+               (sheen && largest(sheen->vec3("sheenColorFactor", glm::vec3(0))) > 0) || (has_specular() && !is_metal);
+    }
+    bool has_specular() const {
+        const auto specular = extension("KHR_materials_specular");
+        return specular && (specular->number("specularFactor", 1) != 1 || specular->has("specularTexture") ||
+                            specular->has("specularColorTexture") ||
+                            specular->vec3("specularColorFactor", glm::vec3(1)) != glm::vec3(1));
+    }
+
+    Material layers(const std::optional<NormalMap>& normals, std::optional<Glowing> glowing) {
+        Principled all{.color = color_,
+                       .metalness = metallic_,
+                       .roughness = roughness_,
+                       .ior = index(),
+                       .perturbation = normals,
+                       .emission = std::move(glowing)};
+        if (least_of(metallic_) > nearly_all) all.metalness = 1.0f;
+        if (greatest_of(metallic_) < 1 - nearly_all) all.metalness = 0.0f;
+        add_coat(all);
+        add_fuzz(all);
+        add_film(all);
+        add_grain(all);
+        if (!has_specular() || least_of(all.metalness) == 1.0f) return all;
+        // glTF's specular extension does not apply to metal. A mix cannot contain materials that emit light.
+        if (greatest_of(all.metalness) == 0.0f || all.emission) {
+            if (greatest_of(all.metalness) > 0.0f)
+                note_loss("is partly metallic and emissive; its specular factors apply to its metal, too");
+            add_specular(all);
+            return all;
+        }
+        Principled metal = all;
+        metal.metalness = 1.0f;
+        all.metalness = 0.0f;
+        add_specular(all);
+        return Mix{std::make_shared<const Mixture>(Mixture{std::move(all), std::move(metal)}), metallic_};
+    }
+
+    // A factor times a channel of an image, if there is one: `at_0` where the channel is 0, `value` where it is 1.
+    Number factor(const Item& owner, std::string_view texture_key, float value, int channel, ImageMeaning meaning,
+                  float at_0 = 0) {
+        const auto texture = owner.item(texture_key);
+        const auto read = image(texture, meaning);
+        if (!read) return value;
+        const glm::vec2 range = read->image->range(channel);
+        // Ranges are rounded to quarters, so that images share tables.
+        return MeshImageNumber{.range = {at_0, value},
+                               .image = read->image,
+                               .of_image = {std::floor(4 * range.x) / 4, std::ceil(4 * range.y) / 4},
+                               .channel = channel,
+                               .coordinates = lay(*texture, *read)};
+    }
+    Texture color_factor(const Item& owner, std::string_view texture_key, const glm::vec3& value) {
+        const auto texture = owner.item(texture_key);
+        const auto read = image(texture, ImageMeaning::colors);
+        if (!read) return ConstantTexture{fraction(value)};
+        return TintedMeshImage{.factor = fraction(value), .image = read->image, .coordinates = lay(*texture, *read)};
+    }
+    static float fraction_of(const Item& owner, std::string_view key, float otherwise) {
+        return std::clamp(owner.number(key, otherwise), 0.0f, 1.0f);
+    }
+
+    void add_coat(Principled& all) {
+        const auto coat = extension("KHR_materials_clearcoat");
+        const float weight = coat ? fraction_of(*coat, "clearcoatFactor", 0) : 0;
+        if (!(weight > 0)) return;
+        all.coat_weight = factor(*coat, "clearcoatTexture", weight, 0, ImageMeaning::numbers);
+        all.coat_roughness = factor(*coat, "clearcoatRoughnessTexture",
+                                    fraction_of(*coat, "clearcoatRoughnessFactor", 0), 1, ImageMeaning::numbers);
+        all.coat_ior = 1.5f;
+        all.coat_darkening = 0.0f;  // glTF has none
+        if (all.perturbation.has_value() != coat->has("clearcoatNormalTexture"))
+            note_loss("has different normals on its clear coat, which are ignored; it has those of the base");
+    }
+    void add_fuzz(Principled& all) {
+        const auto sheen = extension("KHR_materials_sheen");
+        const glm::vec3 color = sheen ? fraction(sheen->vec3("sheenColorFactor", glm::vec3(0))) : glm::vec3(0);
+        if (!(largest(color) > 0)) return;
+        // In glTF, the largest component of the colour determines how much of the base is hidden.
+        all.fuzz_weight = largest(color);
+        all.fuzz_color = color_factor(*sheen, "sheenColorTexture", color / largest(color));
+        all.fuzz_roughness = factor(*sheen, "sheenRoughnessTexture", fraction_of(*sheen, "sheenRoughnessFactor", 0), 0,
+                                    ImageMeaning::alpha);
+    }
+    void add_film(Principled& all) {
+        const auto film = extension("KHR_materials_iridescence");
+        const float weight = film ? fraction_of(*film, "iridescenceFactor", 0) : 0;
+        if (!(weight > 0)) return;
+        const auto thickness = [&](std::string_view key, float otherwise) {
+            return std::clamp(film->number(key, otherwise), 0.0f, ThinFilm::thickest);
+        };
+        all.film_weight = factor(*film, "iridescenceTexture", weight, 0, ImageMeaning::numbers);
+        all.film = SurfaceFilm{
+            .thickness = factor(*film, "iridescenceThicknessTexture", thickness("iridescenceThicknessMaximum", 400), 1,
+                                ImageMeaning::numbers, thickness("iridescenceThicknessMinimum", 100)),
+            .ior = std::clamp(film->number("iridescenceIor", 1.3f), 1.0f, 4.0f)};
+    }
+    // glTF increases the roughness along a direction in the tangent plane, to α + (1 − α) strength². Grooves are
+    // perpendicular to it.
+    void add_grain(Principled& all) {
+        const auto anisotropy = extension("KHR_materials_anisotropy");
+        const float strength = anisotropy ? fraction_of(*anisotropy, "anisotropyStrength", 0) : 0;
+        if (!(strength > 0)) return;
+        if (anisotropy->has("anisotropyTexture")) note_loss("has an image of its anisotropy, which is ignored");
+        if (!std::holds_alternative<float>(roughness_))
+            note_loss("is anisotropic and has an image of its roughness, whose mean is used");
+        const float alpha = std::max(mean_roughness_ * mean_roughness_, 1e-3f);
+        const float stretched = alpha + (1 - alpha) * strength * strength;
+        const float turn = anisotropy->number("anisotropyRotation", 0);
+        all.roughness = std::sqrt(stretched);
+        all.grain = Grain{.aspect = std::clamp(alpha / stretched, 0.1f, 1.0f),
+                          .in_tangents = glm::vec2(-std::sin(turn), std::cos(turn))};
+        // Tangents are those of texture coordinates.
+        if (!made_.coordinates) made_.coordinates = Coordinates();
+    }
+    void add_specular(Principled& all) {
+        const auto specular = extension("KHR_materials_specular");
+        const glm::vec3 color = specular->vec3("specularColorFactor", glm::vec3(1));
+        if (largest(color) > 1) note_loss("has a specular colour above 1, which is clamped");
+        all.specular_weight =
+            factor(*specular, "specularTexture", fraction_of(*specular, "specularFactor", 1), 0, ImageMeaning::alpha);
+        all.specular_color = color_factor(*specular, "specularColorTexture", color);
     }
 
     Images& images_;
@@ -234,7 +387,8 @@ class Materials::Maker {
     NamedMaterial& made_;
     TintedMeshImage color_;
     Number metallic_ = 1.0f;
-    Number alpha_ = 1.0f;  // of GGX
+    Number roughness_ = 1.0f, alpha_ = 1.0f;  // alpha_ is that of GGX, the square
+    float mean_roughness_ = 1.0f;
 };
 
 NamedMaterial Materials::make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from) {

@@ -6,8 +6,10 @@
 //     is chosen so that it looks like glTF's colour under the coat (texture/tinted_mesh_image.hpp). As in glTF, α of
 //     GGX is the square of the roughness.
 //   * The metal is a conductor whose reflectance at normal incidence is glTF's colour.
-//   * What emits light is `glowing`, and reflects the rest diffusely, whatever its roughness; but if an image says that
-//     most of it emits none, as of lamps on a machine, it is a surface like others, and dark.
+//   * A material with a clear coat, sheen, specular factors, anisotropy or iridescence is `principled`
+//     (shading/bsdf/principled.hpp), and may emit light, too. Other materials avoid the cost of its tables.
+//   * Any other material that emits light is `glowing`. It reflects the rest diffusely, whatever its roughness. If an
+//     image makes most of it dark, as of lamps on a machine, it is a surface like others and does not emit.
 //   * Where the alpha of its colour counts, meshes have holes, or let the part 1 − alpha of the light through
 //   (shading/opacity.hpp).
 // Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. They

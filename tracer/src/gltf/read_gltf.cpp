@@ -197,7 +197,7 @@ class Reader {
             source.indices.emplace(accessors_.read(primitive.needed_index("indices"), primitive));
         if ((!source.texture || (begun.second_set && !source.second_texture)) && begun.has_images &&
             !begun.lacks_texture)
-            say(fmt::format("\"{}\" has images, but some of its meshes have no texture coordinates", begun.part.name));
+            say(fmt::format("\"{}\" needs texture coordinates, which some of its meshes lack", begun.part.name));
         begun.lacks_texture = begun.lacks_texture || !source.texture;
         if (placed.weights) add_targets(primitive, source);
         add_triangles(primitive, source, begun);
@@ -268,15 +268,16 @@ class Reader {
             begin_clear(key.material, std::move(made));
             return false;
         }
-        const bool has_map = normal_map_of(made.material) != nullptr;
-        parts_[key] = {.part = {.name = std::move(made.name),
-                                .material = std::move(made.material),
-                                .opacity = std::move(made.opacity)},
-                       .coordinates = made.coordinates.value_or(Coordinates()),
-                       .has_images = made.coordinates.has_value(),
-                       .second_set = made.second_set,
-                       // The file's tangents are those of its own coordinates, and only a map of normals needs them.
-                       .drops_tangents = !has_map || made.coordinates != Coordinates()};
+        const bool has_tangents = needs_tangents(made.material);
+        parts_[key] = {
+            .part = {.name = std::move(made.name),
+                     .material = std::move(made.material),
+                     .opacity = std::move(made.opacity)},
+            .coordinates = made.coordinates.value_or(Coordinates()),
+            .has_images = made.coordinates.has_value(),
+            .second_set = made.second_set,
+            // The file's tangents are those of its own coordinates, and only normal maps and anisotropy need them.
+            .drops_tangents = !has_tangents || made.coordinates != Coordinates()};
         return true;
     }
 

@@ -93,6 +93,15 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
             if constexpr (requires { m.interior; }) {
                 look.ior = m.ior;
                 show(m.interior, bounds, look);
+            } else if constexpr (requires { m.metalness; }) {
+                const bool is_metal = number_at(m.metalness, TexturePoint(bounds.centre())) >= 0.5f;
+                look.kind = is_metal ? Look::metal : Look::coated;
+                look.color = number_at(m.base_weight, TexturePoint(bounds.centre())) * mean(m.color, bounds);
+                if (glows(material)) {
+                    const Glowing& emission = *m.emission;
+                    show_light(emission.radiance * light_of(mean(emission.light, bounds), emission.spectrum, nullptr),
+                               look);
+                }
             } else if constexpr (requires { m.eta; }) {
                 look.kind = Look::metal;
                 look.color = m.reflectance ? mean(*m.reflectance, bounds) : reflectance(m);

@@ -110,7 +110,7 @@ void add_objects(Scene& scene) {
 
 void find_emissive_parts(Scene& scene) {
     const auto join_group = [&](Material& material) {
-        if (Glowing* glowing = std::get_if<Glowing>(&material))
+        if (Glowing* glowing = emission_of(material))
             glowing->group_number = static_cast<std::uint32_t>(scene.lights.group_of(glowing->group));
     };
     for (Material& material : scene.materials) join_group(material);

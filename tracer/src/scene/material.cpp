@@ -38,7 +38,7 @@ std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
     return Bump{*bump_texture, *bump_height};
 }
 
-std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
+std::optional<Grain> GrainParameters::grain(const Number& roughness, std::string_view roughness_key) const {
     const auto wrong = [](const char* key, const char* what) {
         throw ParameterError(key, what, ParameterError::Place::key);
     };
@@ -51,7 +51,11 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness) const {
     }
     const char* const key = grain_along ? "grain_along" : "grain_around";
     if (is_smooth(greatest_of(roughness)))
-        wrong(key, "a grain needs a rough metal; give it a \"roughness\", which applies across the grain");
+        throw ParameterError(
+            key,
+            fmt::format("a grain needs a rough surface; give it a \"{}\", which applies across the grain",
+                        roughness_key),
+            ParameterError::Place::key);
     Grain grain{.axis = glm::vec3(glm::normalize(glm::dvec3(grain_along ? *grain_along : *grain_around)))};
     if (grain_around) grain.through = grain_through.value_or(glm::vec3(0.0f));
     if (grain_aspect) grain.aspect = *grain_aspect;
@@ -116,10 +120,38 @@ Conductor ConductorParameters::made() const {
     return {*eta, *k, roughness, film(), {}, perturbation(), grain(roughness)};
 }
 
+Principled PrincipledParameters::made() const {
+    Principled made{.base_weight = base_weight,
+                    .color = base_color,
+                    .diffuse_roughness = base_diffuse_roughness,
+                    .metalness = base_metalness,
+                    .specular_weight = specular_weight,
+                    .specular_color = specular_color,
+                    .roughness = specular_roughness,
+                    .ior = specular_ior,
+                    .coat_weight = coat_weight,
+                    .coat_color = coat_color,
+                    .coat_roughness = coat_roughness,
+                    .coat_ior = coat_ior,
+                    .coat_darkening = coat_darkening,
+                    .fuzz_weight = fuzz_weight,
+                    .fuzz_color = fuzz_color,
+                    .fuzz_roughness = fuzz_roughness,
+                    .film = film(),
+                    .film_weight = film_weight,
+                    .perturbation = perturbation(),
+                    .grain = grain(specular_roughness, "specular_roughness")};
+    if (emission_radiance > 0.0f)
+        made.emission = Glowing{.light = emission_color,
+                                .radiance = emission_radiance,
+                                .spectrum = emission_spectrum,
+                                .group = checked_group(group)};
+    return made;
+}
+
 Mix MixParameters::made() const {
     for (const auto& [key, material] : {std::pair("first", &first), {"second", &second}})
-        if (std::holds_alternative<Glowing>(*material))
-            throw ParameterError(key, "a mix cannot contain a \"glowing\" material");
+        if (emission_of(*material)) throw ParameterError(key, "a mix cannot contain a material that emits light");
     return {std::make_shared<const Mixture>(Mixture{first, second}), amount};
 }
 

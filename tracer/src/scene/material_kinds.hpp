@@ -229,8 +229,9 @@ struct GrainParameters {
                     "With a grain: ratio of the roughness along the grain to that across it; default 0.2.",
                     Limits{.low = 0.1f, .high = 1}, true});
     }
-    /// `roughness` is that of the metal. Throws ParameterError for inconsistent parameters.
-    std::optional<Grain> grain(const Number& roughness) const;
+    /// `roughness` is that of the surface, and `roughness_key` its name. Throws ParameterError for inconsistent
+    /// parameters.
+    std::optional<Grain> grain(const Number& roughness, std::string_view roughness_key = "roughness") const;
 };
 
 struct ConductorParameters : FilmParameters, PerturbationParameters, GrainParameters {
@@ -282,6 +283,91 @@ struct CoatedParameters : FilmParameters, PerturbationParameters {
     Coated made() const { return {color, ior, roughness, film(), perturbation()}; }
 };
 
+struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParameters {
+    static constexpr KindInfo info{
+        "principled",
+        "Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a "
+        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other "
+        "materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
+
+    Number base_weight = Principled{}.base_weight;
+    Texture base_color = Principled{}.color;
+    Number base_diffuse_roughness = Principled{}.diffuse_roughness;
+    Number base_metalness = Principled{}.metalness;
+    Number specular_weight = Principled{}.specular_weight;
+    Texture specular_color = Principled{}.specular_color;
+    Number specular_roughness = Principled{}.roughness;
+    float specular_ior = Principled{}.ior;
+    Number coat_weight = Principled{}.coat_weight;
+    Texture coat_color = Principled{}.coat_color;
+    Number coat_roughness = Principled{}.coat_roughness;
+    float coat_ior = Principled{}.coat_ior;
+    Number coat_darkening = Principled{}.coat_darkening;
+    Number fuzz_weight = Principled{}.fuzz_weight;
+    Texture fuzz_color = Principled{}.fuzz_color;
+    Number fuzz_roughness = Principled{}.fuzz_roughness;
+    Number film_weight = Principled{}.film_weight;
+    float emission_radiance = 0.0f;
+    Texture emission_color = Glowing{}.light;
+    SharedLightSpectrum emission_spectrum{};
+    std::string group{default_group};
+
+    template <class V>
+    static void parameters(V&& v) {
+        using P = PrincipledParameters;
+        const auto fraction = [&](auto member, const char* name, const char* text) {
+            v(member, Parameter{name, "", text, limits::fraction, true});
+        };
+        const auto color = [&](auto member, const char* name, const char* text) {
+            v(member, Parameter{name, "", text, limits::any, true});
+        };
+        color(&P::base_color, "base_color",
+              "Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; "
+              "default 0.8.");
+        fraction(&P::base_weight, "base_weight", "Multiplies the base colour.");
+        fraction(&P::base_diffuse_roughness, "base_diffuse_roughness",
+                 "Roughness of the diffuse base: 0 is Lambert's law, 1 is clay.");
+        fraction(&P::base_metalness, "base_metalness", "0 is a gloss over a diffuse base, 1 is metal.");
+        fraction(&P::specular_weight, "specular_weight", "Multiplies the reflectance of the gloss and of the metal.");
+        color(&P::specular_color, "specular_color",
+              "Tint of the gloss, and of the metal at 82° (\"F82-tint\"); default white.");
+        fraction(&P::specular_roughness, "specular_roughness",
+                 "Roughness of the gloss and of the metal; its square is the α of GGX. With a grain, it applies across "
+                 "the grain.");
+        v(&P::specular_ior,
+          Parameter{"specular_ior", "", "Refractive index of the gloss.", Limits{.low = 1, .high = 4}, true});
+        grain_parameters<P>(v);
+        fraction(&P::coat_weight, "coat_weight", "Share of the surface that has a clear coat.");
+        color(&P::coat_color, "coat_color",
+              "Tint of light that crosses the coat twice at normal incidence; default white.");
+        fraction(&P::coat_roughness, "coat_roughness", "Roughness of the coat.");
+        v(&P::coat_ior, Parameter{"coat_ior", "", "Refractive index of the coat.", Limits{.low = 1, .high = 4}, true});
+        fraction(&P::coat_darkening, "coat_darkening",
+                 "How much the coat darkens the base by reflecting light back to it: 1 is physical, 0 keeps the base's "
+                 "colour.");
+        fraction(&P::fuzz_weight, "fuzz_weight", "Share of the surface that has fuzz: velvet, dust.");
+        color(&P::fuzz_color, "fuzz_color", "Colour of the fuzz; default white.");
+        fraction(&P::fuzz_roughness, "fuzz_roughness",
+                 "Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26.");
+        film_parameters<P>(v);
+        fraction(&P::film_weight, "film_weight", "With a film: share of the surface that has it.");
+        v(&P::emission_radiance,
+          Parameter{"emission_radiance", "",
+                    "Radiance of the surface where the emission colour is 1, the same in all directions; n² times that "
+                    "inside a material of index n.",
+                    Limits{.low = 0, .high = 1e12f}, true});
+        color(&P::emission_color, "emission_color", "Colour of the emitted light; default white.");
+        v(&P::emission_spectrum,
+          Parameter{
+              "emission_spectrum", "",
+              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
+              limits::any, true});
+        v(&P::group, group_parameter);
+        perturbation_parameters<P>(v);
+    }
+    Principled made() const;
+};
+
 struct GlowingParameters {
     static constexpr KindInfo info{"glowing", "Embers, lava, a filament, a screen: emits equally in all directions."};
 
@@ -308,7 +394,8 @@ struct GlowingParameters {
 
 struct MixParameters {
     static constexpr KindInfo info{
-        "mix", "A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or glowing."};
+        "mix",
+        "A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or emit light."};
 
     Material first{};
     Material second{};
@@ -326,7 +413,7 @@ struct MixParameters {
 };
 
 using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters,
-                               GlowingParameters, MixParameters>;
+                               PrincipledParameters, GlowingParameters, MixParameters>;
 
 // A material missing from the list fails to compile here.
 template <class... Kinds, class... Materials>

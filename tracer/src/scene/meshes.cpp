@@ -68,7 +68,8 @@ MeshGroup read_meshes(const Document& document, Value list) {
                     MeshGroup made = group_of(kind.made(), name);
                     for (Mesh& mesh : made.meshes) {
                         check_textures(mesh);
-                        if (normal_map_of(mesh.material) && mesh.tangents.empty()) mesh.tangents = tangents_of(mesh);
+                        if (needs_tangents(mesh.material) && mesh.tangents.empty() && !mesh.uv.empty())
+                            mesh.tangents = tangents_of(mesh);
                     }
                     return made;
                 });

@@ -96,8 +96,7 @@ std::vector<EmissiveBall> parts_of_mesh(const Mesh& mesh) {
         }
     }
     std::vector<EmissiveBall> parts;
-    for (const Set& set : sets)
-        parts.push_back(part_in(set.bounds, luminance_of(set, std::get<Glowing>(mesh.material))));
+    for (const Set& set : sets) parts.push_back(part_in(set.bounds, luminance_of(set, *emission_of(mesh.material))));
     return parts;
 }
 

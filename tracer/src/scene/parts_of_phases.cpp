@@ -127,6 +127,9 @@ class Brightness {
         }
         return glowing.radiance * sum / std::max(near_surface, places_near_even_surface);
     }
+    float of(const Principled& layers, const Bounds& box) const {
+        return layers.emission ? of(*layers.emission, box) : 0.0f;
+    }
     // The radiance that the medium in the box would emit without absorption, averaged over the ball's cross section,
     // and at most that of an infinitely deep medium.
     float of(const Clear& clear, const Bounds& box) const {
@@ -155,7 +158,7 @@ class Brightness {
 
     // The brightness if the whole box emits.
     float most(const Bounds& box) const {
-        if (const Glowing* glowing = std::get_if<Glowing>(&material_)) return glowing->radiance;
+        if (const Glowing* glowing = emission_of(material_)) return glowing->radiance;
         const Medium& medium = std::get<Clear>(material_).interior;
         return luminance(emission(medium) / glm::max(extinction(medium), 1.0f / box.diagonal()));
     }

@@ -14,6 +14,7 @@
 #include "shading/bsdf/coated_diffuse.hpp"
 #include "shading/bsdf/contract.hpp"
 #include "shading/bsdf/diffuse.hpp"
+#include "shading/bsdf/principled.hpp"
 #include "shading/bsdf/rough_conductor.hpp"
 #include "shading/bsdf/rough_dielectric.hpp"
 #include "shading/bsdf/rough_diffuse.hpp"
@@ -35,7 +36,7 @@ using BsdfOf = std::variant<typename CheckedBsdf<Kinds>::Type...>;
 
 /// Every kind of BSDF.
 using AnyBsdf = BsdfOf<DiffuseBsdf, RoughDiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf,
-                       RoughConductorBsdf, CoatedDiffuseBsdf>;
+                       RoughConductorBsdf, CoatedDiffuseBsdf, PrincipledBsdf>;
 
 class Bsdf {
   public:
@@ -68,11 +69,13 @@ class Bsdf {
     }
     /// Whether it has a diffuse lobe, so that light from nearly any direction contributes.
     bool is_diffuse() const {
+        if (const auto* principled = std::get_if<PrincipledBsdf>(&kind_)) return principled->is_diffuse();
         return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<RoughDiffuseBsdf>(kind_) ||
                std::holds_alternative<CoatedDiffuseBsdf>(kind_);
     }
     /// Whether it is a metal.
     bool is_metal() const {
+        if (const auto* principled = std::get_if<PrincipledBsdf>(&kind_)) return principled->is_metal();
         return std::holds_alternative<SmoothConductorBsdf>(kind_) || std::holds_alternative<RoughConductorBsdf>(kind_);
     }
     bool passes_through() const {

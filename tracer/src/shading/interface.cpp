@@ -71,10 +71,32 @@ Interface::Optics optics_of(const Clear& from, const Coated& to, SharedSurfaces&
                                    thickness_of(to.film)};
 }
 
+Interface::GlowingOptics glowing_optics(const Clear& from, const Glowing& to) {
+    return {std::make_shared<const Texture>(to.color), std::make_shared<const Texture>(to.light), to.spectrum,
+            to.radiance * from.ior * from.ior, to.group_number};
+}
+
 Interface::Optics optics_of(const Clear& from, const Glowing& to, SharedSurfaces&) {
-    return Interface::GlowingOptics{std::make_shared<const Texture>(to.color),
-                                    std::make_shared<const Texture>(to.light), to.spectrum,
-                                    to.radiance * from.ior * from.ior, to.group_number};
+    return glowing_optics(from, to);
+}
+
+Interface::Optics optics_of(const Clear& from, const Principled& to, SharedSurfaces& shared) {
+    PrincipledRanges ranges{.outside = from.ior,
+                            .ior = to.ior,
+                            .coat_ior = to.coat_ior,
+                            .aspect = to.grain ? to.grain->aspect : 1.0f,
+                            .diffuse_roughness = range_of(to.diffuse_roughness),
+                            .metalness = range_of(to.metalness),
+                            .roughness = range_of(to.roughness),
+                            .coat_weight = range_of(to.coat_weight),
+                            .coat_roughness = range_of(to.coat_roughness),
+                            .fuzz_weight = range_of(to.fuzz_weight),
+                            .fuzz_roughness = range_of(to.fuzz_roughness)};
+    if (greatest_of(to.film_weight) > 0.0f) ranges.film = film_of(to.film);
+    Interface::PrincipledOptics optics{std::make_shared<const Principled>(to),
+                                       std::make_shared<const PrincipledSurface>(ranges, shared)};
+    if (to.emission) optics.emission = glowing_optics(from, *to.emission);
+    return optics;
 }
 
 Interface::Optics optics_of(const Clear& from, const Mix& to, SharedSurfaces& shared) {
@@ -130,6 +152,35 @@ Bsdf bsdf_of(const Interface::CoatedOptics& optics, const TexturePoint& p, const
                              color_at(*optics.color, p, wavelengths));
 }
 
+Bsdf bsdf_of(const Interface::PrincipledOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
+    const Principled& m = *optics.material;
+    const auto number = [&](const Number& of) { return number_at(of, p); };
+    const auto color = [&](const Texture& of) { return color_at(of, p, wavelengths); };
+    PrincipledPoint point{.base_weight = number(m.base_weight),
+                          .base_color = color(m.color),
+                          .diffuse_roughness = number(m.diffuse_roughness),
+                          .metalness = number(m.metalness),
+                          .specular_weight = number(m.specular_weight),
+                          .specular_color = color(m.specular_color),
+                          .roughness = number(m.roughness),
+                          .coat_weight = number(m.coat_weight),
+                          .fuzz_weight = number(m.fuzz_weight)};
+    if (point.coat_weight > 0.0f) {
+        point.coat_color = color(m.coat_color);
+        point.coat_roughness = number(m.coat_roughness);
+        point.coat_darkening = number(m.coat_darkening);
+    }
+    if (point.fuzz_weight > 0.0f) {
+        point.fuzz_color = color(m.fuzz_color);
+        point.fuzz_roughness = number(m.fuzz_roughness);
+    }
+    if (m.film) {
+        point.film_weight = number(m.film_weight);
+        point.film_thickness = number(m.film->thickness);
+    }
+    return optics.surface->at(point, wavelengths);
+}
+
 Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
     return DiffuseBsdf(color_at(*optics.color, p, wavelengths));
 }
@@ -168,6 +219,8 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
 }
 
 const Grain* Interface::grain() const {
+    if (const PrincipledOptics* layers = std::get_if<PrincipledOptics>(&optics_))
+        return layers->material->grain ? &*layers->material->grain : nullptr;
     const MetalOptics* metal = std::get_if<MetalOptics>(&optics_);
     return metal && metal->grain ? &*metal->grain : nullptr;
 }
@@ -179,6 +232,8 @@ bool Interface::disperses() const {
 
 std::optional<Interface::Emitted> Interface::emitted(const TexturePoint& point, const Wavelengths* wavelengths) const {
     const GlowingOptics* glowing = std::get_if<GlowingOptics>(&optics_);
+    if (const PrincipledOptics* layers = std::get_if<PrincipledOptics>(&optics_); layers && layers->emission)
+        glowing = &*layers->emission;
     if (!glowing) return std::nullopt;
     const glm::vec3 light = glowing->spectrum ? glowing->spectrum->light(color_at(*glowing->light, point), wavelengths)
                                               : color_at(*glowing->light, point, wavelengths);

@@ -20,6 +20,7 @@
 
 #include "shading/bsdf.hpp"
 #include "shading/material.hpp"
+#include "shading/principled_surface.hpp"
 #include "shading/shared_surfaces.hpp"
 
 namespace phasetree::tracer {
@@ -96,11 +97,17 @@ class Interface {
         float radiance;  ///< where `light` is 1, in the index of the side from which it is seen
         std::uint32_t group;
     };
+    struct PrincipledOptics {
+        std::shared_ptr<const Principled> material;
+        std::shared_ptr<const PrincipledSurface> surface;
+        std::optional<GlowingOptics> emission{};
+    };
     struct MixedOptics {
         std::shared_ptr<const Interface> first, second;
         Number amount;  ///< of the second
     };
-    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, GlowingOptics, MixedOptics>;
+    using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, PrincipledOptics, GlowingOptics,
+                                MixedOptics>;
 
   private:
     explicit Interface(Optics optics, std::optional<NormalPerturbation> perturbation = std::nullopt)

@@ -85,6 +85,44 @@ struct Glowing {
     std::uint32_t group_number = 0;  ///< in Lights::groups()
 };
 
+/// A layered surface with the parameters of OpenPBR Surface 1.1: bsdf/principled.hpp. Roughnesses are the square root
+/// of GGX's α.
+struct Principled {
+    Number base_weight = 1.0f;
+    Texture color = ConstantTexture{glm::vec3(0.8f)};  ///< of the base
+    Number diffuse_roughness = 0.0f;
+    Number metalness = 0.0f;
+    Number specular_weight = 1.0f;
+    Texture specular_color = ConstantTexture{glm::vec3(1.0f)};
+    Number roughness = 0.3f;  ///< of the gloss and the metal
+    float ior = 1.5f;         ///< of the gloss, against vacuum
+    Number coat_weight = 0.0f;
+    Texture coat_color = ConstantTexture{glm::vec3(1.0f)};
+    Number coat_roughness = 0.0f;
+    float coat_ior = 1.6f;
+    Number coat_darkening = 1.0f;
+    Number fuzz_weight = 0.0f;
+    Texture fuzz_color = ConstantTexture{glm::vec3(1.0f)};
+    Number fuzz_roughness = 0.5f;
+    std::optional<SurfaceFilm> film{};  ///< between base and coat
+    Number film_weight = 1.0f;          ///< share of the surface that has the film
+    std::optional<NormalPerturbation> perturbation{};
+    std::optional<Grain> grain{};       ///< of the gloss and the metal; if set, `roughness` is that across it
+    std::optional<Glowing> emission{};  ///< its colour is ignored
+
+    /// Calls a function with each texture, and with each number that may vary.
+    template <class Function>
+    void for_each_parameter(const Function& function) const {
+        for (const Texture* texture : {&color, &specular_color, &coat_color, &fuzz_color}) function(*texture);
+        for (const Number* number :
+             {&base_weight, &diffuse_roughness, &metalness, &specular_weight, &roughness, &coat_weight, &coat_roughness,
+              &coat_darkening, &fuzz_weight, &fuzz_roughness, &film_weight})
+            function(*number);
+        if (film) function(film->thickness);
+        if (emission) function(emission->light);
+    }
+};
+
 struct Mixture;
 
 /// One of two materials at each point, neither clear nor emissive: paint and the metal under it, iron and rust. Where
@@ -95,7 +133,7 @@ struct Mix {
 };
 
 /// Every kind of material.
-using Material = std::variant<Clear, Diffuse, Conductor, Coated, Glowing, Mix>;
+using Material = std::variant<Clear, Diffuse, Conductor, Coated, Principled, Glowing, Mix>;
 
 struct Mixture {
     Material first, second;
@@ -114,6 +152,8 @@ bool has_texture(const Material& material) {
                 const Bump* bump = kind.perturbation ? std::get_if<Bump>(&*kind.perturbation) : nullptr;
                 has = has || (bump && has_kind<Wanted>(bump->texture));
             }
+            if constexpr (requires { kind.metalness; })
+                kind.for_each_parameter([&](const auto& parameter) { has = has || has_kind<Wanted>(parameter); });
             if constexpr (requires { kind.light; }) has = has || has_kind<Wanted>(kind.light);
             if constexpr (requires { kind.color; }) has = has || has_kind<Wanted>(kind.color);
             if constexpr (requires { kind.reflectance; })
@@ -141,8 +181,26 @@ inline const NormalMap* normal_map_of(const Material& material) {
         material);
 }
 
-/// Whether part of it is metal.
+/// Whether its surface needs the tangents of a mesh's texture coordinates.
+inline bool needs_tangents(const Material& material) {
+    if (normal_map_of(material)) return true;
+    return std::visit(
+        [](const auto& kind) {
+            if constexpr (requires { kind.of; })
+                return needs_tangents(kind.of->first) || needs_tangents(kind.of->second);
+            else if constexpr (requires { kind.grain; })
+                return kind.grain && kind.grain->in_tangents.has_value();
+            else
+                return false;
+        },
+        material);
+}
+
+/// Whether part of it is metal, with nothing on it.
 inline bool has_metal(const Material& material) {
+    if (const Principled* const layers = std::get_if<Principled>(&material))
+        return greatest_of(layers->metalness) >= 1.0f && !(least_of(layers->coat_weight) > 0.0f) &&
+               !(least_of(layers->fuzz_weight) > 0.0f);
     const Mix* const mix = std::get_if<Mix>(&material);
     return mix ? has_metal(mix->of->first) || has_metal(mix->of->second) : std::holds_alternative<Conductor>(material);
 }
@@ -151,9 +209,21 @@ inline Material vacuum() {
     return Clear{};
 }
 
+/// The emission of its surface; null if there is none. Ignore the colour of that of a layered surface.
+inline const Glowing* emission_of(const Material& material) {
+    if (const Principled* const layers = std::get_if<Principled>(&material))
+        return layers->emission ? &*layers->emission : nullptr;
+    return std::get_if<Glowing>(&material);
+}
+inline Glowing* emission_of(Material& material) {
+    if (Principled* const layers = std::get_if<Principled>(&material))
+        return layers->emission ? &*layers->emission : nullptr;
+    return std::get_if<Glowing>(&material);
+}
+
 /// Whether it emits; false for an emissive material whose light is black everywhere.
 inline bool glows(const Material& material) {
-    const Glowing* glowing = std::get_if<Glowing>(&material);
+    const Glowing* glowing = emission_of(material);
     if (!glowing) return false;
     const ConstantTexture* light = std::get_if<ConstantTexture>(&glowing->light);
     return !light || light->color != glm::vec3(0.0f);

@@ -65,6 +65,20 @@ std::shared_ptr<const CoatingAlbedo> SharedSurfaces::coating(float ior_from, flo
     });
 }
 
+std::shared_ptr<const DielectricLayer> SharedSurfaces::layer(const DielectricLayer::Kind& kind) {
+    return found_or_made(layers_, kind, [&] { return std::make_shared<const DielectricLayer>(kind, films_); });
+}
+
+std::shared_ptr<const LossTables> SharedSurfaces::fuzz(const ValueRange& alpha) {
+    return found_or_made(fuzz_losses_, alpha,
+                         [&] { return std::make_shared<const LossTables>(Fuzz::losses_of(alpha)); });
+}
+
+std::shared_ptr<const FilmColours> SharedSurfaces::film_colours() {
+    if (!film_colours_) film_colours_ = std::make_shared<const FilmColours>();
+    return film_colours_;
+}
+
 void SharedSurfaces::begin_scene() {
     const auto forget_unused = [](auto& made) {
         std::erase_if(made, [](const auto& one) { return one.second.use_count() == 1; });
@@ -74,6 +88,8 @@ void SharedSurfaces::begin_scene() {
     forget_unused(metals_of_reflectance_);
     forget_unused(metal_losses_);
     forget_unused(coatings_);
+    forget_unused(layers_);
+    forget_unused(fuzz_losses_);
     films_.forget_unused();
 }
 

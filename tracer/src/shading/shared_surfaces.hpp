@@ -9,7 +9,10 @@
 
 #include "shading/bsdf/coating_albedo.hpp"
 #include "shading/bsdf/conductor_surface.hpp"
+#include "shading/bsdf/dielectric_layer.hpp"
 #include "shading/bsdf/dielectric_surface.hpp"
+#include "shading/bsdf/fuzz.hpp"
+#include "shading/film_colours.hpp"
 
 namespace phasetree::tracer {
 
@@ -30,6 +33,10 @@ class SharedSurfaces {
                                                                  float aspect = 1.0f);
     std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
                                                  const std::optional<FilmOfSurface>& film);
+    std::shared_ptr<const DielectricLayer> layer(const DielectricLayer::Kind& kind);
+    /// The losses of fuzz with a range of α.
+    std::shared_ptr<const LossTables> fuzz(const ValueRange& alpha);
+    std::shared_ptr<const FilmColours> film_colours();
 
   private:
     // What a surface is made from. `ior_from` is that of the side from which it is seen.
@@ -76,6 +83,9 @@ class SharedSurfaces {
     Made<MetalOfReflectance, ConductorSurface> metals_of_reflectance_;
     Made<MetalLosses, LossTables> metal_losses_;
     Made<Coating, CoatingAlbedo> coatings_;
+    Made<DielectricLayer::Kind, DielectricLayer> layers_;
+    Made<ValueRange, LossTables> fuzz_losses_;
+    std::shared_ptr<const FilmColours> film_colours_;
     ThinFilms films_;
 };
 

@@ -5,33 +5,16 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-#include "shading/complex.hpp"
+#include "shading/film_faces.hpp"
 #include "spectrum/colour_matching.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
-// The part of the film's optics that depends only on the angle: r₁₂, r₂₃ of both polarisations, and q₂.
-struct Faces {
-    Complex outer[2], inner[2], inside;
-
-    Faces(double outside, double film, const Complex& behind, double cos_theta) {
-        const double sine2 = outside * outside * (1.0 - cos_theta * cos_theta);
-        const Complex n[3] = {{outside}, {film}, behind};
-        Complex q[3];
-        for (int i = 0; i < 3; ++i) q[i] = sqrt(n[i] * n[i] - Complex{sine2});
-        const auto s = [&](int j, int k) { return (q[j] - q[k]) / (q[j] + q[k]); };
-        const auto p = [&](int j, int k) {
-            const Complex a = n[k] * n[k] * q[j], b = n[j] * n[j] * q[k];
-            return (a - b) / (a + b);
-        };
-        outer[0] = s(0, 1);
-        outer[1] = p(0, 1);
-        inner[0] = s(1, 2);
-        inner[1] = p(1, 2);
-        inside = q[1];
-    }
+// Airy's sum.
+struct Faces : FilmFaces {
+    using FilmFaces::FilmFaces;
 
     // Whether there is neither absorption nor total reflection. Then the faces' coefficients have no phase, and Airy's
     // sum is real, with |e^{iδ}| = 1:  |a + b e^{iδ}|² = a² + b² + 2ab cos δ.

@@ -38,7 +38,10 @@ Medium medium_of(const glm::vec3& color, float depth) {
 }
 
 Clear made_clear(const Optics& optics) {
-    return {.ior = optics.ior.value_or(usual_ior), .roughness = optics.roughness.value_or(0.0f)};
+    const float roughness = optics.roughness.value_or(0.0f);
+    // The roughness of layers is the square root of the α that clear materials have.
+    const bool is_root = optics.kind == PrincipledParameters::info.name;
+    return {.ior = optics.ior.value_or(usual_ior), .roughness = is_root ? roughness * roughness : roughness};
 }
 
 Material looking(const Material& material, const Look& look, float depth) {

@@ -11,7 +11,7 @@ namespace {
 std::vector<SharedLightSpectrum> spectra_of(const Scene& scene) {
     std::vector<SharedLightSpectrum> spectra(scene.lights.spectra());
     const auto add = [&](const Material& material) {
-        if (const auto* glowing = std::get_if<Glowing>(&material))
+        if (const Glowing* glowing = emission_of(material))
             spectra.push_back(glowing->spectrum);
         else if (const auto* clear = std::get_if<Clear>(&material); clear && is_emissive(clear->interior))
             spectra.push_back(emission_spectrum(clear->interior));

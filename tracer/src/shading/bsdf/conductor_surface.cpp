@@ -114,7 +114,8 @@ ConductorSurface::AtWavelength ConductorSurface::at(float nanometres) const {
 }
 
 glm::vec3 ConductorSurface::fresnel(float cos_theta, const Place& place) const {
-    const auto& [thickness, wavelengths, reflectance] = place;
+    const auto& [thickness, wavelengths, reflectance, by_colours] = place;
+    if (by_colours) return by_colours->reflectance(cos_theta, wavelengths);
     if (reflectance) return fresnel_conductor(cos_theta, glm::vec3(1.0f / ior_), k_of_reflectance(*reflectance) / ior_);
     if (!has_spectrum_for(wavelengths))
         return for_light(film_ ? film_->reflectance(cos_theta, thickness) : fresnel_conductor(cos_theta, eta_, k_),
@@ -130,15 +131,17 @@ glm::vec3 ConductorSurface::fresnel(float cos_theta, const Place& place) const {
 }
 
 ConductorSurface::Multiple ConductorSurface::multiple(float roughness, const Place& place) const {
-    const auto& [thickness, wavelengths, reflectance] = place;
+    const auto& [thickness, wavelengths, reflectance, by_colours] = place;
     const LossTables::At losses = losses_->at(roughness);
+    const float q = gets_away(roughness * std::sqrt(aspect_));
+    const auto reflected = [&](const glm::vec3& f) { return f * f * q / (1.0f - f * (1.0f - q)); };
+    if (by_colours) return {losses, reflected(by_colours->average())};
     glm::vec3 f = for_light(film_ ? film_->average(thickness) : mean_reflectance_, wavelengths);
     if (reflectance)
         for (int i = 0; i < 3; ++i) f[i] = mean_of_reflectance((*reflectance)[i]);
     else if (!film_ && has_spectrum_for(wavelengths))
         for (int i = 0; i < 3; ++i) f[i] = at(wavelengths->nanometres[i]).mean_reflectance;
-    const float q = gets_away(roughness * std::sqrt(aspect_));
-    return {losses, f * f * q / (1.0f - f * (1.0f - q))};
+    return {losses, reflected(f)};
 }
 
 }  // namespace phasetree::tracer

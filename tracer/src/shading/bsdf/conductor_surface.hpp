@@ -17,6 +17,9 @@
 // each wavelength is then 1 + ik, with k² = 4 r / (1 − r), which has that reflectance against vacuum. F̄ is tabulated
 // by r.
 //
+// A metal may also be described by two colours at each point (shading/f82.hpp). Its reflectance is then that, whatever
+// the medium in front.
+//
 // Reference: Pharr, Jakob & Humphreys, Physically Based Rendering, 4th edition, 11.4 (k from a reflectance); Kulla &
 // Conty 2017 (lost_energy.hpp), and for the square of F̄ Hill, A Multi-Faceted Exploration, 2018.
 #pragma once
@@ -30,6 +33,7 @@
 #include "sampling/ggx.hpp"
 #include "shading/bsdf/film_of_surface.hpp"
 #include "shading/bsdf/lost_energy.hpp"
+#include "shading/f82.hpp"
 #include "shading/metals.hpp"
 #include "shading/thin_film.hpp"
 #include "spectrum/wavelengths.hpp"
@@ -58,6 +62,7 @@ class ConductorSurface {
 
     /// The microfacets at a point with that roughness; local x is along the grain.
     Ggx microfacets(float roughness) const { return microfacets(roughness, aspect_); }
+    static Ggx microfacets(float roughness, float aspect);
 
     /// The properties of a metal at a point. `reflectance` is set for a metal specified by it, and is in the components
     /// of `wavelengths`, if any.
@@ -65,6 +70,7 @@ class ConductorSurface {
         float thickness = 0.0f;  ///< of the film, in nanometres
         const Wavelengths* wavelengths = nullptr;
         std::optional<glm::vec3> reflectance{};
+        std::optional<F82Metal> by_colours{};  ///< replaces the index and the reflectance
     };
     /// For spectral light, or for red, green and blue.
     glm::vec3 fresnel(float cos_theta, const Place& place) const;
@@ -85,7 +91,6 @@ class ConductorSurface {
     AtWavelength at(float nanometres) const;
     bool has_spectrum_for(const Wavelengths* wavelengths) const { return wavelengths && wavelengths->is_spectral; }
 
-    static Ggx microfacets(float roughness, float aspect);
     // F̄ of a metal with that reflectance.
     float mean_of_reflectance(float reflectance) const;
 

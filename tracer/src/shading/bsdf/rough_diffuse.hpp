@@ -34,7 +34,7 @@ class RoughDiffuseBsdf {
   public:
     /// `roughness` is r, in [0, 1].
     RoughDiffuseBsdf(const glm::vec3& albedo, float roughness)
-        : albedo_(albedo), roughness_(roughness), a_(1.0f / (1.0f + (0.5f - 2.0f / (3.0f * pi)) * roughness)) {
+        : albedo_(albedo), roughness_(roughness), a_(single_scattering(roughness)) {
         const float average = a_ * (1.0f + roughness * (2.0f / 3.0f - 28.0f / (15.0f * pi)));
         multiple_ = albedo * albedo * average / ((1.0f - albedo * (1.0f - average)) * std::max(1.0f - average, 1e-7f));
     }
@@ -52,6 +52,16 @@ class RoughDiffuseBsdf {
     bool is_delta() const { return false; }
     bool passes_through() const { return false; }
 
+    /// A for the roughness r.
+    static float single_scattering(float r) { return 1.0f / (1.0f + (0.5f - 2.0f / (3.0f * pi)) * r); }
+    /// G for the cosine c: the integral of (s/t) cos θ over the hemisphere. tan θ (1 − sin³θ) is written such that it
+    /// is precise at grazing angles.
+    static float oren_nayar_integral(float c) {
+        const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
+        return sine * (portable::acos(cosine) - sine * cosine) +
+               2.0f / 3.0f * (sine * cosine * (1.0f + sine + sine * sine) / (1.0f + sine) - sine);
+    }
+
   private:
     static constexpr float pi = std::numbers::pi_v<float>;
 
@@ -62,13 +72,8 @@ class RoughDiffuseBsdf {
         return albedo_ * (a_ * (1.0f + roughness_ * s / t)) +
                multiple_ * ((1.0f - white_albedo_once(wo.z)) * (1.0f - white_albedo_once(wi.z)));
     }
-    /// Returns E for the cosine c. tan θ (1 − sin³θ) is written such that it is precise at grazing angles.
-    float white_albedo_once(float c) const {
-        const float cosine = std::min(c, 1.0f), sine = std::sqrt((1.0f - cosine) * (1.0f + cosine));
-        const float g = sine * (portable::acos(cosine) - sine * cosine) +
-                        2.0f / 3.0f * (sine * cosine * (1.0f + sine + sine * sine) / (1.0f + sine) - sine);
-        return a_ * (1.0f + roughness_ * g / pi);
-    }
+    /// Returns E for the cosine c.
+    float white_albedo_once(float c) const { return a_ * (1.0f + roughness_ * oren_nayar_integral(c) / pi); }
 
     glm::vec3 albedo_;
     float roughness_;
