@@ -69,6 +69,8 @@ class Losses(BlenderTest):
         self.assertIn('the active camera "Cube" is not a camera', message())
         self.scene.camera = None
         self.assertIn("error: the scene has no camera; add one", self.check()[0])
+        with self.assertRaisesRegex(RuntimeError, "no camera"):
+            self.export()
         self.scene.camera = camera
         mesh = bpy.data.objects["Cube"].data
         mesh.vertices[0].co.x = math.nan

@@ -1,5 +1,7 @@
 """Renders: the pixels are the command's, and the camera, regions, passes and animations are Blender's."""
 
+import collections
+import json
 import unittest
 import unittest.mock
 
@@ -22,6 +24,8 @@ class Pictures(BlenderTest):
 
     def test_pixels_are_those_of_the_command(self):
         add_box("Ice", (0.5, -3, -1), (2.5, -1, 1), principled("Ice", 1, Roughness=0.0, IOR=1.31))
+        finer = bpy.data.objects["Cube"].modifiers.new("Subdivision", "SUBSURF")
+        finer.levels, finer.render_levels = 0, 2
         self.scene.phasetree.caustics = True
         rendered = self.render()
         self.assert_equal_pixels(rendered, self.of_command())
@@ -124,6 +128,56 @@ class Pictures(BlenderTest):
         separate = self.combined()
         self.assertLess(abs(instanced.mean() / separate.mean() - 1), 1e-3)
         self.assertGreater((np.abs(instanced - separate) < 1e-5).mean(), 0.99)
+
+    def test_every_kind_of_object_is_rendered_once(self):
+        """Curves, texts, surfaces and metaballs; instances by vertices, particles and geometry nodes."""
+        made = {
+            "Text": bpy.ops.object.text_add, "Curve": bpy.ops.curve.primitive_bezier_circle_add,
+            "Ball": bpy.ops.object.metaball_add, "Surface": bpy.ops.surface.primitive_nurbs_surface_sphere_add,
+            "Points": bpy.ops.mesh.primitive_plane_add, "Frame": bpy.ops.mesh.primitive_plane_add,
+            "Field": bpy.ops.mesh.primitive_plane_add, "Nothing": bpy.ops.object.empty_add,
+        }  # fmt: skip
+        for name, add in made.items():
+            add()
+            bpy.context.object.name = name
+        objects = bpy.data.objects
+        objects["Curve"].data.bevel_depth = 0.1
+        objects["Frame"].instance_type = "VERTS"
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.context.object.name, bpy.context.object.parent = "Corner", objects["Frame"]
+        objects["Field"].modifiers.new("Particles", "PARTICLE_SYSTEM")
+        particles = objects["Field"].particle_systems[0].settings
+        particles.type, particles.count, particles.render_type, particles.instance_object = "HAIR", 5, "OBJECT", objects["Cube"]
+        tree = bpy.data.node_groups.new("Instances", "GeometryNodeTree")
+        if hasattr(tree, "interface"):  # from Blender 4.0
+            for way in ("INPUT", "OUTPUT"):
+                tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+        else:
+            tree.inputs.new("NodeSocketGeometry", "Geometry")
+            tree.outputs.new("NodeSocketGeometry", "Geometry")
+        start, end, copies, cube = (tree.nodes.new(kind) for kind in ("NodeGroupInput", "NodeGroupOutput",
+                                                                     "GeometryNodeInstanceOnPoints", "GeometryNodeMeshCube"))  # fmt: skip
+        tree.links.new(start.outputs[0], copies.inputs["Points"])
+        tree.links.new(cube.outputs[0], copies.inputs["Instance"])
+        tree.links.new(copies.outputs[0], end.inputs[0])
+        objects["Points"].modifiers.new("Nodes", "NODES").node_group = tree
+        self.export()
+        content = (self.folder / "exported.glb").read_bytes()
+        nodes = json.loads(content[20 : 20 + int.from_bytes(content[12:16], "little")])["nodes"]
+        names = collections.Counter(node["name"] for node in nodes)
+        self.assertEqual(dict(names), {"Cube": 1 + 5, "Text": 1, "Curve": 1, "Ball": 1, "Surface": 1, "Points": 4, "Frame": 1,
+                                       "Corner": 4, "Field": 1})  # fmt: skip
+
+    def test_view_layers(self):
+        """Each view layer has its own objects."""
+        second = self.scene.view_layers.new("Second")
+        collection = bpy.data.objects["Cube"].users_collection[0]
+        second.layer_collection.children[collection.name].exclude = True
+        add_box("Other", (-1, -1, -1), (1, 1, 1), None)
+        self.scene.collection.objects.link(bpy.context.object)
+        collection.objects.unlink(bpy.context.object)
+        rendered = self.render()
+        np.testing.assert_array_less(rendered["Second.Combined.R"].mean(), rendered["ViewLayer.Combined.R"].mean())
 
     def test_cameras(self):
         """Each kind of camera sees a glowing square where Blender's own projection has it."""

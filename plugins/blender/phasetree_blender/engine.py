@@ -33,6 +33,8 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
 
+    export_path = ""  # if set, a render only writes this scene file: Blender evaluates objects as for a render only then
+
     def update_render_passes(self, scene=None, renderlayer=None):
         self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
         if renderlayer.use_pass_z:
@@ -61,8 +63,10 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         """Renders one view layer. Returns the report on its phases."""
         command, scene = preferences.found_command(), depsgraph.scene
         self.update_stats("", "translating the scene")
-        path = os.path.join(folder, "scene.json")
+        path = self.export_path or os.path.join(folder, "scene.json")
         written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break)
+        if self.export_path:
+            return written.report
         options = options_of(scene, depsgraph.view_layer)
         process = RenderProcess(command, path, folder, options, 0 if self.is_animation else scene.phasetree.update_interval)
         status = None
@@ -152,7 +156,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
                 raise SystemExit(1)  # otherwise, Blender would save a black picture and exit with 0
         losses = len(notes.of_kind(Kind.UNSUPPORTED)) + len(notes.of_kind(Kind.APPROXIMATE))
         if losses:
-            self.report({"WARNING"}, f"phasetree: {losses} notes on what is lost or approximate; see Render properties > Report")
+            self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
 
 
 def fill(render_pass, channels):

@@ -20,5 +20,9 @@ def of(scene_name):
     return _reports.get(scene_name)
 
 
+def forget(scene_name):
+    _reports.pop(scene_name, None)
+
+
 def clear():
     _reports.clear()

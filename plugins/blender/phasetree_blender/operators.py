@@ -1,4 +1,4 @@
-"""Check Scene, and Export Scene: the translation without the render."""
+"""Check Scene and Export Scene: the translation without the render."""
 
 import os
 import tempfile
@@ -7,29 +7,19 @@ import bpy
 from bpy_extras.io_utils import ExportHelper
 
 from . import last_report, preferences
+from .engine import PhasetreeRenderEngine
 from .notes import Kind, Notes, TranslationError
 from .translate.scene import write_scene
 
 
-def translate(context, path):
-    """Writes the scene file, evaluated as for the viewport. Returns the notes."""
-    notes, phases = Notes(), ""
-    try:
-        depsgraph = context.evaluated_depsgraph_get()
-        phases = write_scene(depsgraph, path, preferences.found_command(), notes).report
-    except TranslationError as error:
-        notes.error(str(error))
-    last_report.keep(context.scene.name, notes, phases)
-    return notes
-
-
-def tell(operator, notes):
-    """Reports the notes of an operator. Returns its result."""
-    errors = notes.of_kind(Kind.ERROR)
+def tell(operator, scene):
+    """Reports the notes about a scene. Returns the result of the operator."""
+    notes = last_report.of(scene.name).notes
+    errors = [note for note in notes if note.kind is Kind.ERROR]
     for note in errors:
         operator.report({"ERROR"}, note.text)
     if not errors:
-        operator.report({"INFO"}, f"{len(notes)} notes; see Render properties > Report" if len(notes) else "Nothing is lost")
+        operator.report({"INFO"}, f"Notes: {len(notes)}; see Render properties > Report" if notes else "Nothing is lost")
     return {"CANCELLED"} if errors else {"FINISHED"}
 
 
@@ -39,8 +29,15 @@ class PHASETREE_OT_check(bpy.types.Operator):
     bl_description = "Report what of this scene is lost or approximated, and which clear object wins where two overlap"
 
     def execute(self, context):
+        notes, phases = Notes(), ""
         with tempfile.TemporaryDirectory(prefix="phasetree_") as folder:
-            return tell(self, translate(context, os.path.join(folder, "scene.json")))
+            try:
+                depsgraph, path = context.evaluated_depsgraph_get(), os.path.join(folder, "scene.json")
+                phases = write_scene(depsgraph, path, preferences.found_command(), notes).report
+            except TranslationError as error:
+                notes.error(str(error))
+        last_report.keep(context.scene.name, notes, phases)
+        return tell(self, context.scene)
 
 
 class PHASETREE_OT_export(bpy.types.Operator, ExportHelper):
@@ -52,7 +49,18 @@ class PHASETREE_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
 
     def execute(self, context):
-        return tell(self, translate(context, self.filepath))
+        scene, before = context.scene, context.scene.render.engine
+        last_report.forget(scene.name)
+        scene.render.engine, PhasetreeRenderEngine.export_path = "PHASETREE", self.filepath
+        try:
+            bpy.ops.render.render(scene=scene.name, layer=context.view_layer.name)
+        except RuntimeError as error:
+            if last_report.of(scene.name) is None:  # Blender did not start the render
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
+        finally:
+            scene.render.engine, PhasetreeRenderEngine.export_path = before, ""
+        return tell(self, scene)
 
 
 def menu_entry(self, _context):

@@ -5,6 +5,8 @@ import json
 import os
 from dataclasses import dataclass
 
+import bpy
+
 from .. import command as commands
 from ..notes import TranslationError
 from . import camera, lights, meshes, world
@@ -109,7 +111,7 @@ def write_objects(depsgraph, writer, notes):
             found += [light] if light else []
         elif item.type in meshes.UNSUPPORTED:
             about.unsupported(f"{meshes.UNSUPPORTED[item.type]} are left out")
-        elif item.type in meshes.WITH_MESHES:
+        elif isinstance(item.data, bpy.types.Mesh):  # curves and the like also come as objects with meshes
             note_object(item, about)
             writer.add(item, instance.matrix_world.copy())
     return found
