@@ -59,11 +59,12 @@ class CommandLine(unittest.TestCase):
 
     def test_failed_frames_give_an_exit_code_and_no_picture(self):
         broken = "import bpy; s = bpy.context.scene; s.render.engine = 'PHASETREE'; s.camera.data.type = 'PANO'"
-        done = self.blender("--python-expr", broken, "-o", "//frame_", "-F", "PNG", "-f", "1")
-        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-        self.assertIn('phasetree: error: the camera "Camera" is pano', done.stdout)
-        self.assertEqual(list(self.folder.glob("frame_*")), [])
-        self.assertEqual(self.left_over(), [])
+        for frames in (["-f", "1"], ["-s", "1", "-e", "2", "-a"]):
+            done = self.blender("--python-expr", broken, "-o", f"{self.folder}/frame_", "-F", "PNG", *frames)
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertIn('phasetree: error: the camera "Camera" is pano', done.stdout)
+            self.assertEqual(list(self.folder.glob("frame_*")), [])
+            self.assertEqual(self.left_over(), [])
 
     def test_cancelled_render_ends_its_child(self):
         endless = ("import bpy; s = bpy.context.scene; s.render.engine = 'PHASETREE'; s.phasetree.samples = 16777216; "

@@ -3,6 +3,8 @@
 import importlib
 import os
 import pathlib
+import re
+import subprocess
 import unittest
 import zipfile
 
@@ -44,6 +46,12 @@ class Installation(unittest.TestCase):
         self.assertFalse((addons / NAME).exists())
         importlib.invalidate_caches()
         self.assertNotIn(NAME, [m.__name__ for m in addon_utils.modules(refresh=True)])
+
+    def test_version_is_that_of_the_command(self):
+        printed = subprocess.run([os.environ["PHASETREE_COMMAND"], "--version"], capture_output=True, text=True, check=True).stdout
+        text = (pathlib.Path(os.environ["PHASETREE_TEST_FOLDER"]).parents[1] / "plugins/blender" / NAME / "__init__.py").read_text()
+        version = ".".join(re.search(r'"version": \((\d+), (\d+), (\d+)\)', text).groups())
+        self.assertRegex(printed, rf"\b{re.escape(version)}\b")
 
     def test_zip_has_what_the_repository_has(self):
         source = pathlib.Path(os.environ["PHASETREE_TEST_FOLDER"]).parents[1] / "plugins/blender"

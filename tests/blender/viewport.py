@@ -10,9 +10,10 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 from phasetree_blender import preferences, viewport
+from phasetree_blender.command import RenderProcess
 from phasetree_blender.notes import Notes
 from phasetree_blender.translate.scene import translate
-from support import BlenderTest
+from support import COMMAND, BlenderTest
 
 SIZE = 48, 36
 
@@ -62,13 +63,26 @@ class RenderedViewport(BlenderTest):
         second = self.finished()
         self.assertLess(np.abs(second - self.combined()).mean(), 0.02 * second.mean())
         # A scene that has not changed does not start again, and one that has does.
+        version = self.viewport._version
         self.show_scene()
-        time.sleep(0.3)
-        self.assertIsNone(self.viewport.picture)
+        self.assertEqual(self.viewport._version, version)
         bpy.data.objects["Cube"].location.x = 1
         self.show_scene()
         self.assertGreater(np.abs(self.finished() - second).max(), 0.05)
         self.assertTrue(self.redrawn.is_set())
+
+    def test_no_picture_of_an_earlier_render_in_the_folder_is_shown(self):
+        path, _ = self.export()
+        first = RenderProcess(COMMAND, path, str(self.folder), [], 1)
+        while not first.wait(0.1):
+            pass
+        self.assertTrue(first.preview())
+        first.stop()
+        second = RenderProcess(COMMAND, path, str(self.folder), ["--spp", "16777216"], 3600)
+        try:
+            self.assertIsNone(second.preview())
+        finally:
+            second.stop()
 
     def test_end_during_a_render_leaves_nothing(self):
         self.scene.phasetree.samples = 16777216

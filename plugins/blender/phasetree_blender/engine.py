@@ -1,7 +1,6 @@
 """The render engine: translates the scene, and renders it in a child process."""
 
 import os
-import sys
 import tempfile
 import traceback
 
@@ -23,7 +22,6 @@ PASSES = {
     "Normal": ("normal.X", "normal.Y", "normal.Z"),
     "Albedo": ("albedo.R", "albedo.G", "albedo.B"),
 }
-RENDERS_ON_COMMAND_LINE = {"-f", "--render-frame", "-a", "--render-anim"}
 
 
 class PhasetreeRenderEngine(bpy.types.RenderEngine):
@@ -151,9 +149,8 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         errors = [str(note.text) for note in notes.of_kind(Kind.ERROR) if not note.subject]
         if errors:
             self.error_set(f"phasetree: {errors[0]}")
-            self.report({"ERROR"}, f"phasetree: {errors[0]}")  # makes the operator raise an exception in scripts
-            if bpy.app.background and RENDERS_ON_COMMAND_LINE.intersection(sys.argv):
-                raise SystemExit(1)  # otherwise, Blender would save a black picture and exit with 0
+            # Without this, Blender would save a black picture. Scripts get an exception, and command lines an exit code.
+            self.report({"ERROR"}, f"phasetree: {errors[0]}")
         losses = len(notes.of_kind(Kind.UNSUPPORTED)) + len(notes.of_kind(Kind.APPROXIMATE))
         if losses:
             self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
