@@ -54,6 +54,7 @@ class Agreement(BlenderTest):
         self.light.data.shadow_soft_size = 0
         self.light.rotation_euler = (0.6, 0.2, 0.8)
         self.assert_agrees(1 - math.cos(0.15) + 0.03)
+        self.assertIn("Cycles multiplies by the cosine", self.notes())
 
     def test_worlds(self):
         """An image that a Mapping node turns. Colours are in the test of surfaces."""

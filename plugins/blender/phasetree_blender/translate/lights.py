@@ -25,6 +25,7 @@ def light_of(item, matrix, notes):
         return area(light, matrix, color, notes)
     intensity = power / (4 * math.pi)
     if light.type == "SPOT":
+        notes.approximate("the cone is evenly bright; Cycles multiplies by the cosine of the angle from the axis")
         if light.shadow_soft_size > 0:
             notes.approximate("the radius of a spot is ignored, so its shadows are sharp")
         half = light.spot_size / 2
