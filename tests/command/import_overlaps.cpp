@@ -52,6 +52,31 @@ TEST_CASE("overlaps: priorities come first, then containment, then matter, then 
     CHECK(has(shell.import_well(circle).err, "against the rule (gas over liquid)"));
 }
 
+TEST_CASE("phasetree_matter says what an object is made of, whatever its name and index") {
+    const Import shell;
+    const auto matters = [&](const Json& of_node, const Json& of_material) {
+        Gltf g;
+        g.node("Water",
+               g.mesh(box({0, 0, 0}, {2, 1, 1}), g.clear("Glass", 1.33f, Json::object(), {{"extras", of_material}})),
+               {{"extras", of_node}});
+        g.node("Cup", g.mesh(box({1, 0, 0}, {3, 1, 1}), g.clear("Cup", 1.5f)));
+        return shell.import_well(g);
+    };
+    const std::string liquid = "\"Cup\" wins (solid over liquid)\n", earlier = "\"Water\" wins (earlier in the file)\n";
+    CHECK(has(matters(Json::object(), Json::object()).out, liquid));
+    CHECK(has(matters({{"phasetree_matter", "solid"}}, Json::object()).out, earlier));
+    CHECK(has(matters(Json::object(), {{"phasetree_matter", "solid"}}).out, earlier));
+    CHECK(has(matters({{"phasetree_matter", "liquid"}}, {{"phasetree_matter", "solid"}}).out, liquid));
+    CHECK(has(matters({{"phasetree_matter", "gas"}}, Json::object()).out, "\"Cup\" wins (solid over gas)\n"));
+    CHECK(matters({{"phasetree_matter", "gas"}}, Json::object()).err == "");
+    // What it does not know is reported, and changes nothing.
+    const Outcome unknown = matters({{"phasetree_matter", "plasma"}}, Json::object());
+    CHECK(has(
+        unknown.err,
+        "\"Water\" has the phasetree_matter \"plasma\", which is not \"solid\", \"liquid\" or \"gas\"; it is ignored"));
+    CHECK(has(unknown.out, liquid));
+}
+
 TEST_CASE("a thin gap is reported with its width, unless something fills it") {
     const Import shell;
     Gltf g;

@@ -40,7 +40,7 @@ COMMAND = os.environ["PHASETREE_COMMAND"]
 STUBS = pathlib.Path(__file__).parent / "stubs"
 REFERENCE = ROOT / "scenes/reference"
 DOCUMENTS = sorted([ROOT / "README.md", ROOT / "scenes/README.md", ROOT / "plugins/embree/README.md",
-                    ROOT / "plugins/python/README.md", *(ROOT / "tracer/manual").rglob("*.md")])
+                    ROOT / "plugins/python/README.md", ROOT / "plugins/blender/README.md", *(ROOT / "tracer/manual").rglob("*.md")])
 ALL = [block for document in DOCUMENTS for block in blocks(document)]
 # Blocks that no test runs. Raise this only for something that cannot be run at all.
 MOST_UNTESTED = 6

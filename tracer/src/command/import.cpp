@@ -154,8 +154,9 @@ void add_import(CLI::App& app, Run& run) {
         "Where clear objects overlap, one of them keeps the space: the one with the higher number\n"
         "phasetree_priority in the extras of its node or material (default: 0); else the one within the\n"
         "other; else a solid rather than a gas, and a gas rather than a liquid; else the earlier in the\n"
-        "file. Names (\"ice\", \"Orange juice\") and indices say what is a liquid. Thin gaps along surfaces\n"
-        "are closed. The order, overlaps and gaps are printed; warnings name materials and extensions of which "
+        "file. What is a liquid follows from phasetree_matter in the extras (\"solid\", \"liquid\", \"gas\"),\n"
+        "or else from names (\"ice\", \"Orange juice\") and indices. Thin gaps along surfaces are closed.\n"
+        "The order, overlaps and gaps are printed; warnings name materials and extensions of which\n"
         "something is lost.");
     auto options = std::make_shared<ImportOptions>();
     command->add_option("file", options->input, "glTF file, .glb or .gltf")->required();

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "gltf/extensions.hpp"
+#include "gltf/names.hpp"
 #include "shading/thin_film.hpp"
 
 namespace phasetree::tracer::gltf {
@@ -29,6 +30,7 @@ class ClearReader {
         static const Json none = Json::object();
         const Item pbr = item_.item("pbrMetallicRoughness").value_or(Item(none, "the default material"));
         made_.priority = priority_of(item_);
+        made_.matter = matter_of(item_);
         read_surface(pbr);
         read_index();
         read_volume();
@@ -142,13 +144,28 @@ ClearMaterial clear_material(const Item& material, Images& images, std::vector<s
     return ClearReader(material, images, not_shown).read();
 }
 
-std::optional<float> priority_of(const Item& item) {
-    constexpr std::string_view key = "phasetree_priority";
+namespace {
+
+// The extras of an item if they have that key. Extras need not be an object.
+std::optional<Item> extras_with(const Item& item, std::string_view key) {
     const auto extras = item.item("extras");
     if (!extras) return std::nullopt;
-    const std::vector<std::string> keys = extras->keys();  // none of what is no object, as extras may be
-    if (std::ranges::find(keys, key) == keys.end()) return std::nullopt;
-    return extras->number(key, 0);
+    const std::vector<std::string> keys = extras->keys();
+    return std::ranges::find(keys, key) == keys.end() ? std::nullopt : extras;
+}
+
+}  // namespace
+
+std::optional<float> priority_of(const Item& item) {
+    constexpr std::string_view key = "phasetree_priority";
+    const auto extras = extras_with(item, key);
+    return extras ? std::optional(extras->number(key, 0)) : std::nullopt;
+}
+
+std::string matter_of(const Item& item) {
+    constexpr std::string_view key = "phasetree_matter";
+    const auto extras = extras_with(item, key);
+    return extras ? clean_name(extras->text(key)) : std::string();
 }
 
 }  // namespace phasetree::tracer::gltf

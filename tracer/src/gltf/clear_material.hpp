@@ -25,6 +25,7 @@ struct ClearMaterial {
     std::optional<float> attenuation_distance{};  ///< after which white light has the colour; if none, it stays white
     std::optional<SurfaceFilm> film{};
     std::optional<float> priority{};  ///< extras.phasetree_priority
+    std::string matter{};             ///< extras.phasetree_matter; empty if there is none
 };
 
 /// Reads the material. Sentences about what is lost, or read approximately, are added to `not_shown`; each follows the
@@ -33,5 +34,8 @@ ClearMaterial clear_material(const Item& material, Images& images, std::vector<s
 
 /// The number `phasetree_priority` in the extras of a node or a material.
 std::optional<float> priority_of(const Item&);
+
+/// The text `phasetree_matter` in the extras of a node or a material; empty if there is none.
+std::string matter_of(const Item&);
 
 }  // namespace phasetree::tracer::gltf

@@ -245,12 +245,15 @@ class Reader {
         if (name.empty()) name = clean_name(mesh.text("name"));
         if (name.empty()) name = fmt::format("node {}", placed.node);
         const std::size_t material = clear_materials_.at(key.material);
+        const gltf::ClearMaterial& of_material = file_.clear_materials[material].material;
         const auto own = priority_of(node);
+        std::string matter = matter_of(node);
         parts_[key].drops_tangents = true;
         parts_[key].solid = {.name = std::move(name),
                              .placed_mesh = placed_number_,
                              .material = material,
-                             .priority = own ? own : file_.clear_materials[material].material.priority};
+                             .priority = own ? own : of_material.priority,
+                             .matter = matter.empty() ? of_material.matter : std::move(matter)};
     }
 
     // False if the material is clear.

@@ -44,6 +44,7 @@ struct ClearSolid {
     std::size_t placed_mesh = 0;  ///< the number of the placed mesh, in the order of the file; others may have the same
     std::size_t material = 0;     ///< in GltfFile::clear_materials
     std::optional<float> priority{};  ///< extras.phasetree_priority of the node, else of the material
+    std::string matter{};  ///< extras.phasetree_matter of the node, else of the material; empty if there is none
     TriangleMesh mesh{};
 };
 

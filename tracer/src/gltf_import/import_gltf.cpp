@@ -51,10 +51,7 @@ class Importer {
 
     ImportedScene make() {
         name_phases();
-        for (const Solid& solid : solids_) {
-            const gltf::NamedClearMaterial& material = file_.clear_materials[solid.material];
-            matter_.push_back(matter_of(solid.name, material.name, material.material.ior));
-        }
+        for (const Solid& solid : solids_) matter_.push_back(matter_of_solid(solid));
         contacts_ = contacts_of(solids_);
         precedence_ = precedence_of(solids_, matter_, contacts_);
         for (const std::string& warning : precedence_.warnings) warn(warning);
@@ -82,6 +79,19 @@ class Importer {
         std::string text;
         for (const std::string& warning : made_.warnings) text += "\n  " + warning;
         return text;
+    }
+
+    // What the file says, or else what names and the index suggest.
+    Matter matter_of_solid(const Solid& solid) {
+        const auto stated = matter_named(solid.matter);
+        if (stated) return *stated;
+        if (!solid.matter.empty())
+            warn(
+                fmt::format("\"{}\" has the phasetree_matter \"{}\", which is not \"solid\", \"liquid\" or \"gas\"; it "
+                            "is ignored",
+                            solid.name, solid.matter));
+        const gltf::NamedClearMaterial& material = file_.clear_materials[solid.material];
+        return matter_of(solid.name, material.name, material.material.ior);
     }
 
     // The names of phases by material; the vacuum's is taken.

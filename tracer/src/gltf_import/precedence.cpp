@@ -148,6 +148,12 @@ std::string_view name_of(Matter matter) {
     return matter == Matter::solid ? "solid" : matter == Matter::gas ? "gas" : "liquid";
 }
 
+std::optional<Matter> matter_named(std::string_view name) {
+    for (const Matter matter : {Matter::solid, Matter::gas, Matter::liquid})
+        if (name_of(matter) == name) return matter;
+    return std::nullopt;
+}
+
 Matter matter_of(std::string_view object, std::string_view material, float ior) {
     if (ior < 1.1f) return Matter::gas;
     if (const auto matter = matter_of_name(object)) return *matter;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ std::string_view name_of(Matter);
 /// the last word that is known, without what follows "of", "in" or "with": "glass of water" is solid, "water" liquid.
 /// If neither name has a known word, an index from 1.32 to 1.4 is a liquid and any other a solid; ice has 1.31.
 Matter matter_of(std::string_view object, std::string_view material, float ior);
+
+/// The matter of that name; nullopt if there is none.
+std::optional<Matter> matter_named(std::string_view name);
 
 struct Decision {
     std::size_t winner = 0, loser = 0;  ///< numbers of solids

@@ -104,7 +104,10 @@ class Maker {
     }
 
     void add(const gltf::ClearSolid& read, TriangleMesh mesh) {
-        Solid solid{.name = unlike_others(read.name), .material = read.material, .priority = read.priority};
+        Solid solid{.name = unlike_others(read.name),
+                    .material = read.material,
+                    .priority = read.priority,
+                    .matter = read.matter};
         for (glm::vec3& p : mesh.vertices) p = z_up(p);
         solid.mesh = mesh;
         solid.field.file = {.path = fmt::format("\"{}\"", solid.name),

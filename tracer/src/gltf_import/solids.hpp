@@ -16,6 +16,7 @@ struct Solid {
     std::string name{};        ///< of its node, unlike that of any other solid
     std::size_t material = 0;  ///< in GltfFile::clear_materials
     std::optional<float> priority{};
+    std::string matter{};     ///< what the file says that it is made of; empty if nothing
     TriangleMesh mesh{};      ///< z is up
     phasetree::Mesh field{};  ///< the solid within the mesh, repaired where needed
     Bounds bounds{};

@@ -1,0 +1,189 @@
+"""Panels: settings of the render, the report, and what becomes of an object and of a material."""
+
+import re
+
+import bpy
+
+from . import last_report
+from .notes import Kind, Notes
+from .translate.materials import surface_of
+from .translate.meshes import WITH_MESHES
+
+ICONS = {Kind.ERROR: "CANCEL", Kind.UNSUPPORTED: "ERROR", Kind.APPROXIMATE: "INFO", Kind.INFORMATION: "DOT"}
+
+
+def characters_per_line():
+    """About how many characters fit into a line of the panel that is drawn."""
+    pixels = 6.5 * bpy.context.preferences.system.ui_scale
+    return max(20, int(bpy.context.region.width / pixels) - 6) if bpy.context.region else 60
+
+
+def wrapped(text, width):
+    """The text in lines of whole words."""
+    lines = [""]
+    for word in text.split():
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
+            lines.append("")
+        lines[-1] += (" " if lines[-1] else "") + word
+    return lines
+
+
+def draw_text(layout, text, icon="NONE"):
+    column = layout.column(align=True)
+    for number, line in enumerate(wrapped(text, characters_per_line())):
+        column.label(text=line, icon=icon if number == 0 else "BLANK1" if icon != "NONE" else "NONE")
+
+
+def draw_notes(layout, notes, with_subjects=True):
+    for note in notes:
+        subject = f"{note.subject}: " if with_subjects and note.subject else ""
+        draw_text(layout, subject + note.text, ICONS[note.kind])
+
+
+def draw_phases(layout, report):
+    """The report of `phasetree import`: a table of the objects, and sentences on overlaps and gaps."""
+    for line in report.splitlines():
+        cells = re.split(r"  +", line.strip())
+        if len(cells) == 5:
+            row = layout.split(factor=0.4)
+            for cell in cells[1:4]:
+                row.label(text=cell)
+        else:
+            draw_text(layout, line)
+
+
+class PhasetreePanel:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    COMPAT_ENGINES = {"PHASETREE"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.engine in cls.COMPAT_ENGINES
+
+
+class PHASETREE_PT_sampling(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Sampling"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        for name in ("samples", "seed", "denoise", "update_interval", "viewport_scale"):
+            self.layout.prop(context.scene.phasetree, name)
+
+
+class PHASETREE_PT_light_paths(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Light Paths"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        for name in ("caustics", "guiding", "spectral", "max_depth"):
+            self.layout.prop(context.scene.phasetree, name)
+
+
+class PHASETREE_PT_phases(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Phases"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.layout.prop(context.scene.phasetree, "closes_gaps")
+        report = last_report.of(context.scene.name)
+        if report and report.phases:
+            draw_text(self.layout, "Where objects overlap, the first keeps the space:")
+            draw_phases(self.layout.column(align=True), report.phases)
+
+
+class PHASETREE_PT_film(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Film"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.prop(context.scene.render, "film_transparent", text="Transparent")
+
+
+class PHASETREE_PT_report(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Report"
+    bl_context = "render"
+
+    def draw(self, context):
+        self.layout.operator("phasetree.check")
+        report = last_report.of(context.scene.name)
+        if report is None:
+            draw_text(self.layout, "Render or check the scene to see what is lost or approximate.")
+        elif not report.notes:
+            self.layout.label(text="Nothing is lost.", icon="CHECKMARK")
+        else:
+            draw_notes(self.layout, report.notes)
+
+
+class PHASETREE_PT_passes(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.layout.prop(context.view_layer, "use_pass_z", text="Depth")
+        self.layout.prop(context.view_layer, "use_pass_normal", text="Normal")
+        self.layout.prop(context.view_layer.phasetree, "use_pass_albedo")
+
+
+class PHASETREE_PT_object(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Phase"
+    bl_context = "object"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.object is not None and context.object.type in WITH_MESHES
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.layout.prop(context.object.phasetree, "role")
+        row = self.layout.row()
+        row.active = context.object.phasetree.role != "OPAQUE"
+        row.prop(context.object.phasetree, "priority")
+        if not any(slot.material and surface_of(slot.material, Notes()).is_clear for slot in context.object.material_slots):
+            draw_text(self.layout, "No material of this object is clear, so it is rendered as an opaque mesh.", "INFO")
+
+
+class PHASETREE_PT_material(PhasetreePanel, bpy.types.Panel):
+    bl_label = "phasetree"
+    bl_context = "material"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.material is not None
+
+    def draw(self, context):
+        notes = Notes()
+        surface = surface_of(context.material, notes)
+        if surface.is_clear:
+            draw_text(self.layout, f"Clear, with index {surface.ior:.4g}: closed objects become phases.", "CHECKMARK")
+        elif max(surface.emission) > 0:
+            draw_text(self.layout, "A glowing surface.", "CHECKMARK")
+        else:
+            draw_text(self.layout, "An opaque surface.", "CHECKMARK")
+        draw_notes(self.layout, notes)
+
+
+CLASSES = (
+    PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_film, PHASETREE_PT_phases, PHASETREE_PT_report,
+    PHASETREE_PT_passes, PHASETREE_PT_object, PHASETREE_PT_material,
+)  # fmt: skip
+
+
+def register():
+    for panel in CLASSES:
+        bpy.utils.register_class(panel)
+
+
+def unregister():
+    for panel in reversed(CLASSES):
+        bpy.utils.unregister_class(panel)

@@ -1,0 +1,85 @@
+"""Settings of scenes, view layers and objects, which are saved in .blend files."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+
+
+class PhasetreeSceneSettings(bpy.types.PropertyGroup):
+    samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, max=16777216, soft_max=4096)
+    seed: IntProperty(name="Seed", description="Seed of the random numbers; another seed gives other noise", default=0, min=0)
+    max_depth: IntProperty(
+        name="Max Surfaces", description="Maximum number of surfaces per path; 0 for no limit", default=0, min=0, max=1048576
+    )
+    caustics: BoolProperty(
+        name="Caustics",
+        description="Use photons for light that reaches surfaces through clear objects or by metal. Without them, point "
+        "and spot lights do not shine through glass",
+        default=True,
+    )
+    guiding: BoolProperty(
+        name="Path Guiding", description="Learn where light comes from before the first sample, for rooms lit indirectly"
+    )
+    spectral: BoolProperty(name="Spectral", description="Render with wavelengths instead of red, green and blue")
+    denoise: BoolProperty(name="Denoise", description="Denoise the finished picture")
+    closes_gaps: BoolProperty(
+        name="Close Gaps",
+        description="Let a liquid flow to the glass where a thin gap separates them along a tenth of a surface or more",
+        default=True,
+    )
+    update_interval: FloatProperty(
+        name="Update Interval",
+        description="Time between two updates of the picture while it renders; 0 shows only the finished picture",
+        default=3,
+        min=0,
+        max=3600,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
+    )
+    viewport_scale: IntProperty(
+        name="Viewport Scale",
+        description="Resolution of the rendered viewport, as a share of its pixels",
+        default=50,
+        min=5,
+        max=100,
+        subtype="PERCENTAGE",
+    )
+
+
+class PhasetreeViewLayerSettings(bpy.types.PropertyGroup):
+    use_pass_albedo: BoolProperty(name="Albedo", description="Albedo of the first surface")
+
+
+class PhasetreeObjectSettings(bpy.types.PropertyGroup):
+    role: EnumProperty(
+        name="Role",
+        description="What a clear object is",
+        items=(
+            ("AUTOMATIC", "Automatic", "Solid, liquid or gas by the name of the object, its material or the index"),
+            ("SOLID", "Solid", "Keeps its space where it overlaps a liquid or a gas"),
+            ("LIQUID", "Liquid", "Gives way to solids and gases that overlap it, and flows to the glass across thin gaps"),
+            ("GAS", "Gas", "Keeps its space where it overlaps a liquid, such as a bubble"),
+            ("OPAQUE", "Opaque", "Rendered as an opaque mesh, although its material is clear"),
+        ),
+        default="AUTOMATIC",
+    )
+    priority: FloatProperty(
+        name="Priority", description="Where two clear objects overlap, the one with the higher priority keeps the space"
+    )
+
+
+CLASSES = (PhasetreeSceneSettings, PhasetreeViewLayerSettings, PhasetreeObjectSettings)
+OWNERS = ((bpy.types.Scene, CLASSES[0]), (bpy.types.ViewLayer, CLASSES[1]), (bpy.types.Object, CLASSES[2]))
+
+
+def register():
+    for group in CLASSES:
+        bpy.utils.register_class(group)
+    for owner, group in OWNERS:
+        owner.phasetree = PointerProperty(type=group)
+
+
+def unregister():
+    for owner, _ in OWNERS:
+        del owner.phasetree
+    for group in reversed(CLASSES):
+        bpy.utils.unregister_class(group)

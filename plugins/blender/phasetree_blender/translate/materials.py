@@ -1,0 +1,276 @@
+"""Shader nodes as glTF materials, whose optics `phasetree import` knows."""
+
+import math
+from dataclasses import dataclass, field
+
+from . import sockets
+from .sockets import constant
+
+# Inputs of the Principled BSDF that are ignored, and whose effect vanishes at 0.
+IGNORED_WEIGHTS = ("Subsurface", "Sheen", "Clearcoat", "Anisotropic", "Thin Film Thickness", "Diffuse Roughness")
+
+GREY = (0.8, 0.8, 0.8)
+
+
+@dataclass
+class Surface:
+    """A material by glTF's numbers."""
+
+    color: tuple = GREY
+    alpha: float = 1.0
+    metallic: float = 0.0
+    roughness: float = 1.0
+    ior: float = 1.5
+    emission: tuple = (0.0, 0.0, 0.0)
+    is_clear: bool = False
+    absorption: tuple = None  # attenuation colour and distance
+    color_image: object = None  # an image of Blender
+    uses_image_alpha: bool = False
+    normal_image: object = None
+    normal_strength: float = 1.0
+    uv_maps: set = field(default_factory=set)  # names; "" is the active one
+
+
+# Diffuse reflection alone: with the smallest index that glTF's reader accepts, the coat reflects 0.002 %.
+MATT = 1.01
+
+
+def surface_of(material, notes):
+    """The surface that a material describes. A missing material is Blender's default grey."""
+    if material is None:
+        return Surface(ior=MATT)
+    if not material.use_nodes or material.node_tree is None:
+        return Surface(color=tuple(material.diffuse_color[:3]), metallic=material.metallic, roughness=material.roughness,
+                       ior=ior_of_specular(material.specular_intensity))  # fmt: skip
+    output = material.node_tree.get_output_node("ALL")
+    shader = sockets.source(output.inputs["Surface"]) if output else None
+    if output and sockets.source(output.inputs["Displacement"]):
+        notes.unsupported("displacement is ignored; use a Displace modifier")
+    if shader is None:
+        surface = Surface(color=(0, 0, 0), ior=MATT)
+        if output and sockets.source(output.inputs["Volume"]):
+            notes.unsupported("a volume without a surface; it is rendered as black")
+        return surface
+    make = SHADERS.get(shader.node.bl_idname)
+    if make is None:
+        return fallback(material, shader.node, notes)
+    surface = make(shader.node, notes)
+    volume = sockets.source(output.inputs["Volume"])
+    if volume is not None:
+        read_volume(volume.node, surface, notes)
+    return surface
+
+
+def fallback(material, node, notes):
+    notes.unsupported(
+        f"the shader {node.name} ({node.bl_label}); rendered as matt, in the colour of the material's viewport display"
+    )
+    return Surface(color=tuple(material.diffuse_color[:3]), ior=MATT)
+
+
+def ior_of_reflectance(f0):
+    root = math.sqrt(min(max(f0, 0.0), 0.3))
+    return (1 + root) / (1 - root)
+
+
+def ior_of_specular(specular):
+    return max(ior_of_reflectance(0.08 * specular), MATT)
+
+
+def coat_ior(node, notes):
+    """The index of the coat over the diffuse base: in Blender 3 from "Specular", later from "IOR" and its level."""
+    specular = constant(node, "Specular", 0.5, notes)
+    if node.inputs.get("Specular") is not None:
+        return ior_of_specular(specular)
+    ior = constant(node, "IOR", 1.5, notes)
+    return max(ior_of_reflectance(2 * specular * ((ior - 1) / (ior + 1)) ** 2), MATT)
+
+
+def principled(node, notes):
+    surface = Surface(roughness=constant(node, "Roughness", 0.5, notes), metallic=constant(node, "Metallic", 0.0, notes))
+    transmission = constant(node, "Transmission", 0.0, notes)
+    surface.is_clear = transmission >= 0.5 and surface.metallic < 0.5
+    read_color(node, "Base Color", surface, notes)
+    if surface.is_clear:
+        surface.ior = constant(node, "IOR", 1.45, notes)
+        if transmission < 1 or surface.metallic > 0:
+            notes.approximate(f"transmission {transmission:.3g} and metallic {surface.metallic:.3g} count as 1 and 0: clear")
+        if constant(node, "Transmission Roughness", 0.0, notes) > 0:
+            notes.unsupported('"Transmission Roughness" is ignored; "Roughness" is used')
+    else:
+        surface.ior = coat_ior(node, notes)
+        if transmission > 0:
+            notes.approximate(f"transmission {transmission:.3g} counts as 0: opaque")
+    for name in IGNORED_WEIGHTS:
+        if sockets.socket(node, name) is not None and constant(node, name, 0.0, notes) != 0:
+            notes.unsupported(f'"{sockets.socket(node, name).name}" is ignored')
+    read_specular_tint(node, notes)
+    strength = constant(node, "Emission Strength", 1.0, notes)
+    if strength > 0:
+        surface.emission = tuple(strength * c for c in constant(node, "Emission", (0.0, 0.0, 0.0), notes))
+    if any(surface.emission) and not surface.is_clear:
+        notes.approximate("it emits light, so its highlights are left out")
+    read_alpha(node, surface, notes)
+    read_normals(node, surface, notes)
+    return surface
+
+
+def read_specular_tint(node, notes):
+    tint = sockets.socket(node, "Specular Tint")
+    if tint is None:
+        return
+    value = sockets.plain(tint.default_value)
+    neutral = all(abs(v - 1) < 1e-6 for v in value) if isinstance(value, tuple) else value == 0
+    if tint.is_linked or not neutral:
+        notes.unsupported('"Specular Tint" is ignored')
+
+
+def read_color(node, name, surface, notes):
+    """A colour, or an image by the UV map."""
+    image = image_at(node.inputs.get(name), surface, notes)
+    if image is not None:
+        surface.color, surface.color_image = (1.0, 1.0, 1.0), image
+    else:
+        surface.color = constant(node, name, GREY, notes)
+    low, high = min(surface.color), max(surface.color)
+    if low < 0 or high > 1:
+        notes.approximate(f'"{name}" is clamped to the range from 0 to 1')
+        surface.color = tuple(min(max(c, 0.0), 1.0) for c in surface.color)
+
+
+def image_at(socket, surface, notes):
+    """The image of an Image Texture that an input is linked to, or None."""
+    origin = sockets.source(socket)
+    if origin is None or origin.node.bl_idname != "ShaderNodeTexImage" or origin.name != "Color":
+        return None
+    node = origin.node
+    if node.image is None:
+        notes.unsupported(f"{node.name} has no image; its input's own colour is used")
+        return None
+    if node.image.source not in ("FILE", "GENERATED"):
+        notes.unsupported(f'the image "{node.image.name}" is a {node.image.source.lower()}; its input\'s own colour is used')
+        return None
+    if node.projection != "FLAT" or node.extension != "REPEAT":
+        notes.unsupported(f"{node.name} is used as a flat projection that repeats")
+    coordinates = sockets.source(node.inputs["Vector"])
+    if coordinates is None or (coordinates.node.bl_idname == "ShaderNodeTexCoord" and coordinates.name == "UV"):
+        surface.uv_maps.add("")
+    elif coordinates.node.bl_idname == "ShaderNodeUVMap":
+        surface.uv_maps.add(coordinates.node.uv_map)
+    else:
+        notes.unsupported(f"{coordinates.node.name} at {node.name} is ignored; the UV map is used as it is")
+        surface.uv_maps.add("")
+    return node.image
+
+
+def read_alpha(node, surface, notes):
+    alpha = node.inputs.get("Alpha")
+    origin = sockets.source(alpha)
+    if origin is not None and origin.node.bl_idname == "ShaderNodeTexImage" and origin.name == "Alpha":
+        if origin.node.image is not None and origin.node.image == surface.color_image:
+            surface.uses_image_alpha = True
+            return
+        notes.unsupported('"Alpha" is an image other than that of "Base Color" and is ignored')
+        return
+    surface.alpha = min(max(constant(node, "Alpha", 1.0, notes), 0.0), 1.0)
+    if surface.is_clear and surface.alpha < 1:
+        notes.unsupported('"Alpha" of a clear material is ignored')
+
+
+def read_normals(node, surface, notes):
+    origin = sockets.source(node.inputs.get("Normal"))
+    if origin is None:
+        return
+    maps = origin.node
+    image = None
+    if maps.bl_idname == "ShaderNodeNormalMap" and maps.space == "TANGENT" and not surface.is_clear:
+        image = image_at(maps.inputs["Color"], surface, notes)
+    if image is None:
+        notes.unsupported(f"{maps.name} at \"Normal\" is ignored")
+        return
+    surface.normal_image, surface.normal_strength = image, constant(maps, "Strength", 1.0, notes)
+
+
+def glass(node, notes):
+    surface = Surface(is_clear=True, roughness=constant(node, "Roughness", 0.0, notes), ior=constant(node, "IOR", 1.45, notes))
+    read_color(node, "Color", surface, notes)
+    read_normals(node, surface, notes)
+    return surface
+
+
+def refraction(node, notes):
+    notes.approximate("Refraction BSDF is rendered as glass, which also reflects")
+    return glass(node, notes)
+
+
+def diffuse(node, notes):
+    surface = Surface(ior=MATT)
+    read_color(node, "Color", surface, notes)
+    if constant(node, "Roughness", 0.0, notes) != 0:
+        notes.unsupported('"Roughness" of a Diffuse BSDF is ignored')
+    read_normals(node, surface, notes)
+    return surface
+
+
+def glossy(node, notes):
+    surface = Surface(metallic=1.0, roughness=constant(node, "Roughness", 0.0, notes))
+    read_color(node, "Color", surface, notes)
+    read_normals(node, surface, notes)
+    if constant(node, "Anisotropy", 0.0, notes) != 0:
+        notes.unsupported('"Anisotropy" is ignored')
+    notes.approximate("Glossy BSDF is rendered as metal, which reflects more at grazing angles")
+    return surface
+
+
+def emission(node, notes):
+    strength = constant(node, "Strength", 1.0, notes)
+    color = constant(node, "Color", (1.0, 1.0, 1.0), notes)
+    return Surface(color=(0, 0, 0), ior=MATT, emission=tuple(max(strength * c, 0.0) for c in color))
+
+
+SHADERS = {
+    "ShaderNodeBsdfPrincipled": principled,
+    "ShaderNodeBsdfGlass": glass,
+    "ShaderNodeBsdfRefraction": refraction,
+    "ShaderNodeBsdfDiffuse": diffuse,
+    "ShaderNodeBsdfGlossy": glossy,
+    "ShaderNodeBsdfAnisotropic": glossy,  # the name of Glossy BSDF from Blender 4.0
+    "ShaderNodeEmission": emission,
+}
+
+
+def read_volume(node, surface, notes):
+    """Beer's law: Blender absorbs density × (1 − colour) per unit of length."""
+    if node.bl_idname != "ShaderNodeVolumeAbsorption":
+        return notes.unsupported(f"the volume {node.name} is ignored; use Volume Absorption")
+    if not surface.is_clear:
+        return notes.unsupported("the volume of an opaque surface is ignored")
+    color, density = constant(node, "Color", GREY, notes), constant(node, "Density", 1.0, notes)
+    if density > 0:
+        surface.absorption = (tuple(math.exp(-(1 - min(c, 1.0))) for c in color), 1 / density)
+    return None
+
+
+def gltf_of(surface, name, texture, is_opaque=False):
+    """A glTF material. `texture` makes a texture of an image, or None. `is_opaque`: whether a clear surface is made opaque."""
+    pbr = {"baseColorFactor": [*surface.color, surface.alpha], "metallicFactor": surface.metallic,
+           "roughnessFactor": surface.roughness}  # fmt: skip
+    made = {"name": name, "pbrMetallicRoughness": pbr}
+    extensions = {"KHR_materials_ior": {"ior": surface.ior}}
+    if surface.color_image is not None and (found := texture(surface.color_image)):
+        pbr["baseColorTexture"] = found
+    if surface.normal_image is not None and (found := texture(surface.normal_image)):
+        made["normalTexture"] = {**found, "scale": surface.normal_strength}
+    strength = max(surface.emission)
+    if strength > 0:
+        made["emissiveFactor"] = [c / strength for c in surface.emission]
+        extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
+    if surface.is_clear and not is_opaque:
+        volume = {"thicknessFactor": 1}
+        if surface.absorption:
+            volume["attenuationColor"], volume["attenuationDistance"] = list(surface.absorption[0]), surface.absorption[1]
+        extensions.update({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": volume})
+    elif surface.alpha < 1 or surface.uses_image_alpha:
+        made["alphaMode"] = "BLEND"
+    made["extensions"] = extensions
+    return made

@@ -1,0 +1,168 @@
+"""A Blender scene as a scene file of phasetree."""
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass
+
+import bpy
+
+from .. import command as commands
+from ..notes import TranslationError
+from . import camera, lights, meshes, world
+from .glb import Glb
+
+
+@dataclass
+class Translation:
+    """A scene whose objects are in a glTF file, and whose other parts are below. It no longer needs Blender."""
+
+    path: str  # of the scene file to be
+    glb: str  # path of the glTF file
+    parts: dict  # of the scene file: camera, lights, background
+    settings: dict  # "render" of the scene file
+    closes_gaps: bool
+    digest: str  # equal digests: equal scenes
+
+
+@dataclass
+class Written:
+    document: dict  # what is in the scene file
+    report: str  # the order of the phases, overlaps and gaps, as `phasetree import` prints them
+
+
+def size_of(render):
+    """The size of the picture in pixels."""
+    share = render.resolution_percentage / 100
+    return max(1, int(render.resolution_x * share)), max(1, int(render.resolution_y * share))
+
+
+def region_of(render):
+    """The pixels (x0, y0, x1, y1) to render, counted from the top left, without x1 and y1."""
+    width, height = size_of(render)
+    if not render.use_border:
+        return 0, 0, width, height
+    x0, x1 = (round(width * x) for x in (render.border_min_x, render.border_max_x))
+    y0, y1 = (round(height * (1 - y)) for y in (render.border_max_y, render.border_min_y))
+    return x0, y0, max(x1, x0 + 1), max(y1, y0 + 1)
+
+
+def write_scene(depsgraph, path, command, notes, active_camera=None, cancelled=lambda: False):
+    """Writes a scene file and, into its folder, the files that it names. Adds to the notes. Raises TranslationError."""
+    width, height = size_of(depsgraph.scene.render)
+    seen = camera.camera_of(active_camera or depsgraph.scene.camera, depsgraph, width, height, notes)
+    translation = translate(depsgraph, path, notes)
+    translation.parts["camera"] = seen
+    return complete(translation, command, notes, cancelled)
+
+
+def translate(depsgraph, path, notes):
+    """Writes the objects to a glTF file. Returns the scene without a camera."""
+    scene, folder, glb = depsgraph.scene, os.path.dirname(path), Glb()
+    writer = meshes.MeshWriter(glb, notes)
+    lamps = write_objects(depsgraph, writer, notes)
+    if writer.is_empty:
+        raise TranslationError("the scene has nothing to render: no visible object has faces")
+    parts = {"lights": [world.world_light(depsgraph.scene_eval.world, folder, notes), *lamps]}
+    if scene.render.film_transparent:
+        parts["background"] = [0, 0, 0]
+    note_render_settings(scene, notes)
+    file = os.path.splitext(path)[0] + ".glb"
+    content, settings = glb.content(), render_settings(scene)
+    with open(file, "wb") as out:
+        out.write(content)
+    rest = json.dumps([parts, settings, scene.phasetree.closes_gaps])
+    digest = hashlib.sha256(content + rest.encode()).hexdigest()
+    return Translation(path, file, parts, settings, scene.phasetree.closes_gaps, digest)
+
+
+def complete(translation, command, notes, cancelled=lambda: False):
+    """Makes phases of clear objects by `phasetree import`, and writes the scene file. May run in any thread."""
+    imported = commands.import_glb(command, translation.glb, translation.path, translation.closes_gaps, cancelled)
+    for warning in imported.warnings:
+        notes.approximate(warning)
+    with open(translation.path, encoding="utf-8") as file:
+        document = json.load(file)
+    for mesh in document.get("meshes", ()):
+        mesh["gltf"]["imported"] = True  # the lights are in the scene file
+    is_spectral = document["render"].get("spectral", False)  # for the dispersion of a phase
+    document.pop("camera", None)
+    document.update(translation.parts)
+    document["render"] = {**translation.settings, **({"spectral": True} if is_spectral else {})}
+    write_document(document, translation.path)
+    return Written(document, imported.report)
+
+
+def write_document(document, path):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(document, file, indent=1, ensure_ascii=False)
+
+
+def write_objects(depsgraph, writer, notes):
+    """Adds all visible objects; returns the lights."""
+    found = []
+    for instance in depsgraph.object_instances:
+        item = instance.object
+        about = notes.about(f'object "{item.name}"')
+        if not instance.show_self:
+            continue
+        if item.type == "LIGHT":
+            light = lights.light_of(item, instance.matrix_world, notes)
+            found += [light] if light else []
+        elif item.type in meshes.UNSUPPORTED:
+            about.unsupported(f"{meshes.UNSUPPORTED[item.type]} are left out")
+        elif isinstance(item.data, bpy.types.Mesh):  # curves and the like also come as objects with meshes
+            note_object(item, about)
+            writer.add(item, instance.matrix_world.copy())
+    return found
+
+
+def note_object(item, notes):
+    if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in item.particle_systems):
+        notes.unsupported("hair is left out")
+    rays = ("camera", "diffuse", "glossy", "transmission", "shadow")
+    hidden = [name for name in rays if not getattr(item, f"visible_{name}", True)]
+    if hidden:
+        notes.unsupported(f"it is visible to all rays, although ray visibility excludes {', '.join(hidden)}")
+    if getattr(item, "is_holdout", False) or getattr(item, "is_shadow_catcher", False):
+        notes.unsupported("holdouts and shadow catchers are rendered as ordinary objects")
+
+
+def note_render_settings(scene, notes):
+    render = scene.render
+    if render.use_motion_blur:
+        notes.unsupported("motion blur is ignored")
+    if render.pixel_aspect_x != render.pixel_aspect_y:
+        notes.unsupported("pixels are square, whatever the aspect ratio")
+    if render.use_multiview:
+        notes.unsupported("stereoscopy is ignored")
+    if render.use_freestyle:
+        notes.unsupported("Freestyle is ignored")
+
+
+def render_settings(scene):
+    own, (width, height) = scene.phasetree, size_of(scene.render)
+    settings = {"width": width, "height": height, "samples": own.samples, "caustics": own.caustics, "guiding": own.guiding,
+                "seed": own.seed}  # fmt: skip
+    if own.max_depth:
+        settings["max_depth"] = own.max_depth
+    if own.spectral:
+        settings["spectral"] = True
+    return settings
+
+
+def options_of(scene, view_layer):
+    """Options for `phasetree render` that are not in the scene file."""
+    planes = ["alpha"] if scene.render.film_transparent else []
+    planes += ["depth"] if view_layer.use_pass_z else []
+    planes += ["normal"] if view_layer.use_pass_normal else []
+    planes += ["albedo"] if view_layer.phasetree.use_pass_albedo else []
+    options = ["--planes", ",".join(planes)] if planes else []
+    region, (width, height) = region_of(scene.render), size_of(scene.render)
+    if region != (0, 0, width, height):
+        options += ["--crop", ",".join(map(str, region))]
+    if scene.render.threads_mode == "FIXED":
+        options += ["--threads", str(scene.render.threads)]
+    if scene.phasetree.denoise:
+        options.append("--denoise")
+    return options
