@@ -1,10 +1,13 @@
 """The command `phasetree`, run as a child process, so that nothing it does can end Blender."""
 
 import contextlib
+import ctypes
 import os
 import re
 import shutil
+import signal
 import subprocess
+import sys
 import tempfile
 import threading
 from dataclasses import dataclass
@@ -28,9 +31,22 @@ def find(preferred=""):
     raise TranslationError(MISSING)
 
 
-def quiet_child():
-    """Arguments of Popen that open no console window on Windows."""
-    return {"creationflags": subprocess.CREATE_NO_WINDOW} if os.name == "nt" else {}
+# Loaded before any fork: between fork and exec, a child of a process with threads must not import anything.
+LIBC = ctypes.CDLL(None) if sys.platform == "linux" else None
+PR_SET_PDEATHSIG = 1
+
+
+def end_with_parent():
+    """Asks Linux to kill this process when the thread that started it ends, so that no render outlives a killed Blender."""
+    LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def child_options():
+    """Arguments of Popen for children that open no console window on Windows, and do not outlive Blender on Linux. The
+    thread that starts a child must wait for it."""
+    if os.name == "nt":
+        return {"creationflags": subprocess.CREATE_NO_WINDOW}
+    return {"preexec_fn": end_with_parent} if LIBC else {}
 
 
 @dataclass
@@ -63,7 +79,7 @@ def run(arguments, cancelled):
     """Runs a command to its end, or raises Cancelled."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         try:
-            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **quiet_child())
+            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **child_options())
         except OSError as error:
             raise TranslationError(f"cannot run {arguments[0]}: {error.strerror}") from error
         try:
@@ -107,7 +123,7 @@ class RenderProcess:
             arguments += ["--checkpoint", self._checkpoint, "--checkpoint-interval", f"{seconds_between_checkpoints:g}s"]
         try:
             self._child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                           stderr=subprocess.PIPE, text=True, errors="replace", **quiet_child())  # fmt: skip
+                                           stderr=subprocess.PIPE, text=True, errors="replace", **child_options())  # fmt: skip
         except OSError as error:
             raise TranslationError(f"cannot run {command}: {error.strerror}") from error
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -140,7 +156,7 @@ class RenderProcess:
             return None
         self._age = age
         arguments = [self._command, "merge", self._checkpoint, "--allow-gaps", "--quiet", "-o", self._preview]
-        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, check=False, **quiet_child())
+        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, check=False, **child_options())
         return self._preview if done.returncode == 0 else None
 
     def finish(self):
