@@ -175,7 +175,7 @@ TEST_CASE("a sound vessel is closed, connected, thick and full") {
                           AreApart{water, vacuum, 0.4 * v.wall}, IsThick{glass, 0.8 * v.wall}, IsThick{water, 0.3}});
         for (std::size_t k = 0; k < proofs.size(); ++k) {
             CAPTURE(k);
-            CHECK(proofs[k].verdict == Verdict::proved);
+            CHECK(proofs[k].verdict == phasetree::Verdict::proved);
         }
     }
 }
@@ -191,9 +191,9 @@ TEST_CASE("holes in the wall are refuted with a path through them") {
         const Subject s = vessel_without(v, {{centre, radius}}, true);
         const std::vector<Proof> proofs =
             proofs_of(s, {IsClosed{PhaseSet::of(glass), PhaseSet::of(water)}, AreApart{water, vacuum, 0}});
-        CHECK(proofs[0].verdict == Verdict::refuted);
+        CHECK(proofs[0].verdict == phasetree::Verdict::refuted);
         CHECK(is_leak_by_samples(s, proofs[0]));
-        CHECK(proofs[1].verdict == Verdict::refuted);
+        CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
     }
 }
 
@@ -208,7 +208,7 @@ TEST_CASE("dents that leave too thin a wall are refuted with a point in it") {
         const Point surface = centre - outwards * (0.5 * v.wall - left);
         const Subject s = vessel_without(v, {{surface + outwards * radius, radius}}, false);
         const Proof proof = proofs_of(s, {IsThick{glass, 0.8 * v.wall}})[0];
-        CHECK(proof.verdict == Verdict::refuted);
+        CHECK(proof.verdict == phasetree::Verdict::refuted);
         REQUIRE(proof.witnesses.size() == 1);
         CHECK(is_thin_by_samples(s, Point(proof.witnesses[0].point), glass, 0.8 * v.wall));
     }
@@ -234,7 +234,7 @@ TEST_CASE("drops that are separate pieces are refuted with a point in each of tw
                         },
                         radius + gap + 2 * drop};
         const Proof proof = proofs_of(s, {IsConnected{water}})[0];
-        CHECK(proof.verdict == (is_apart ? Verdict::refuted : Verdict::proved));
+        CHECK(proof.verdict == (is_apart ? phasetree::Verdict::refuted : phasetree::Verdict::proved));
         if (!is_apart) continue;
         REQUIRE(proof.witnesses.size() == 2);
         const bool is_first_in_drop = is_in_ball(Point(proof.witnesses[0].point), at, drop);
@@ -258,12 +258,12 @@ TEST_CASE("gaps that are too small are refuted with two points, and others are p
         const std::vector<Proof> proofs =
             proofs_of(s, {AreApart{glass, iron, 1.6 * gap}, AreApart{glass, iron, 0.6 * gap}, AreApart{glass, iron, 0},
                           AreTouching{glass, iron}});
-        CHECK(proofs[0].verdict == Verdict::refuted);
+        CHECK(proofs[0].verdict == phasetree::Verdict::refuted);
         REQUIRE(proofs[0].witnesses.size() == 2);
         CHECK(glm::length(Point(proofs[0].witnesses[0].point) - Point(proofs[0].witnesses[1].point)) < 1.6 * gap);
-        CHECK(proofs[1].verdict == Verdict::proved);
-        CHECK(proofs[2].verdict == Verdict::proved);
-        CHECK(proofs[3].verdict == Verdict::refuted);
+        CHECK(proofs[1].verdict == phasetree::Verdict::proved);
+        CHECK(proofs[2].verdict == phasetree::Verdict::proved);
+        CHECK(proofs[3].verdict == phasetree::Verdict::refuted);
     }
 }
 
@@ -283,13 +283,13 @@ TEST_CASE("phases that others swallow are nowhere") {
                         },
                         4};
         const std::vector<Proof> proofs = proofs_of(s, {IsPresent{iron}, IsConnected{iron}, IsPresent{glass}});
-        CHECK(proofs[2].verdict == Verdict::proved);
+        CHECK(proofs[2].verdict == phasetree::Verdict::proved);
         if (is_hidden) {
-            CHECK(proofs[0].verdict == Verdict::refuted);
+            CHECK(proofs[0].verdict == phasetree::Verdict::refuted);
             CHECK(proofs[0].witnesses.empty());
-            CHECK(proofs[1].verdict == Verdict::refuted);
+            CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
         } else {
-            CHECK(proofs[0].verdict == Verdict::proved);
+            CHECK(proofs[0].verdict == phasetree::Verdict::proved);
         }
     }
 }
@@ -301,9 +301,9 @@ TEST_CASE("volumes within and beyond limits") {
     const std::vector<Proof> proofs = proofs_of(
         s, {HasVolume{{{glass, 1.0}}, 0.99 * volume, 1.01 * volume},
             HasVolume{{{glass, 1.0}}, 1.05 * volume, 2 * volume}, HasVolume{{{glass, 2.0}}, 0, 1.99 * volume}});
-    CHECK(proofs[0].verdict == Verdict::proved);
-    CHECK(proofs[1].verdict == Verdict::refuted);
-    CHECK(proofs[2].verdict == Verdict::refuted);
+    CHECK(proofs[0].verdict == phasetree::Verdict::proved);
+    CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
+    CHECK(proofs[2].verdict == phasetree::Verdict::refuted);
     CHECK(proofs[0].measured.contains(volume));
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("a thin wall is found in boxes much larger than what it lacks") {
     const Subject s{set(glass, Shell{.of = ball({}, 1), .half_thickness = 0.004f}),
                     [](const Point& p) { return std::abs(glm::length(p) - 1) < 0.004 ? 1 : 0; }, 1.1};
     const Proof proof = proofs_of(s, {IsThick{glass, 0.5}})[0];
-    CHECK(proof.verdict == Verdict::refuted);
+    CHECK(proof.verdict == phasetree::Verdict::refuted);
 }
 
 TEST_CASE("time, boxes and cancellation leave statements undecided, with the reason") {
