@@ -143,8 +143,8 @@ TEST_CASE("check of a scene without a camera says what it is good for") {
     CHECK(o.code == 3);
     CHECK(o.err == "");
     CHECK(o.out ==
-          "scene.json: the tree is valid and can be used by eval, info, trace and other programs; without a \"camera\" "
-          "the scene cannot be rendered\n");
+          "scene.json: the tree is valid and can be used by eval, info, trace, measure, solve, slice, export and other "
+          "programs; without a \"camera\" the scene cannot be rendered\n");
     CHECK(shell.run({"render", "scene.json"}).code == 2);
     for (const char* const command : {"eval", "trace", "info"}) CHECK(shell.run({command, "scene.json"}).code == 0);
 

@@ -308,6 +308,26 @@ TEST_CASE("mistakes are reported in words: one error, exit code 2, or 1 if outpu
     }
 }
 
+TEST_CASE("a density cannot be the number, because it changes no shape") {
+    const SolveShell shell;
+    std::string dense = scene;
+    dense.replace(dense.find("null"), 4, R"({"clear": {"ior": 1.5}, "density": 2500})");
+    write_text(shell.directory / "scene.json", dense);
+    const Outcome o = shell.solve({"--set", "/phases/glass/density=500:5000", "--until", "mass(glass) = 1 kg"});
+    CHECK(o.code == 2);
+    CHECK(o.err.find("--set: /phases/glass/density changes no shape") != std::string::npos);
+}
+
+TEST_CASE("without a value, no scene is written, and the exit code says so") {
+    const SolveShell shell;
+    const Outcome o = shell.solve({"--set", "/shapes/ball/sphere/radius", "--until", "volume(glass) = 330 ml", "--time",
+                                   "0.000001s", "-o", "solved.json"});
+    CAPTURE(o.err);
+    CHECK(o.code == 1);
+    CHECK(o.err.find("no value is known yet") != std::string::npos);
+    CHECK(!std::filesystem::exists(shell.directory / "solved.json"));
+}
+
 TEST_CASE("a scene is not written to a folder from which it would not find its files") {
     const SolveShell shell;
     std::filesystem::create_directory(shell.directory / "other");

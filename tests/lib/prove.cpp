@@ -282,14 +282,17 @@ TEST_CASE("phases that others swallow are nowhere") {
                             return is_in_ball(p, centre, hidden) ? static_cast<int>(iron.index) : 0;
                         },
                         4};
-        const std::vector<Proof> proofs = proofs_of(s, {IsPresent{iron}, IsConnected{iron}, IsPresent{glass}});
+        const std::vector<Proof> proofs = proofs_of(
+            s, {IsPresent{iron}, IsConnected{iron}, IsPresent{glass}, HasVolume{{{glass, 1.0}, {iron, 1.0}}, 0, 100}});
         CHECK(proofs[2].verdict == phasetree::Verdict::proved);
         if (is_hidden) {
             CHECK(proofs[0].verdict == phasetree::Verdict::refuted);
             CHECK(proofs[0].witnesses.empty());
             CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
+            CHECK(proofs[3].verdict == phasetree::Verdict::refuted);
         } else {
             CHECK(proofs[0].verdict == phasetree::Verdict::proved);
+            CHECK(proofs[3].verdict == phasetree::Verdict::proved);
         }
     }
 }
@@ -305,6 +308,19 @@ TEST_CASE("volumes within and beyond limits") {
     CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
     CHECK(proofs[2].verdict == phasetree::Verdict::refuted);
     CHECK(proofs[0].measured.contains(volume));
+}
+
+TEST_CASE("volumes that no measurement decides leave time for other statements") {
+    const Phased object = set(glass, ball({}, 1));
+    // The limit is the volume, so every interval contains it.
+    const std::vector<Statement> statements{HasVolume{{{glass, 1.0}}, 4.0 / 3 * 3.141592653589793, 100},
+                                            IsThick{glass, 0.5}};
+    ProveOptions options;
+    options.resolution = 0.1;
+    options.seconds = 3;
+    const std::vector<Proof> proofs = prove(object, statements, options);
+    CHECK(proofs[0].verdict == phasetree::Verdict::undecided);
+    CHECK(proofs[1].verdict == phasetree::Verdict::proved);
 }
 
 TEST_CASE("a thin wall is found in boxes much larger than what it lacks") {

@@ -65,6 +65,7 @@ def examples():
         "Part": [GLASS.material, LAYERS, SKY, FLOOR, CAMERA, SCENE.image, pt.textures.speckle((0, 0, 0), (1, 1, 1))],
         "Phase": [GLASS, pt.phase("bare"), pt.vacuum],
         "PhaseMesh": [BOTTLE.mesh(0.3)],
+        "Proof": BOTTLE.prove({"present": {"phase": BOTTLE.names[1]}}, {"closed": {"walls": BOTTLE.names[1], "around": BOTTLE.names[2]}}),
         "Places": [pt.places("a", POINTS)],
         "Scene": [SCENE, several, pt.Scene(BOTTLE)],
         "SceneError": [scene_error()],
@@ -106,7 +107,10 @@ class Values(unittest.TestCase):
         self.assertIs(type(a), type(b))
         if isinstance(a, tuple):
             for one, other in zip(a, b, strict=True):
-                np.testing.assert_array_equal(one, other)
+                if isinstance(one, list):
+                    self.assertEqual(one, other)
+                else:
+                    np.testing.assert_array_equal(one, other)
         elif isinstance(a, Exception):
             self.assertEqual((str(a), vars(a)), (str(b), vars(b)))
         else:

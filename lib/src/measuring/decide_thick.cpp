@@ -18,7 +18,8 @@ namespace {
 using Point = std::array<double, 3>;
 
 double distance_between(const Point& a, const Point& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return std::sqrt(x * x + y * y + z * z);
 }
 
 Point moved(const Point& p, const Point& direction, double t) {

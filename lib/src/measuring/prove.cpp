@@ -32,26 +32,17 @@ class Prover {
           traceable_(prepare_to_trace(object)),
           evaluator_(record(object)),
           start_(Clock::now()),
-          proofs_(statements.size()) {}
+          proofs_(statements.size()),
+          present_(statements.size()),
+          is_measured_(statements.size()) {}
 
+    // Coarse volumes first, because most statements about volumes are decided by them; then the boxes; then volumes as
+    // precise as they must be. Each stage leaves time for the next.
     std::vector<Proof> run() {
         const FlushSubnormals flush;
-        const std::function<bool()> is_stopped = [this] { return stopped(); };
-        for (std::size_t i = 0; i < statements_.size(); ++i)
-            if (const auto* volume = std::get_if<HasVolume>(&statements_[i])) proofs_[i] = decide_volume(*volume);
-        const int last = levels_for(traceable_, side());
-        for (int levels = std::min(first_levels, last); levels <= last && is_any_open() && !stopped(); ++levels) {
-            try {
-                const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
-                const Evidence evidence{octree, evaluator_, is_stopped};
-                for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
-                    if (proofs_[i].verdict == Verdict::undecided) decide_one(evidence, i);
-            } catch (const DivisionStopped& e) {
-                give_up(e.is_for_boxes ? "more boxes are needed than allowed" : "");
-                break;
-            }
-            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
-        }
+        decide_volumes(0.1, 0.01, 0.25);
+        divide(has_open_volume() ? 0.75 : 1);
+        decide_volumes(0.001, finest_tolerance, 1);
         if (stopped()) give_up(is_cancelled_ ? "interrupted" : "time ran out");
         give_up("the resolution is too coarse");
         if (options_.progress) options_.progress(1.f);
@@ -59,33 +50,70 @@ class Prover {
     }
 
   private:
+    // Begins a stage that ends at this share of the time.
+    void begin_stage(double share) {
+        end_of_stage_ = share * options_.seconds;
+        is_stopped_ = is_cancelled_.load();
+    }
     bool stopped() {
         if (is_stopped_.load(std::memory_order_relaxed)) return true;
         if (options_.cancelled && options_.cancelled()) is_cancelled_ = is_stopped_ = true;
         if (seconds_left() <= 0) is_stopped_ = true;
         return is_stopped_;
     }
-    double seconds_left() const {
-        return options_.seconds - std::chrono::duration<double>(Clock::now() - start_).count();
+    double seconds_left() const { return end_of_stage_ - std::chrono::duration<double>(Clock::now() - start_).count(); }
+    void divide(double share) {
+        begin_stage(share);
+        const std::function<bool()> is_stopped = [this] { return stopped(); };
+        const int last = levels_for(traceable_, side());
+        for (int levels = std::min(first_levels, last); levels <= last && is_any_open() && !stopped(); ++levels) {
+            try {
+                const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
+                const Evidence evidence{octree, evaluator_, is_stopped};
+                for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
+                    if (is_open(i)) decide_one(evidence, i);
+            } catch (const DivisionStopped& e) {
+                if (e.is_for_boxes) give_up("more boxes are needed than allowed");
+                return;
+            }
+            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
+        }
     }
     double side() const {
         if (options_.resolution > 0) return options_.resolution;
         const glm::dvec3 extent(traceable_.bounds.extent());
         return std::max({extent.x, extent.y, extent.z}) / boxes_along_longest_side;
     }
+    bool is_open(std::size_t i) const { return proofs_[i].verdict == Verdict::undecided && proofs_[i].reason.empty(); }
+    // Whether boxes can still decide something: a statement other than on volumes, or whether phases are somewhere.
     bool is_any_open() const {
-        return std::ranges::any_of(proofs_,
-                                   [](const Proof& p) { return p.verdict == Verdict::undecided && p.reason.empty(); });
+        for (std::size_t i = 0; i < statements_.size(); ++i) {
+            const auto* volume = std::get_if<HasVolume>(&statements_[i]);
+            if (is_open(i) && (!volume || !are_present(*volume, present_[i]))) return true;
+        }
+        return false;
+    }
+    bool has_open_volume() const {
+        for (std::size_t i = 0; i < statements_.size(); ++i)
+            if (std::holds_alternative<HasVolume>(statements_[i]) && is_open(i)) return true;
+        return false;
+    }
+    static bool are_present(const HasVolume& s, PhaseSet present) {
+        return std::ranges::all_of(s.weights, [&](const auto& w) { return present.contains(w.first); });
     }
     void give_up(const std::string& reason) {
         for (Proof& proof : proofs_)
             if (proof.verdict == Verdict::undecided && proof.reason.empty()) proof.reason = reason;
     }
     void decide_one(const Evidence& evidence, std::size_t i) {
+        if (const auto* volume = std::get_if<HasVolume>(&statements_[i])) {
+            decide_presence(evidence, *volume, i);
+            return;
+        }
         Proof proof = std::visit(
             [&]<class S>(const S& statement) {
                 if constexpr (std::is_same_v<S, HasVolume>)
-                    return proofs_[i];
+                    return Proof();  // above
                 else
                     return decide(evidence, statement);
             },
@@ -93,14 +121,49 @@ class Prover {
         proof.resolution = evidence.octree.side();
         proofs_[i] = std::move(proof);
     }
+    // Whether the phases of a statement about a volume are somewhere, which it requires.
+    void decide_presence(const Evidence& evidence, const HasVolume& s, std::size_t i) {
+        for (const auto& [phase, weight] : s.weights) {
+            if (present_[i].contains(phase)) continue;
+            Proof proof = decide(evidence, IsPresent{phase});
+            if (proof.verdict == Verdict::refuted) {
+                proof.measured = proofs_[i].measured;
+                proofs_[i] = std::move(proof);
+                return;
+            }
+            if (proof.verdict == Verdict::proved) present_[i] = present_[i] | PhaseSet::of(phase);
+        }
+        conclude(s, i);
+    }
+    // Decides by the interval known.
+    void conclude(const HasVolume& s, std::size_t i) {
+        Proof& proof = proofs_[i];
+        const Measured& sum = proof.measured;
+        if (!is_measured_[i]) return;
+        if (sum.high < s.at_least || sum.low > s.at_most) proof.verdict = Verdict::refuted;
+        if (sum.low >= s.at_least && sum.high <= s.at_most && are_present(s, present_[i]))
+            proof.verdict = Verdict::proved;
+    }
+    // Open statements about volumes, each with an equal part of the time that is left of the stage.
+    void decide_volumes(double tolerance, double finest, double share) {
+        begin_stage(share);
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < statements_.size(); ++i)
+            left += std::holds_alternative<HasVolume>(statements_[i]) && is_open(i);
+        for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
+            if (const auto* volume = std::get_if<HasVolume>(&statements_[i]); volume && is_open(i))
+                decide_volume(*volume, i, tolerance, finest, seconds_left() / static_cast<double>(left--));
+    }
     // Measures more and more precisely until the interval is on one side of each limit.
-    Proof decide_volume(const HasVolume& s) {
-        Proof proof;
-        constexpr double finest = 1e-7;
-        for (double tolerance = 0.1; tolerance > finest && !stopped(); tolerance /= 10) {
+    void decide_volume(const HasVolume& s, std::size_t i, double tolerance, double finest, double seconds) {
+        const Clock::time_point start = Clock::now();
+        Proof& proof = proofs_[i];
+        for (; tolerance > 0.99 * finest && !stopped(); tolerance /= 10) {
+            const double left = seconds - std::chrono::duration<double>(Clock::now() - start).count();
+            if (left <= 0) return;
             MeasureOptions options;
             options.tolerance = tolerance;
-            options.seconds = std::max(seconds_left(), 1e-3);
+            options.seconds = std::max(left, 1e-3);
             options.cancelled = options_.cancelled;
             const MeasureResult measured = measure(object_, options);
             Measured sum{0, 0, 0};
@@ -110,22 +173,26 @@ class Prover {
                         sum.low += weight * p.body.volume.low;
                         sum.high += weight * p.body.volume.high;
                         sum.estimate += weight * p.body.volume.estimate;
+                        if (p.body.volume.low > 0) present_[i] = present_[i] | PhaseSet::of(phase);
                     }
             // The rounding errors of at most 64 products and sums.
             sum.low *= 1 - 1e-14;
             sum.high *= 1 + 1e-14;
             proof.measured = sum;
-            if (sum.low >= s.at_least && sum.high <= s.at_most) proof.verdict = Verdict::proved;
-            if (sum.high < s.at_least || sum.low > s.at_most) proof.verdict = Verdict::refuted;
-            if (proof.verdict != Verdict::undecided) return proof;
+            is_measured_[i] = true;
+            conclude(s, i);
+            if (proof.verdict != Verdict::undecided) return;
+            const bool is_within = sum.low >= s.at_least && sum.high <= s.at_most;
+            if (is_within) return;  // it is open whether the phases are somewhere
             if (measured.end == MeasureEnd::precision) {
                 proof.reason = "32-bit coordinates allow no narrower interval";
-                return proof;
+                return;
             }
         }
-        proof.reason = stopped() ? "" : "the interval contains the limit";
-        return proof;
+        if (finest <= finest_tolerance && !stopped()) proof.reason = "the interval contains the limit";
     }
+
+    static constexpr double finest_tolerance = 1e-6;
 
     const Phased& object_;
     std::span<const Statement> statements_;
@@ -134,6 +201,10 @@ class Prover {
     Evaluator evaluator_;
     Clock::time_point start_;
     std::vector<Proof> proofs_;
+    // Of statements about volumes: the phases that are known to be somewhere, and whether there is an interval.
+    std::vector<PhaseSet> present_;
+    std::vector<bool> is_measured_;
+    double end_of_stage_ = 0;  // in seconds since the start
     std::atomic<bool> is_stopped_{false}, is_cancelled_{false};
 };
 

@@ -49,7 +49,7 @@ int check_without_camera(const Document& document, const std::string& shown) {
     }
     const SceneTree tree{model.phases, model.object};
     const Evaluator evaluator(record_tree(document, tree.object));
-    std::string uses = "eval, info, trace and other programs";
+    std::string uses = "eval, info, trace, measure, solve, slice, export and other programs";
     const Bounds b = bounds(tree.object);
     if (!b.empty() && b.finite()) {
         print_warning(shown, made_of_tree(document, [&] { return prepare_to_trace(tree.object); }).warning);

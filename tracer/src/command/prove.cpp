@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "command/duration.hpp"
@@ -69,6 +70,7 @@ std::string witness_text(const Finding& f, const PhaseNames& names) {
 std::string interval_text(const Finding& f) {
     if (!std::holds_alternative<HasVolume>(f.expectation.statement) || f.proof.measured.high == 0) return "";
     const Measured& m = f.proof.measured;
+    if (!std::isfinite(m.low) || !std::isfinite(m.high)) return "";
     return fmt::format("; it is from {:.7g} to {:.7g} {}", m.low / f.expectation.unit, m.high / f.expectation.unit,
                        f.expectation.unit_name);
 }

@@ -89,6 +89,18 @@ void check_same_folder(const Document& document, Value value, const std::filesys
     for (const Value child : value) check_same_folder(document, child, output);
 }
 
+// Densities are read once: the mass is proportional to them. Throws UsageError.
+void check_is_no_density(const std::string& pointer) {
+    const std::string_view phases = "/phases/", density = "/density";
+    if (!pointer.starts_with(phases) || !pointer.ends_with(density)) return;
+    const std::string_view name = std::string_view(pointer).substr(phases.size());
+    if (name.size() < density.size() || name.find('/') != name.size() - density.size()) return;
+    throw UsageError(fmt::format(
+        "--set: {} changes no shape; the mass is proportional to it, so divide the target by the volume that "
+        "\"phasetree measure\" prints",
+        pointer));
+}
+
 [[noreturn]] void throw_same_side(const NumberToSet& number, const Quantity& q, const SolveResult& r) {
     const bool is_below = r.low->measure.high < q.target.value;
     throw UsageError(fmt::format(
@@ -130,6 +142,7 @@ int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
     const Quantity quantity = quantity_of(chosen.quantity, tree, length_unit(chosen.unit, model),
                                           densities_of(chosen.densities, tree, model));
     const NumberToSet number = number_to_set(chosen.number, document);
+    check_is_no_density(number.pointer);
     EditedScene scene(file, document, number.pointer, chosen.object);
     const InterruptGuard guard;
     LateProgress progress(ProgressOutput::standard_error(false), "solving");
@@ -151,7 +164,10 @@ int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
         return code_of_interruption(false);
     }
     if (chosen.output && result.best) write_file(scene.text(result.best->at), *chosen.output);
-    if (chosen.output && !result.best) say("phasetree: warning: no value is known, so no file was written\n");
+    if (chosen.output && !result.best) {
+        say("phasetree: error: no value is known yet, so no file was written; allow more with --time\n");
+        return exit_code::failure;
+    }
     return exit_code::success;
 }
 

@@ -49,7 +49,7 @@ struct IsThick {
     double at_least = 0;  ///< in the scene's unit of length. Positive
     double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
 };
-/// The volume of the phases together is in this interval.
+/// All of the phases are somewhere, and their volume together is in this interval.
 struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();
@@ -98,19 +98,19 @@ struct ProveOptions {
 /// component is that of a phase, up to the rounding errors that measure() allows for. "Somewhere" and "a piece" mean
 /// sets with an interior. Witnesses are points that certainly are in their phases:
 ///
-/// | verdict | witnesses |
-/// |---|---|
-/// | present: proved | a point in the phase |
-/// | connected: refuted | two points of the phase in different pieces |
-/// | closed: refuted | a path from a phase inside to the space around the object: each point, and each segment between
-/// two of them, is outside the walls | | apart: refuted | a point of each phase, closer to each other than required,
-/// or, if the phases touch, a point of each | | touching: proved | a point of each phase | | thick: refuted | a point
-/// of the phase that is not within reach of a ball |
+/// * present, proved: a point in the phase
+/// * connected, refuted: two points of the phase in different pieces
+/// * closed, refuted: a path from a phase inside to the space around the object; each point, and each segment between
+///   two of them, is outside the walls
+/// * apart, refuted: a point of each phase, closer to each other than required, or, if they touch, a point of each
+/// * touching, proved: a point of each phase
+/// * thick, refuted: a point of the phase that is not within reach of a ball
 ///
 /// A phase that certainly is nowhere refutes a statement without a witness.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
-/// cancelled. Throws ModelError if the object is empty or unbounded, or if an argument is out of its range.
+/// cancelled. Volumes may use a quarter of the time before boxes are divided, and all that boxes leave of it, at least
+/// a quarter. Throws ModelError if the object is empty or unbounded, or if an argument is out of its range.
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
 
 }  // namespace phasetree
