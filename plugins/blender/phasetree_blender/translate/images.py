@@ -53,9 +53,10 @@ def values_of(channel):
     pixels = pixels_of(image)
     if pixels is None:
         return None
-    colors = pixels[0]
-    is_linear = image.is_float or image.colorspace_settings.is_data or image.colorspace_settings.name.startswith("Linear")
-    colors = colors if is_linear else linear(colors)
+    colors, _ = pixels
+    space = image.colorspace_settings
+    if not (image.is_float or space.is_data or space.name.startswith("Linear")):
+        colors = linear(colors)
     return colors @ np.array(LUMINANCE, dtype=np.float32) if channel.number is None else colors[..., channel.number]
 
 

@@ -7,11 +7,9 @@ from .sockets import constant
 
 WHITE = (1.0, 1.0, 1.0)
 
-# Blender 3 multiplies the coat's reflection by this.
-OLD_COAT = 0.25
-
-# The sheen of Blender 3 is much fainter than glTF's, and has no roughness. With these, a white sky looks the same in both.
-OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.16, 0.3
+# Coat and sheen of Blender 3 are fainter than glTF's, and its sheen has no roughness. With these numbers, smooth balls reflect
+# as much of a white sky as in Cycles.
+OLD_COAT, OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.14, 0.16, 0.3
 
 # A weight of sheen that nobody sees. It makes the reader choose its layered material, which reflects and emits light.
 INVISIBLE = 1e-6

@@ -142,7 +142,7 @@ class MeshWriter:
         normals, tangents = triangles.normals[used], None
         if surface.grain_axis:
             tangents = tangents_around(surface.grain_axis, triangles.generated[triangles.of_corners[used]], normals)
-            if coordinates is None:  # whatever they are: without any, tangents are ignored
+            if coordinates is None:  # the reader drops tangents of meshes without coordinates
                 coordinates = np.zeros((len(used), 2))
         return self._glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
 
