@@ -39,7 +39,7 @@ class Losses(BlenderTest):
             'not supported: material "Skin": "Base Color" is linked to Noise Texture, which is ignored',
             'not supported: material "Skin": "Roughness" is linked to Noise Texture, which is ignored; the value 0.5 is used',
             'not supported: material "Skin": "Subsurface" is ignored',
-            'not supported: material "Skin": "Sheen" is ignored',
+            'approximate: material "Skin": "Sheen" uses a different model than Blender',
             'not supported: material "Skin": "Specular Tint" is ignored',
             'not supported: material "Skin": Bump at "Normal" is ignored',
             'not supported: material "ShaderNodeBsdfHair": the shader Hair BSDF',
@@ -90,9 +90,42 @@ class Losses(BlenderTest):
         image = bpy.data.images.new("poster", 4, 4)
         image.source, image.filepath = "FILE", str(self.folder / "missing.png")
         texture.image = image
-        tree.links.new(texture.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+        bsdf = tree.nodes["Principled BSDF"]
+        link = tree.links.new(texture.outputs["Color"], bsdf.inputs["Base Color"])
         dress(bpy.data.objects["Cube"], material)
-        self.assertIn('not supported: material "Poster": the image "poster" cannot be read and is ignored', self.check()[0])
+        wanted = 'not supported: material "Poster": the image "poster" cannot be read and is ignored'
+        self.assertEqual(self.check()[0], wanted)
+        # Instead of a number, the input's own value is used.
+        tree.links.remove(link)
+        bsdf.inputs["Metallic"].default_value = 0.25
+        own = self.combined()
+        tree.links.new(texture.outputs["Color"], bsdf.inputs["Metallic"])
+        self.assertAlmostEqual(float(self.combined().mean() / own.mean()), 1, delta=0.01)
+        self.assertEqual(self.notes(), wanted)
+
+    def test_layers_and_images_lose_nothing(self):
+        material = principled("Brushed", Emission=(0.1, 0.2, 0.3), Anisotropic=0.5, Anisotropic_Rotation=0.25)
+        tree = material.node_tree
+        bsdf = tree.nodes["Principled BSDF"]
+        texture, mapping = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeMapping")
+        texture.image = bpy.data.images.new("steel", 4, 4)
+        mapping.inputs["Rotation"].default_value = (0, 0, 1)
+        tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+        tree.links.new(texture.outputs["Color"], bsdf.inputs["Base Color"])
+        dress(bpy.data.objects["Cube"], material)
+        self.assertIn("Mapping has no input; the UV map is used", self.check()[0])
+        tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["UV"], mapping.inputs["Vector"])
+        self.assertEqual(self.check()[0], "")
+        tree.links.new(texture.outputs["Color"], bsdf.inputs["Metallic"])
+        # The images of numbers lie on the mesh in one way, and a Mapping node keeps it in the plane.
+        other = tree.nodes.new("ShaderNodeTexImage")
+        other.image = texture.image
+        tree.links.new(other.outputs["Color"], bsdf.inputs["Roughness"])
+        notes = self.check()[0]
+        self.assertIn('"Anisotropic" is ignored, because "Roughness" is an image', notes)
+        self.assertIn('the image of "Metallic" is ignored, because it lies on the mesh otherwise', notes)
+        mapping.inputs["Rotation"].default_value = (1, 0, 0)
+        self.assertIn("Mapping at Image Texture is ignored; it may only move, scale, and rotate about z", self.check()[0])
 
     def test_command_that_is_missing_or_fails_gives_one_message(self):
         preferences = bpy.context.preferences.addons["phasetree_blender"].preferences
@@ -132,7 +165,10 @@ class NewNames(unittest.TestCase):
     DEFAULTS = {"Base Color": (0.8, 0.8, 0.8, 1), "Metallic": 0.0, "Roughness": 0.5, "IOR": 1.5, "Alpha": 1.0,
                 "Subsurface Weight": 0.0, "Specular IOR Level": 0.5, "Specular Tint": (1, 1, 1, 1), "Anisotropic": 0.0,
                 "Transmission Weight": 0.0, "Coat Weight": 0.0, "Sheen Weight": 0.0, "Emission Color": (1, 1, 1, 1),
-                "Emission Strength": 0.0, "Thin Film Thickness": 0.0, "Normal": (0, 0, 0)}  # fmt: skip
+                "Emission Strength": 0.0, "Thin Film Thickness": 0.0, "Thin Film IOR": 1.33, "Normal": (0, 0, 0),
+                "Coat Roughness": 0.03, "Coat IOR": 1.5, "Coat Tint": (1, 1, 1, 1), "Coat Normal": (0, 0, 0),
+                "Sheen Roughness": 0.5, "Sheen Tint": (1, 1, 1, 1), "Anisotropic Rotation": 0.0,
+                "Tangent": (0, 0, 0)}  # fmt: skip
 
     def surface(self, **values):
         """The surface of a node with these values, and the notes as text."""
@@ -153,9 +189,30 @@ class NewNames(unittest.TestCase):
         self.assertEqual(self.surface(Emission_Strength=2.0)[0].emission, (2, 2, 2))
         # A level of 1 doubles the reflectance: 0.08 instead of 0.04.
         self.assertAlmostEqual(self.surface(Specular_IOR_Level=1.0)[0].ior, (1 + 0.08**0.5) / (1 - 0.08**0.5))
-        _, notes = self.surface(Coat_Weight=1.0, Subsurface_Weight=0.5, Specular_Tint=(1, 0, 0, 1), Thin_Film_Thickness=300.0)
-        for name in ("Coat Weight", "Subsurface Weight", "Specular Tint", "Thin Film Thickness"):
-            self.assertIn(f'not supported: "{name}" is ignored', notes)
+        _, notes = self.surface(Coat_Weight=1.0, Coat_IOR=1.6, Coat_Tint=(1, 0, 0, 1), Subsurface_Weight=0.5)
+        for text in ('"Coat IOR" is ignored; it is 1.5', '"Coat Tint" is ignored', '"Subsurface Weight" is ignored'):
+            self.assertIn(f"not supported: {text}", notes)
+        self.assertEqual(len(notes.splitlines()), 3, notes)
+
+    def test_layers(self):
+        film = {"iridescenceFactor": 1, "iridescenceIor": 1.33, "iridescenceThicknessMinimum": 300,
+                "iridescenceThicknessMaximum": 300}  # fmt: skip
+        surface, notes = self.surface(Coat_Weight=0.75, Coat_Roughness=0.25, Thin_Film_Thickness=300.0)
+        self.assertEqual((notes, surface.extensions), ("", {
+            "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25},
+            "KHR_materials_iridescence": film}))  # fmt: skip
+        surface, notes = self.surface(Sheen_Weight=0.5, Sheen_Tint=(1, 0.5, 0, 1), Specular_Tint=(1, 0.25, 0, 1))
+        self.assertEqual(notes, 'approximate: "Sheen Weight" uses a different model than Blender\n'
+                         'approximate: "Specular Tint" also colours reflections at grazing angles')  # fmt: skip
+        self.assertEqual(surface.extensions, {
+            "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.25, 0], "sheenRoughnessFactor": 0.5},
+            "KHR_materials_specular": {"specularColorFactor": [1, 0.25, 0]}})  # fmt: skip
+        # Clear materials have films only.
+        surface, notes = self.surface(Transmission_Weight=1.0, Thin_Film_Thickness=300.0, Coat_Weight=1.0, Sheen_Weight=1.0,
+                                      Anisotropic=1.0, Specular_Tint=(1, 0, 0, 1))  # fmt: skip
+        self.assertEqual(surface.extensions, {"KHR_materials_iridescence": film})
+        for name in ("Coat Weight", "Sheen Weight", "Anisotropic", "Specular Tint"):
+            self.assertIn(f'not supported: "{name}" of a clear material is ignored', notes)
 
 
 class Materials(BlenderTest):

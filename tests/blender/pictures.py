@@ -2,6 +2,8 @@
 
 import collections
 import json
+import math
+import struct
 import unittest
 import unittest.mock
 
@@ -9,6 +11,17 @@ import bpy
 import numpy as np
 from phasetree_blender import engine, exr
 from support import BlenderTest, add_box, dress, principled, shader
+
+
+def replace_materials(path, materials):
+    """Replaces the materials of a .glb file."""
+    content = path.read_bytes()
+    (size,) = struct.unpack("<I", content[12:16])
+    document = {**json.loads(content[20 : 20 + size]), "materials": materials}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = content[20 + size :]
+    path.write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON") + text + rest)
 
 
 class Pictures(BlenderTest):
@@ -31,6 +44,52 @@ class Pictures(BlenderTest):
         self.assert_equal_pixels(rendered, self.of_command())
         self.assertTrue((rendered["ViewLayer.Combined.A"] == 1).all())
         self.assertGreater(rendered["ViewLayer.Combined.R"].std(), 0.01)
+
+    def test_layers_are_those_of_the_same_gltf_file(self):
+        """A coat, sheen and a grain along the UV map, each on a face of the cube, against extensions written by hand."""
+        mesh = bpy.data.objects["Cube"].data
+        rest = {"Base_Color": (0.5, 0.25, 0.125), "Roughness": 0.5}
+        layered = [principled("Coat", Clearcoat=1.0, Clearcoat_Roughness=0.25, **rest),
+                   principled("Sheen", Sheen=1.0, Sheen_Tint=0.0, **rest),
+                   principled("Grain", Metallic=1.0, Anisotropic=0.5, Anisotropic_Rotation=0.125, **rest)]  # fmt: skip
+        tree = layered[2].node_tree
+        tangent = tree.nodes.new("ShaderNodeTangent")
+        tangent.direction_type = "UV_MAP"
+        tree.links.new(tangent.outputs[0], tree.nodes["Principled BSDF"].inputs["Tangent"])
+        for material in layered:
+            mesh.materials.append(material)
+        mesh.materials.pop(index=0)
+        for face in mesh.polygons:
+            face.material_index = int(np.argmax(np.abs(face.normal)))
+        rendered = self.render()
+        self.assertIn("Sheen", self.notes())
+        path, _ = self.export()
+        # Tangents of the UV map are the reader's.
+        self.assertNotIn(b'"TANGENT"', (self.folder / "exported.glb").read_bytes())
+        base = {"baseColorFactor": [0.5, 0.25, 0.125, 1], "metallicFactor": 0, "roughnessFactor": 0.5}
+        aspect = (1 - 0.9 * 0.5) ** 0.5
+        along, across = 0.25 / aspect, 0.25 * aspect
+        by_hand = [
+            {"name": "Coat", "pbrMetallicRoughness": base, "extensions": {
+                "KHR_materials_clearcoat": {"clearcoatFactor": 0.14, "clearcoatRoughnessFactor": 0.25}}},
+            {"name": "Sheen", "pbrMetallicRoughness": base, "extensions": {
+                "KHR_materials_sheen": {"sheenColorFactor": [0.16] * 3, "sheenRoughnessFactor": 0.3}}},
+            {"name": "Grain", "pbrMetallicRoughness": {**base, "metallicFactor": 1, "roughnessFactor": across**0.5},
+             "extensions": {"KHR_materials_anisotropy": {
+                 "anisotropyStrength": ((along - across) / (1 - across)) ** 0.5, "anisotropyRotation": math.pi / 4}}},
+        ]  # fmt: skip
+
+        def picture(materials):
+            replace_materials(self.folder / "exported.glb", materials)
+            self.run_command("render", path, "-o", "command.exr", "--quiet", "--planes", "normal")
+            return exr.read(self.folder / "command.exr")
+
+        command = picture(by_hand)
+        self.assert_equal_pixels(rendered, command)
+        # Each face looks otherwise without its extension.
+        changed = np.abs(picture([{**m, "extensions": {}} for m in by_hand])["R"] - command["R"])
+        for axis, material in zip("XYZ", by_hand):
+            self.assertGreater(changed[np.abs(command[f"normal.{axis}"]) > 0.9].max(), 1e-3, material["name"])
 
     def test_passes_regions_and_transparent_backgrounds(self):
         layer = bpy.context.view_layer

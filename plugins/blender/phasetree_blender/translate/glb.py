@@ -31,14 +31,17 @@ class Glb:
         element = {"bufferView": self._view(data.tobytes()), "componentType": component, "count": len(data), "type": kind}
         return self._add("accessors", {**element, **more})
 
-    def primitive(self, positions, normals, triangles, coordinates, material):
-        """A primitive for mesh(). Arrays have a row per vertex or triangle; normals and coordinates may be None."""
+    def primitive(self, positions, normals, triangles, coordinates, material, tangents=None):
+        """A primitive for mesh(). Arrays have a row per vertex or triangle; those of normals, coordinates and tangents may be
+        None."""
         low, high = positions.min(axis=0).tolist(), positions.max(axis=0).tolist()
         attributes = {"POSITION": self._accessor(positions, "VEC3", FLOAT, min=low, max=high)}
         if normals is not None:
             attributes["NORMAL"] = self._accessor(normals, "VEC3", FLOAT)
         if coordinates is not None:
             attributes["TEXCOORD_0"] = self._accessor(coordinates, "VEC2", FLOAT)
+        if tangents is not None:
+            attributes["TANGENT"] = self._accessor(tangents, "VEC4", FLOAT)
         return {"attributes": attributes, "indices": self._accessor(triangles.reshape(-1), "SCALAR", UNSIGNED),
                 "material": material}  # fmt: skip
 
@@ -46,7 +49,7 @@ class Glb:
         return self._add("meshes", {"name": name, "primitives": primitives})
 
     def material(self, material):
-        self._extensions.update(material.get("extensions", ()))
+        self._extensions.update(extensions_in(material))
         return self._add("materials", material)
 
     def texture(self, content, mime):
@@ -72,3 +75,10 @@ class Glb:
         size = 12 + 8 + len(text) + 8 + len(binary)
         return b"".join([b"glTF", struct.pack("<II", 2, size), struct.pack("<I4s", len(text), b"JSON"), text,
                          struct.pack("<I4s", len(binary), b"BIN\0"), binary])  # fmt: skip
+
+
+def extensions_in(value):
+    """The names of the extensions that a value of the file uses."""
+    if not isinstance(value, dict):
+        return set()
+    return set(value.get("extensions", ())).union(*map(extensions_in, value.values()))

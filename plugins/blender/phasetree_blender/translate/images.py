@@ -7,6 +7,8 @@ import zlib
 import bpy
 import numpy as np
 
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+
 SIGNATURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 
 
@@ -45,6 +47,35 @@ def pixels_of(image):
     return colors, pixels[..., 3:4] if image.channels == 4 else np.ones_like(colors[..., :1])
 
 
+def values_of(channel):
+    """The linear numbers (height, width) of a channel of an image, the top row first; None if it cannot be read."""
+    image = channel.texture.image
+    pixels = pixels_of(image)
+    if pixels is None:
+        return None
+    colors, _ = pixels
+    space = image.colorspace_settings
+    if not (image.is_float or space.is_data or space.name.startswith("Linear")):
+        colors = linear(colors)
+    return colors @ np.array(LUMINANCE, dtype=np.float32) if channel.number is None else colors[..., channel.number]
+
+
+def png_of_numbers(*channels):
+    """A PNG whose channels are arrays (height, width) of numbers from 0 to 1, or None for 1. All get the largest size."""
+    height, width = (max(c.shape[axis] for c in channels if c is not None) for axis in (0, 1))
+    rgba = np.full((height, width, 4), 255, dtype=np.uint8)
+    for number, values in enumerate(channels):
+        if values is not None:
+            rows, columns = np.arange(height) * values.shape[0] // height, np.arange(width) * values.shape[1] // width
+            rgba[..., number] = np.rint(255 * np.clip(values, 0, 1)).astype(np.uint8)[rows[:, None], columns]
+    return encode_png(rgba)
+
+
+def linear(colors):
+    """Linear numbers of sRGB's."""
+    return np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+
+
 def png_of(image, colors, alpha):
     if image.is_float and not image.colorspace_settings.is_data:  # linear
         low = np.clip(colors, 0, 1)
@@ -58,8 +89,8 @@ def radiance_of(image):
     if pixels is None:
         return None
     colors = np.maximum(pixels[0], 0)
-    if not image.is_float:  # sRGB
-        colors = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    if not image.is_float:
+        colors = linear(colors)
     height, width, _ = colors.shape
     largest = colors.max(axis=2)
     exponent = np.where(largest > 1e-32, np.frexp(np.maximum(largest, 1e-32))[1], -128)

@@ -1,13 +1,14 @@
 """Shader nodes as glTF materials, whose optics `phasetree import` knows."""
 
+import copy
 import math
 from dataclasses import dataclass, field
 
-from . import sockets
+from . import layers, sockets, textures
 from .sockets import constant
 
 # Inputs of the Principled BSDF that are ignored, and whose effect vanishes at 0.
-IGNORED_WEIGHTS = ("Subsurface", "Sheen", "Clearcoat", "Anisotropic", "Thin Film Thickness", "Diffuse Roughness")
+IGNORED_WEIGHTS = ("Subsurface", "Diffuse Roughness")
 
 GREY = (0.8, 0.8, 0.8)
 
@@ -24,10 +25,15 @@ class Surface:
     emission: tuple = (0.0, 0.0, 0.0)
     is_clear: bool = False
     absorption: tuple = None  # attenuation colour and distance
-    color_image: object = None  # an image of Blender
+    color_image: textures.Texture = None
     uses_image_alpha: bool = False
-    normal_image: object = None
+    roughness_image: textures.Channel = None  # multiplied by the number
+    metallic_image: textures.Channel = None
+    normal_image: textures.Texture = None
     normal_strength: float = 1.0
+    is_bump_on_coat: bool = False  # whether the coat has these normals, too
+    extensions: dict = field(default_factory=dict)  # layers, by glTF's names
+    grain_axis: str = None  # the axis that anisotropy turns around; None: as the UV map
     uv_maps: set = field(default_factory=set)  # names; "" is the active one
 
 
@@ -87,9 +93,8 @@ def coat_ior(node, notes):
 
 
 def principled(node, notes):
-    surface = Surface(roughness=constant(node, "Roughness", 0.5, notes), metallic=constant(node, "Metallic", 0.0, notes))
-    transmission = constant(node, "Transmission", 0.0, notes)
-    surface.is_clear = transmission >= 0.5 and surface.metallic < 0.5
+    surface, transmission = Surface(), constant(node, "Transmission", 0.0, notes)
+    read_metallic_and_roughness(node, surface, transmission, notes)
     read_color(node, "Base Color", surface, notes)
     if surface.is_clear:
         surface.ior = constant(node, "IOR", 1.45, notes)
@@ -104,31 +109,34 @@ def principled(node, notes):
     for name in IGNORED_WEIGHTS:
         if sockets.socket(node, name) is not None and constant(node, name, 0.0, notes) != 0:
             notes.unsupported(f'"{sockets.socket(node, name).name}" is ignored')
-    read_specular_tint(node, notes)
     strength = constant(node, "Emission Strength", 1.0, notes)
     if strength > 0:
         surface.emission = tuple(strength * c for c in constant(node, "Emission", (0.0, 0.0, 0.0), notes))
-    if any(surface.emission) and not surface.is_clear:
-        notes.approximate("it emits light, so its highlights are left out")
     read_alpha(node, surface, notes)
     read_normals(node, surface, notes)
+    layers.read_layers(node, surface, notes)
     return surface
 
 
-def read_specular_tint(node, notes):
-    tint = sockets.socket(node, "Specular Tint")
-    if tint is None:
-        return
-    value = sockets.plain(tint.default_value)
-    neutral = all(abs(v - 1) < 1e-6 for v in value) if isinstance(value, tuple) else value == 0
-    if tint.is_linked or not neutral:
-        notes.unsupported('"Specular Tint" is ignored')
+def read_metallic_and_roughness(node, surface, transmission, notes):
+    """Numbers or, of opaque surfaces, channels of images. Decides whether the surface is clear."""
+    metallic = textures.channel_at(sockets.socket(node, "Metallic"), notes)
+    surface.metallic = constant(node, "Metallic", 0.0, notes) if metallic is None else 1.0
+    surface.is_clear = transmission >= 0.5 and surface.metallic < 0.5
+    roughness = None if surface.is_clear else textures.channel_at(sockets.socket(node, "Roughness"), notes)
+    surface.roughness = constant(node, "Roughness", 0.5, notes) if roughness is None else 1.0
+    if roughness and metallic and not roughness.texture.lies_like(metallic.texture):
+        notes.unsupported('the image of "Metallic" is ignored, because it lies on the mesh otherwise than that of "Roughness"')
+        metallic, surface.metallic = None, sockets.plain(sockets.socket(node, "Metallic").default_value)
+    surface.roughness_image, surface.metallic_image = roughness, metallic
+    surface.uv_maps.update(channel.texture.uv_map for channel in (roughness, metallic) if channel)
 
 
 def read_color(node, name, surface, notes):
     """A colour, or an image by the UV map."""
-    image = image_at(node.inputs.get(name), surface, notes)
+    image = textures.texture_at(node.inputs.get(name), notes)
     if image is not None:
+        surface.uv_maps.add(image.uv_map)
         surface.color, surface.color_image = (1.0, 1.0, 1.0), image
     else:
         surface.color = constant(node, name, GREY, notes)
@@ -138,36 +146,11 @@ def read_color(node, name, surface, notes):
         surface.color = tuple(min(max(c, 0.0), 1.0) for c in surface.color)
 
 
-def image_at(socket, surface, notes):
-    """The image of an Image Texture that an input is linked to, or None."""
-    origin = sockets.source(socket)
-    if origin is None or origin.node.bl_idname != "ShaderNodeTexImage" or origin.name != "Color":
-        return None
-    node = origin.node
-    if node.image is None:
-        notes.unsupported(f"{node.name} has no image; its input's own colour is used")
-        return None
-    if node.image.source not in ("FILE", "GENERATED"):
-        notes.unsupported(f'the image "{node.image.name}" is a {node.image.source.lower()}; its input\'s own colour is used')
-        return None
-    if node.projection != "FLAT" or node.extension != "REPEAT":
-        notes.unsupported(f"{node.name} is used as a flat projection that repeats")
-    coordinates = sockets.source(node.inputs["Vector"])
-    if coordinates is None or (coordinates.node.bl_idname == "ShaderNodeTexCoord" and coordinates.name == "UV"):
-        surface.uv_maps.add("")
-    elif coordinates.node.bl_idname == "ShaderNodeUVMap":
-        surface.uv_maps.add(coordinates.node.uv_map)
-    else:
-        notes.unsupported(f"{coordinates.node.name} at {node.name} is ignored; the UV map is used as it is")
-        surface.uv_maps.add("")
-    return node.image
-
-
 def read_alpha(node, surface, notes):
     alpha = node.inputs.get("Alpha")
     origin = sockets.source(alpha)
     if origin is not None and origin.node.bl_idname == "ShaderNodeTexImage" and origin.name == "Alpha":
-        if origin.node.image is not None and origin.node.image == surface.color_image:
+        if surface.color_image is not None and textures.texture_of(origin.node, notes) == surface.color_image:
             surface.uses_image_alpha = True
             return
         notes.unsupported('"Alpha" is an image other than that of "Base Color" and is ignored')
@@ -184,10 +167,13 @@ def read_normals(node, surface, notes):
     maps = origin.node
     image = None
     if maps.bl_idname == "ShaderNodeNormalMap" and maps.space == "TANGENT" and not surface.is_clear:
-        image = image_at(maps.inputs["Color"], surface, notes)
+        image = textures.texture_at(maps.inputs["Color"], notes)
     if image is None:
         notes.unsupported(f"{maps.name} at \"Normal\" is ignored")
         return
+    surface.uv_maps.add(image.uv_map)
+    if not image.transform.keeps_directions():
+        notes.approximate("the bumps of a normal map turn with its Mapping")
     surface.normal_image, surface.normal_strength = image, constant(maps, "Strength", 1.0, notes)
 
 
@@ -251,16 +237,20 @@ def read_volume(node, surface, notes):
     return None
 
 
-def gltf_of(surface, name, texture, is_opaque=False):
-    """A glTF material. `texture` makes a texture of an image, or None. `is_opaque`: whether a clear surface is made opaque."""
+def gltf_of(surface, name, files, notes, is_opaque=False):
+    """A glTF material. `files` writes textures. `is_opaque`: whether a clear surface is made opaque."""
     pbr = {"baseColorFactor": [*surface.color, surface.alpha], "metallicFactor": surface.metallic,
            "roughnessFactor": surface.roughness}  # fmt: skip
     made = {"name": name, "pbrMetallicRoughness": pbr}
-    extensions = {"KHR_materials_ior": {"ior": surface.ior}}
-    if surface.color_image is not None and (found := texture(surface.color_image)):
+    extensions = {"KHR_materials_ior": {"ior": surface.ior}, **copy.deepcopy(surface.extensions)}
+    if surface.color_image is not None and (found := files.texture(surface.color_image, notes)):
         pbr["baseColorTexture"] = found
-    if surface.normal_image is not None and (found := texture(surface.normal_image)):
+    if surface.roughness_image or surface.metallic_image:
+        pbr["metallicRoughnessTexture"] = files.metallic_and_roughness(surface, notes)
+    if surface.normal_image is not None and (found := files.texture(surface.normal_image, notes)):
         made["normalTexture"] = {**found, "scale": surface.normal_strength}
+        if surface.is_bump_on_coat:
+            extensions["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = made["normalTexture"]
     strength = max(surface.emission)
     if strength > 0:
         made["emissiveFactor"] = [c / strength for c in surface.emission]

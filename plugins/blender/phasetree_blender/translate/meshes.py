@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import images, materials
+from . import materials
+from .texture_files import TextureFiles
 
 # Objects that Blender can convert to meshes.
 WITH_MESHES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
@@ -23,6 +24,7 @@ class Triangles:
     corners: np.ndarray  # (n, 3): those of each triangle
     materials: np.ndarray  # the material slot of each triangle
     coordinates: dict  # name: of corners; "" is the active UV map
+    generated: np.ndarray  # of vertices: places in the mesh's texture space, whose centre is 0
 
 
 def read(collection, attribute, columns, dtype):
@@ -46,7 +48,23 @@ def triangles_of(mesh):
     return Triangles(
         read(mesh.vertices, "co", 3, np.float32), read(mesh.loops, "vertex_index", 1, np.int32), normals,
         read(mesh.loop_triangles, "loops", 3, np.int32), read(mesh.loop_triangles, "material_index", 1, np.int32), coordinates,
+        generated_of(mesh),
     )  # fmt: skip
+
+
+def generated_of(mesh):
+    size = np.array(mesh.texspace_size)
+    return (read(mesh.vertices, "co", 3, np.float32) - np.array(mesh.texspace_location)) / np.where(size > 0, size, 1)
+
+
+def tangents_around(axis, places, normals):
+    """Tangents of glTF that turn around an axis of the texture space, as anisotropy does without a UV map."""
+    x, y, z = places.T
+    zero = np.zeros_like(x)
+    around = np.column_stack({"X": (zero, -z, y), "Y": (-z, zero, x), "Z": (-y, x, zero)}[axis])
+    around = around - normals * np.sum(normals * around, axis=1, keepdims=True)
+    length = np.linalg.norm(around, axis=1, keepdims=True)
+    return np.column_stack([around / np.where(length > 0, length, 1), np.ones_like(x)])
 
 
 def greatest_facet_angle(triangles, corners):
@@ -64,7 +82,7 @@ class MeshWriter:
 
     def __init__(self, glb, notes):
         self._glb, self._notes = glb, notes
-        self._meshes, self._materials, self._surfaces, self._textures = {}, {}, {}, {}
+        self._meshes, self._materials, self._surfaces, self._files = {}, {}, {}, TextureFiles(glb)
         self.has_clear, self.is_empty = False, True
 
     def add(self, instance_object, matrix):
@@ -121,7 +139,12 @@ class MeshWriter:
         coordinates = self._coordinates(triangles, surface, notes)
         coordinates = None if coordinates is None else coordinates[used]
         positions = triangles.positions[triangles.of_corners[used]]
-        return self._glb.primitive(positions, triangles.normals[used], indices.reshape(-1, 3), coordinates, number)
+        normals, tangents = triangles.normals[used], None
+        if surface.grain_axis:
+            tangents = tangents_around(surface.grain_axis, triangles.generated[triangles.of_corners[used]], normals)
+            if coordinates is None:  # the reader drops tangents of meshes without coordinates
+                coordinates = np.zeros((len(used), 2))
+        return self._glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
 
     def _coordinates(self, triangles, surface, notes):
         """The texture coordinates of corners as in glTF, where v points down; None without images."""
@@ -153,15 +176,6 @@ class MeshWriter:
             if key[1]:
                 notes.information("is clear, but opaque on objects whose role is Opaque")
             name = material.name if material else "Default"
-            made = materials.gltf_of(surface, name, lambda image: self._texture(image, notes), is_opaque)
+            made = materials.gltf_of(surface, name, self._files, notes, is_opaque)
             self._materials[key] = self._glb.material(made)
         return self._materials[key]
-
-    def _texture(self, image, notes):
-        key = image.original.as_pointer()
-        if key not in self._textures:
-            content = images.png_or_jpeg(image)
-            self._textures[key] = self._glb.texture(*content) if content else None
-            if content is None:
-                notes.unsupported(f'the image "{image.name}" cannot be read and is ignored')
-        return self._textures[key]

@@ -8,6 +8,8 @@ NEW_NAMES = {
     "Subsurface": "Subsurface Weight",
     "Sheen": "Sheen Weight",
     "Clearcoat": "Coat Weight",
+    "Clearcoat Roughness": "Coat Roughness",
+    "Clearcoat Normal": "Coat Normal",
 }
 
 
