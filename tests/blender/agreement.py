@@ -141,7 +141,7 @@ class Agreement(BlenderTest):
     def test_images_of_metallic_and_roughness(self):
         """Two grey images of different sizes, of which one is sRGB; then two channels of one image, which a Mapping turns.
 
-        The sky is not dark: where the sun alone is reflected, at grazing angles, the two differ by up to 17 %.
+        The sky is not dark: where only the sun lights the ball, the two differ by up to 17 %, for a reason that is not known.
         """
         material = principled("Rust", Base_Color=(0.8, 0.4, 0.1))
         tree = material.node_tree
