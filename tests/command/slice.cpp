@@ -353,6 +353,7 @@ TEST_CASE("mistakes are reported in words: one error, exit code 2, or 1 if outpu
          "slice: z = 4 and the other planes do not meet"},
         {{"--z", "0", "--tolerance", "0"}, "--tolerance"},
         {{"--z", "0", "--tolerance", "nan"}, "--tolerance"},
+        {{"--z", "0", "--tolerance", "100"}, "--tolerance: must be less than the object's longest side, 3.0"},
         {{"--z", "0", "--tolerance", "1e-9"}, "a tolerance of 1e-09 is too fine for a slice that is 2"},
         {{"--z", "0", "--size", "0", "-o", "a.png"}, "--size"},
         {{"--z", "0", "--size", "1000000", "-o", "a.png"}, "--size"},

@@ -17,7 +17,7 @@ class Proofs(unittest.TestCase):
 
     def test_verdicts(self):
         closed, leak, mass = self.object.prove(
-            {"closed": {"walls": "glass", "around": "water"}},
+            {"closed": {"walls": GLASS, "around": [WATER]}},
             {"closed": {"walls": ["water"], "around": "glass"}},
             {"mass": {"phase": "glass", "at_least": 1, "unit": "t"}},
             resolution=0.05,
@@ -31,6 +31,8 @@ class Proofs(unittest.TestCase):
     def test_mistakes(self):
         with self.assertRaisesRegex(pt.Error, "unknown phase"):
             self.object.prove({"present": {"phase": "glas"}})
+        with self.assertRaisesRegex(pt.Error, "but no set"):
+            self.object.prove({"present": {"phase": {"glass"}}})
         with self.assertRaisesRegex(pt.Error, "the unit must be"):
             self.object.prove({"present": {"phase": "glass"}}, unit="ell")
         with self.assertRaisesRegex(pt.Error, "density"):

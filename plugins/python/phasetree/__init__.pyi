@@ -583,10 +583,11 @@ an argument is out of its range."""
     def prove(self, *statements, unit=..., resolution=..., seconds=..., progress=...):
         r"""What is known of statements about the object, as a list of Proof.
 
-statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. unit:
-that of the object's lengths, for volumes and masses. Masses need phases with a density. resolution: the side of
-the smallest boxes; 0 selects 1/256 of the longest side. seconds: a limit of the time, by default none.
-progress: called with "proving" and a guess of the fraction done, up to 1.
+statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
+phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
+need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
+seconds: a limit of the time, by default none. progress: called with "proving" and a guess of the fraction done,
+up to 1.
 
 Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
 rays. Raises Error if a statement is malformed, or if the object is empty or unbounded."""

@@ -264,6 +264,13 @@ class Field(Value):
         return f"<Field {text if len(text) <= 100 else text[:97] + '…'}>"
 
 
+def _name_of_phase(value):
+    """What stands for a phase in the text of a statement."""
+    if isinstance(value, Phase):
+        return value.name
+    raise Error(f"statements have phases, names and numbers, but no {type(value).__name__}")
+
+
 class Object(Value):
     """An object of several phases. Every point is in exactly one of them. Immutable.
 
@@ -466,16 +473,17 @@ class Object(Value):
     def prove(self, *statements, unit="m", resolution=0, seconds=None, progress=None):
         """What is known of statements about the object, as a list of Proof.
 
-        statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. unit:
-        that of the object's lengths, for volumes and masses. Masses need phases with a density. resolution: the side of
-        the smallest boxes; 0 selects 1/256 of the longest side. seconds: a limit of the time, by default none.
-        progress: called with "proving" and a guess of the fraction done, up to 1.
+        statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
+        phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
+        need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
+        seconds: a limit of the time, by default none. progress: called with "proving" and a guess of the fraction done,
+        up to 1.
 
         Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
         rays. Raises Error if a statement is malformed, or if the object is empty or unbounded.
         """
         densities = [(i, p.density) for i, p in enumerate(self.phases) if p.density is not None]
-        text = json.dumps({"expect": list(statements)}, ensure_ascii=False)
+        text = json.dumps({"expect": list(statements)}, ensure_ascii=False, default=_name_of_phase)
         seconds = None if seconds is None else float(seconds)
         found = _phasetree.prove(
             self._handle, list(self.names), text, unit, densities, float(resolution), seconds, progress

@@ -101,7 +101,7 @@ void set_bracket(NumberToSet& number, const std::string& text) {
         !is_number(text.substr(colon + 1), number.high))
         throw UsageError(fmt::format("--set: the bracket must be LOW:HIGH, such as 0.1:0.5, but is \"{}\"", text));
     if (!(number.low < number.high))
-        throw UsageError(fmt::format("--set: the bracket {} must have its lower end first", text));
+        throw UsageError(fmt::format("--set: the bracket {} must have two ends, the lower one first", text));
 }
 
 }  // namespace

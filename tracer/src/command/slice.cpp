@@ -116,6 +116,7 @@ class SliceDrawing {
         const std::vector<SlicePlane> planes = planes_to_cut(chosen_, traceable_.bounds);
         const std::vector<std::string> files = files_of(planes.size());
         check_no_input(files);
+        check_tolerance();
         check_meets(planes);
         const InterruptGuard guard;
         LateProgress progress(ProgressOutput::standard_error(false), "slicing the object");
@@ -160,6 +161,13 @@ class SliceDrawing {
         throw UsageError(fmt::format(
             "slice: {} {} the object, which extends from {:.6g} to {:.6g}", text_of(planes.front()),
             planes.size() == 1 ? "does not meet" : "and the other planes do not meet", b.low[axis], b.high[axis]));
+    }
+    void check_tolerance() const {
+        const glm::vec3 extent = traceable_.bounds.extent();
+        const float longest = std::max({extent.x, extent.y, extent.z});
+        if (chosen_.is_svg() && !(chosen_.tolerance < static_cast<double>(longest)))
+            throw UsageError(fmt::format("--tolerance: must be less than the object's longest side, {:.6g}, but is {}",
+                                         longest, chosen_.tolerance));
     }
     std::string picture(const SlicePlane& plane, const std::function<void(double)>& tell) {
         const auto cancelled = [] { return interrupted(); };
