@@ -1,19 +1,18 @@
 """Intervals of volumes by `object.measure`, against those of random points in the same processor time.
 
-    PYTHONPATH=build/release/plugins/python python3 benchmarks/measures.py scenes/hourglass.json …
+    PYTHONPATH=build/release/plugins/python python3 benchmarks/measures.py [--tolerances 0.2,0.05] scenes/hourglass.json …
 
 Prints a row for each scene and tolerance: for the largest phase, the width of the certain interval, and the width of
 the interval that contains the volume with a probability of 95 % if the share of random points is all that is known,
 both as fractions of the volume; and the ratio of the second to the first.
 """
 
-import sys
+import argparse
 import time
 
 import numpy as np
 import phasetree as pt
 
-TOLERANCES = (0.2, 0.05, 0.005)
 BLOCK = 1 << 17
 
 
@@ -31,11 +30,11 @@ def sampled(obj, phase, low, high, seconds):
     return box * share, 2 * 1.96 * box * np.sqrt(share * (1 - share) / count)
 
 
-def rows(file):
+def rows(file, tolerances):
     obj = pt.load(file).object
     low, high = obj.bounds
     obj.label(np.zeros((1, 3), dtype=np.float32))  # records the program
-    for tolerance in TOLERANCES:
+    for tolerance in tolerances:
         start = time.process_time()
         m = obj.measure(tolerance=tolerance)
         seconds = time.process_time() - start
@@ -46,9 +45,14 @@ def rows(file):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tolerances", default="0.2,0.05", help="of the volume, separated by commas (default: %(default)s)")
+    parser.add_argument("scenes", nargs="+")
+    chosen = parser.parse_args()
+    tolerances = [float(t) for t in chosen.tolerances.split(",")]
     print("| scene | phase | seconds | certain interval | random points, 95 % | ratio |\n|---|---|---|---|---|---|")
-    for file in sys.argv[1:]:
-        for name, seconds, certain, random in rows(file):
+    for file in chosen.scenes:
+        for name, seconds, certain, random in rows(file, tolerances):
             print(f"| {file} | {name} | {seconds:.2f} | {certain:.1e} | {random:.1e} | {random / certain:.2f} |", flush=True)
 
 
