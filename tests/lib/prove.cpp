@@ -323,6 +323,20 @@ TEST_CASE("volumes that no measurement decides leave time for other statements")
     CHECK(proofs[1].verdict == phasetree::Verdict::proved);
 }
 
+TEST_CASE("witnesses of contact are near the contact, and near each other") {
+    const Phased object = Over{.of = {set(glass, ball({}, 1)), set(iron, ball({}, 1.5))}};
+    ProveOptions options;
+    options.resolution = 0.02;
+    const std::vector<Statement> statements{AreTouching{glass, iron}, AreApart{glass, iron, 0.1}};
+    for (const Proof& proof : prove(object, statements, options)) {
+        REQUIRE(proof.witnesses.size() == 2);
+        const Point a(proof.witnesses[0].point), b(proof.witnesses[1].point);
+        CHECK(glm::length(a) < 1);
+        CHECK(glm::length(b) > 1);
+        CHECK(glm::length(a - b) < 8 * proof.resolution);
+    }
+}
+
 TEST_CASE("a thin wall is found in boxes much larger than what it lacks") {
     // A film that no box of the division is inside.
     const Subject s{set(glass, Shell{.of = ball({}, 1), .half_thickness = 0.004f}),

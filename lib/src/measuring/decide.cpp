@@ -6,31 +6,14 @@
 #include "measuring/decide.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 #include <queue>
+
+#include "math/disjoint_sets.hpp"
 
 namespace phasetree::measuring {
 
 namespace {
-
-// Sets of leaves.
-class Groups {
-  public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
-    std::uint32_t group(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = group(a);
-        b = group(b);
-        // The lower index is kept, so that results do not depend on the order.
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 Proof nowhere() {
     return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
@@ -38,13 +21,12 @@ Proof nowhere() {
 
 // The groups of the leaves for which `is_wanted` holds; those that share a face, or at least a point, are together.
 template <class IsWanted>
-Groups groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted& is_wanted) {
-    Groups groups(octree.leaves.size());
+DisjointSets groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted& is_wanted) {
+    DisjointSets groups(octree.leaves.size());
     for (std::size_t i = 0; i < octree.leaves.size(); ++i) {
         if (!is_wanted(octree.leaves[i])) continue;
         const auto unite = [&](std::size_t other) {
-            if (is_wanted(octree.leaves[other]))
-                groups.unite(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other));
+            if (is_wanted(octree.leaves[other])) groups.join(i, other);
         };
         if (!by_faces) {
             octree.around_leaf_once(octree.leaves[i], unite);
@@ -216,18 +198,26 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
     return points;
 }
 
-// Points of both phases that are joined by a path on which there are no other phases.
+// A point of each phase, joined by a path on which there are no other phases. Of all such points that are middles of
+// boxes, about the closest.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
-    const auto is_of_both = [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; };
-    Groups groups = groups_of(e.octree, true, is_of_both);
-    std::vector<std::optional<std::uint32_t>> of_a(e.octree.leaves.size());
-    const auto is_in = [&](Phase p) { return [&, p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); }; };
-    for (const std::uint32_t i : leaves_where(e.octree, is_in(a))) of_a[groups.group(i)] = i;
-    for (const std::uint32_t i : leaves_where(e.octree, is_in(b)))
-        if (const auto other = of_a[groups.group(i)])
-            return std::vector{e.middle_of(e.octree.leaves[*other]), e.middle_of(e.octree.leaves[i])};
-    return std::nullopt;
+    DisjointSets groups =
+        groups_of(e.octree, true, [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; });
+    const auto leaves_in = [&](Phase p) {
+        return leaves_where(e.octree, [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); });
+    };
+    std::vector<std::uint32_t> of_a = leaves_in(a), of_b = leaves_in(b);
+    std::vector<bool> has_a(e.octree.leaves.size());
+    for (const std::uint32_t i : of_a) has_a[groups.root(i)] = true;
+    const auto joined = std::ranges::find_if(of_b, [&](std::uint32_t i) { return has_a[groups.root(i)]; });
+    if (joined == of_b.end()) return std::nullopt;
+    const std::size_t group = groups.root(*joined);
+    const auto is_elsewhere = [&](std::uint32_t i) { return groups.root(i) != group; };
+    std::erase_if(of_a, is_elsewhere);
+    std::erase_if(of_b, is_elsewhere);
+    const auto closest = ClosestLeaves(e.octree, std::numeric_limits<double>::infinity()).run(of_a, of_b);
+    return std::vector{e.middle_of(e.octree.leaves[closest->first]), e.middle_of(e.octree.leaves[closest->second])};
 }
 
 }  // namespace
@@ -266,13 +256,12 @@ Proof decide(const Evidence& e, const IsConnected& s) {
     const auto first = largest(e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]); });
     if (!first) return {};
     const auto may_meet = [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase); };
-    Groups apart = groups_of(e.octree, false, may_meet);
-    const auto elsewhere = largest(e.octree, [&](std::size_t i) {
-        return is_in(e.octree.leaves[i]) && apart.group(static_cast<std::uint32_t>(i)) != apart.group(*first);
-    });
+    DisjointSets apart = groups_of(e.octree, false, may_meet);
+    const auto elsewhere = largest(
+        e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]) && apart.root(i) != apart.root(*first); });
     if (elsewhere) {
-        std::vector<std::uint32_t> pieces;
-        for (const std::uint32_t i : leaves_where(e.octree, is_in)) pieces.push_back(apart.group(i));
+        std::vector<std::size_t> pieces;
+        for (const std::uint32_t i : leaves_where(e.octree, is_in)) pieces.push_back(apart.root(i));
         std::ranges::sort(pieces);
         const auto count = std::distance(pieces.begin(), std::ranges::unique(pieces).begin());
         return {Verdict::refuted,
@@ -281,9 +270,9 @@ Proof decide(const Evidence& e, const IsConnected& s) {
                 0,
                 {}};
     }
-    Groups together = groups_of(e.octree, true, is_in);
+    DisjointSets together = groups_of(e.octree, true, is_in);
     for (const std::uint32_t i : leaves_where(e.octree, is_in))
-        if (together.group(i) != together.group(*first)) return {};
+        if (together.root(i) != together.root(*first)) return {};
     if (!all_drain(e.octree, phase)) return {};
     return {Verdict::proved, "", {}, 0, {}};
 }

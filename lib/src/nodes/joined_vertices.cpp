@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "nodes/disjoint_sets.hpp"
+#include "math/disjoint_sets.hpp"
 #include "phasetree/math/bounds.hpp"
 
 namespace phasetree {

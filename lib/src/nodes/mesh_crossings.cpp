@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "math/disjoint_sets.hpp"
 #include "model/preparation.hpp"
 #include "nodes/box_tree.hpp"
-#include "nodes/disjoint_sets.hpp"
 #include "nodes/mesh_surface.hpp"
 #include "phasetree/model/handle.hpp"
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "nodes/disjoint_sets.hpp"
+#include "math/disjoint_sets.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/joined_vertices.hpp"
 

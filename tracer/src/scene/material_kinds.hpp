@@ -287,8 +287,8 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
     static constexpr KindInfo info{
         "principled",
         "Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a "
-        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other "
-        "materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
+        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of "
+        "other materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
 
     Number base_weight = Principled{}.base_weight;
     Texture base_color = Principled{}.color;

@@ -103,7 +103,8 @@ struct ProveOptions {
 /// * closed, refuted: a path from a phase inside to the space around the object; each point, and each segment between
 ///   two of them, is outside the walls
 /// * apart, refuted: a point of each phase, closer to each other than required, or, if they touch, a point of each
-/// * touching, proved: a point of each phase
+/// * touching, proved: a point of each phase, joined by a path that meets no third one; so are points of phases that
+/// touch
 /// * thick, refuted: a point of the phase that is not within reach of a ball
 ///
 /// A phase that certainly is nowhere refutes a statement without a witness.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "nodes/disjoint_sets.hpp"
+#include "math/disjoint_sets.hpp"
 #include "nodes/mesh_repair/chain_winding.hpp"
 
 namespace phasetree::mesh {
