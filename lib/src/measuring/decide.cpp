@@ -263,7 +263,7 @@ Proof decide(const Evidence& e, const IsConnected& s) {
         std::vector<std::size_t> pieces;
         for (const std::uint32_t i : leaves_where(e.octree, is_in)) pieces.push_back(apart.root(i));
         std::ranges::sort(pieces);
-        const auto count = std::distance(pieces.begin(), std::ranges::unique(pieces).begin());
+        const auto count = std::distance(pieces.begin(), std::unique(pieces.begin(), pieces.end()));
         return {Verdict::refuted,
                 "it has at least " + std::to_string(count) + " pieces",
                 {e.middle_of(e.octree.leaves[*first]), e.middle_of(e.octree.leaves[*elsewhere])},

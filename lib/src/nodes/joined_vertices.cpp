@@ -65,8 +65,7 @@ Indices ends_of_open_edges(std::span<const glm::uvec3> triangles, const Indices&
         ends.push_back(static_cast<std::uint32_t>(edges[i]));
     }
     std::ranges::sort(ends);
-    const auto repeated = std::ranges::unique(ends);
-    ends.erase(repeated.begin(), repeated.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     return ends;
 }
 
@@ -97,7 +96,7 @@ bool is_within(const Bounds& box, double size) {
 class NearPoints {
   public:
     NearPoints(const std::vector<glm::vec3>& points, const Indices& candidates, double tolerance)
-        : points_(points), tolerance_(tolerance) {
+        : tolerance_(tolerance) {
         std::vector<std::pair<Cell, std::uint32_t>> placed;
         placed.reserve(candidates.size());
         for (const std::uint32_t i : candidates) placed.emplace_back(cell_of(points[i]), i);
@@ -155,7 +154,6 @@ class NearPoints {
         }
     }
 
-    const std::vector<glm::vec3>& points_;
     double tolerance_;
     std::vector<Cell> cells_;         // cells with points, in ascending order
     std::vector<std::size_t> first_;  // the start of each cell in `members_`, and the end

@@ -85,7 +85,7 @@ std::vector<Corners> triangles_of(const std::string& file) {
             const glm::vec2& uv = part.texture.values[t[i]];
             corners[static_cast<std::size_t>(i)] = {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y, c.x, c.y, c.z};
         }
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         all.push_back(corners);
     }
     std::ranges::sort(all);

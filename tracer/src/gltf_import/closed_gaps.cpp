@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 
 namespace phasetree::tracer::gltf_import {
@@ -33,8 +32,8 @@ std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, std::spa
     }
     if (materials.empty()) return std::nullopt;
     ClosedGaps closed{.materials = {}, .gap = rounded_up(2 * static_cast<double>(widest))};
-    for (const std::size_t solid : order | std::views::reverse)
-        if (materials.erase(solids[solid].material) > 0) closed.materials.push_back(solids[solid].material);
+    for (auto solid = order.rbegin(); solid != order.rend(); ++solid)
+        if (materials.erase(solids[*solid].material) > 0) closed.materials.push_back(solids[*solid].material);
     return closed;
 }
 

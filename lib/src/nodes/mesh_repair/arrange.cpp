@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "model/preparation.hpp"
@@ -24,6 +25,13 @@ namespace {
 
 std::array<double, 3> key_of(const glm::dvec3& p) {
     return {p.x, p.y, p.z};
+}
+
+// The elements with a key, of elements sorted by it. (Clang 14 cannot compile the range that std::ranges::equal_range
+// returns.)
+template <class Element, class Key, class KeyOf>
+std::span<const Element> with_key(const std::vector<Element>& sorted, const Key& key, KeyOf key_of) {
+    return {std::ranges::lower_bound(sorted, key, {}, key_of), std::ranges::upper_bound(sorted, key, {}, key_of)};
 }
 
 // A coarse grid over the chain, in which boxes are marked.
@@ -192,12 +200,10 @@ class Arrangement {
         std::vector<std::vector<ChainTriangle>> parts(n);
         tbb::parallel_for(std::size_t{0}, n, [&](std::size_t t) {
             const auto& c = chain_.triangles[t].corners;
-            const auto within = std::ranges::equal_range(inner, static_cast<std::uint32_t>(t), {}, &Inner::triangle);
+            const auto within = with_key(inner, static_cast<std::uint32_t>(t), &Inner::triangle);
             if (within.empty() && has_divider[c[0]] + has_divider[c[1]] + has_divider[c[2]] < 2) return;
-            const auto along =
-                std::ranges::equal_range(segments, static_cast<std::uint32_t>(t), {}, &Segment::triangle);
-            parts[t] =
-                divided(chain_.triangles[t], dividers, {within.begin(), within.end()}, {along.begin(), along.end()});
+            const auto along = with_key(segments, static_cast<std::uint32_t>(t), &Segment::triangle);
+            parts[t] = divided(chain_.triangles[t], dividers, within, along);
         });
         std::vector<ChainTriangle> result;
         std::vector<char> is_new;
@@ -235,8 +241,7 @@ class Arrangement {
             segments.push_back({c.triangle, std::min(a, b), std::max(a, b)});
         }
         tbb::parallel_sort(segments.begin(), segments.end());
-        const auto rest = std::ranges::unique(segments);
-        segments.erase(rest.begin(), rest.end());
+        segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
         return segments;
     }
     std::vector<Divider> dividers_of(std::vector<EdgeContact> contacts) {
@@ -262,10 +267,10 @@ class Arrangement {
         std::vector<std::uint32_t> present(t.corners.begin(), t.corners.end());
         for (std::size_t side = 0; side < 3; ++side) {
             const std::uint32_t a = t.corners[side], b = t.corners[(side + 1) % 3];
-            const auto range = std::ranges::equal_range(dividers, std::pair(std::min(a, b), std::max(a, b)), {},
-                                                        [](const Divider& d) { return std::pair(d.a, d.b); });
             std::vector<std::uint32_t> on_side;
-            for (const Divider& d : range) on_side.push_back(d.vertex);
+            for (const Divider& d : with_key(dividers, std::pair(std::min(a, b), std::max(a, b)),
+                                             [](const Divider& divider) { return std::pair(divider.a, divider.b); }))
+                on_side.push_back(d.vertex);
             if (a > b) std::ranges::reverse(on_side);
             parts.add_on_side(side, on_side);
             present.insert(present.end(), on_side.begin(), on_side.end());

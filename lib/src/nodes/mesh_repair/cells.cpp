@@ -191,7 +191,7 @@ Chain boundary_of(const Chain& chain, std::span<const SideWinding> windings, Win
     }
     for (ChainTriangle& t : boundary.triangles) {
         for (std::uint32_t& v : t.corners) v = number[v];
-        std::ranges::rotate(t.corners, std::ranges::min_element(t.corners));
+        std::rotate(t.corners.begin(), std::ranges::min_element(t.corners), t.corners.end());
     }
     std::ranges::sort(boundary.triangles, {}, &ChainTriangle::corners);
     return boundary;

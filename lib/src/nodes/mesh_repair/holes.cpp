@@ -36,8 +36,7 @@ std::vector<Loop> loops_of(std::span<const OpenEdge> open, std::vector<std::uint
     std::vector<Loop> loops;
     std::vector<char> is_used(open.size(), 0);
     const auto next_from = [&](std::uint32_t vertex) {
-        const auto range = std::ranges::equal_range(open, vertex, {}, &OpenEdge::from);
-        auto i = static_cast<std::size_t>(range.begin() - open.begin());
+        auto i = static_cast<std::size_t>(std::ranges::lower_bound(open, vertex, {}, &OpenEdge::from) - open.begin());
         while (i < open.size() && open[i].from == vertex && is_used[i]) ++i;
         return i < open.size() && open[i].from == vertex ? i : open.size();
     };
