@@ -55,10 +55,6 @@ std::vector<std::uint32_t> bits_of(std::span<const float> numbers) {
     return result;
 }
 
-bool takes_point(Op op) {
-    return op >= Op::first_primitive;
-}
-
 // Replaces the names of parameters by arguments.
 std::string with_arguments(const std::string& text, std::span<const std::string> arguments) {
     const auto is_word = [](char c) {

@@ -26,10 +26,6 @@ class OneStep {
     std::span<const float> constants_;
 };
 
-bool takes_point(Op op) {
-    return op >= Op::first_primitive;
-}
-
 Trace with_inputs(std::uint32_t count) {
     Trace trace;
     trace.inputs = count;

@@ -60,6 +60,10 @@ struct Trace {
     bool has_lookup = false;
 };
 
+/// Whether the inputs of an operation are the coordinates of a point, instead of numbers.
+inline bool takes_point(Op op) {
+    return op >= Op::first_primitive;
+}
 /// The trace of a program operation with its constants. Its inputs are the three coordinates of a point, or one or two
 /// numbers.
 Trace trace_of(Op, std::span<const float> constants);

@@ -19,7 +19,7 @@ using rewriting::ArenaScope, rewriting::rewrite;
 
 namespace {
 
-constexpr int most_levels = 14;
+constexpr int most_divisions = 14;
 // The side of a square is at least this many resolutions.
 constexpr double least_side = 4;
 // Sides of squares per tolerance. A point and an outline that is in the same square, or in one next to it, are at most
@@ -145,7 +145,7 @@ SliceGrid::SliceGrid(const TraceableObject& object, const SlicePlane& slice_plan
     : plane(slice_plane), bounds(object.bounds), resolution(object.resolution), side(tolerance / sides_per_tolerance) {
     const glm::dvec2 low(plane.coordinates(bounds.low)), high(plane.coordinates(bounds.high));
     const double longest = std::max(high.x - low.x, high.y - low.y);
-    while (levels < most_levels && side * squares_across() < longest) ++levels;
+    while (levels < most_divisions && side * squares_across() < longest) ++levels;
     if (!(side * squares_across() >= longest))
         throw ModelError(
             fmt::format("a tolerance of {:.4g} is too fine for a slice that is {:.6g} long; use at least {:.4g}",

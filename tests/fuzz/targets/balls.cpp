@@ -12,7 +12,7 @@ namespace phasetree::fuzz {
 
 namespace {
 
-const std::filesystem::path& written(Bytes input) {
+const std::filesystem::path& balls_file(Bytes input) {
     static InputFile csv("balls.csv"), ply("balls.ply");
     return text_of(input).starts_with("ply") ? ply.write(input) : csv.write(input);
 }
@@ -30,7 +30,7 @@ void look(const Balls& balls) {
 
 void run_balls(Bytes input) {
     try {
-        FromFile<BallList> file{"balls", std::make_shared<const BallList>(read_balls(written(input)))};
+        FromFile<BallList> file{"balls", std::make_shared<const BallList>(read_balls(balls_file(input)))};
         Balls balls{.file = file};
         if (file.content->radii.empty()) balls.radii = {0.5f};
         balls.prepare();

@@ -17,7 +17,7 @@ namespace phasetree::tracer::gltf {
 namespace {
 
 // A name for people.
-std::string name_of(const Item& material, std::size_t index) {
+std::string name_of_material(const Item& material, std::size_t index) {
     const std::string name = clean_name(material.text("name"));
     return name.empty() ? fmt::format("material {}", index) : name;
 }
@@ -395,7 +395,7 @@ NamedMaterial Materials::make(const std::optional<std::size_t>& index, bool by_v
     static const Json none = Json::object();
     NamedMaterial made;
     const Item item = index ? document_.element("materials", *index, from) : Item(none, "the default material");
-    made.name = index ? name_of(item, *index) : "without material";
+    made.name = index ? name_of_material(item, *index) : "without material";
     Maker(images_, item, wants_clear_, made).make(by_vertices);
     return made;
 }
