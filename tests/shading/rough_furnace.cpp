@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "bsdf_checks.hpp"
 #include "microsurface.hpp"
@@ -11,6 +12,7 @@
 #include "shading/fresnel.hpp"
 #include "shading/metals.hpp"
 #include "shading/roughness.hpp"
+#include "support/long_tests.hpp"
 
 namespace test_rough_furnace {
 
@@ -73,13 +75,16 @@ TEST_CASE("rough furnace: a metal that absorbs nothing is white at every roughne
 }
 
 TEST_CASE("rough furnace: brushed metal that absorbs nothing is white from along its grain, across, and between") {
+    const std::vector<double> azimuths =
+        long_tests() ? std::vector<double>{0, 3, 25, 63, 90} : std::vector<double>{0, 25, 90};
     for (const float aspect : {0.1f, 0.2f, 0.6f}) {
+        if (aspect == 0.2f && !long_tests()) continue;
         for (const float roughness : {0.004f, 0.02f, 0.2f, 1.0f}) {
             CAPTURE(aspect);
             CAPTURE(roughness);
             const ConductorSurface surface(1.0f, glm::vec3(1.0f), all_reflecting, ValueRange{roughness, roughness}, {},
                                            {}, aspect);
-            for (const double phi : {0.0, 3.0, 25.0, 63.0, 90.0}) {
+            for (const double phi : azimuths) {
                 CAPTURE(phi);
                 CHECK(worst(RoughConductorBsdf(surface, roughness), 1.0, 1.0, phi) < tolerance_between);
             }

@@ -38,8 +38,11 @@ TEST_CASE("light that falls through smooth glass onto rough glass is as bright a
     SUBCASE("from above") {
         check(scene, {-1.9f, -1.9f, 0.1f}, {1.9f, 1.9f, -0.1f}, 6, significance);
     }
-    SUBCASE("from below") {
-        check(scene, {-1, -1, -2}, {1, 1, 1.8f}, 10, significance);
+    // The rough ball below transmits light, too.
+    if (long_form) {
+        SUBCASE("from below") {
+            check(scene, {-1, -1, -2}, {1, 1, 1.8f}, 10, significance);
+        }
     }
 }
 
@@ -56,9 +59,11 @@ TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright a
                        R"({"over": [)" + core + ", " + in_phase("shell", ball) + "]}", lit_by(sun, 0.1)),
               origin, direction, 26, significance);
     }
-    SUBCASE("alone") {
-        check(scene_of(clear("glass", 1.5, 0.4, absorbing), in_phase("glass", ball), lit_by(sun, 0.1)), origin,
-              direction, 10, significance);
+    if (long_form) {
+        SUBCASE("alone") {
+            check(scene_of(clear("glass", 1.5, 0.4, absorbing), in_phase("glass", ball), lit_by(sun, 0.1)), origin,
+                  direction, 10, significance);
+        }
     }
 }
 
