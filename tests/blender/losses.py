@@ -46,7 +46,7 @@ class Losses(BlenderTest):
             'not supported: object "Volume": volumes are left out',
             'not supported: object "Cube": it is visible to all rays, although ray visibility excludes shadow',
             'not supported: light "Light": "specular_factor" is ignored',
-            'not supported: world "World": "Color" is linked to Sky Texture, which is ignored',
+            'approximate: world "World": Sky Texture is rendered by another model of the atmosphere',
             "not supported: motion blur is ignored",
         ):
             self.assertIn(wanted, notes)
@@ -63,7 +63,7 @@ class Losses(BlenderTest):
 
         camera = self.scene.camera
         camera.data.type = "PANO"
-        self.assertIn('the camera "Camera" is pano; use a perspective or orthographic one', message())
+        self.assertIn("panorama is of the type fisheye equisolid; use Equirectangular or Fisheye Equidistant", message())
         camera.data.type = "PERSP"
         self.scene.camera = bpy.data.objects["Cube"]
         self.assertIn('the active camera "Cube" is not a camera', message())

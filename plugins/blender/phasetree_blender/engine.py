@@ -9,19 +9,12 @@ import gpu
 import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
-from . import exr, last_report, preferences
+from . import cryptomatte, exr, last_report, preferences
 from .command import Cancelled, RenderProcess
 from .notes import Kind, Notes, TranslationError
+from .passes import passes_of
 from .translate.scene import options_of, region_of, translate, write_scene
 from .viewport import Viewport, camera_of_view
-
-# Channels of EXR files by Blender's names of passes.
-PASSES = {
-    "Combined": ("R", "G", "B", "A"),
-    "Depth": ("depth.Z",),
-    "Normal": ("normal.X", "normal.Y", "normal.Z"),
-    "Albedo": ("albedo.R", "albedo.G", "albedo.B"),
-}
 
 
 class PhasetreeRenderEngine(bpy.types.RenderEngine):
@@ -34,13 +27,8 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
     export_path = ""  # if set, a render only writes this scene file: Blender evaluates objects as for a render only then
 
     def update_render_passes(self, scene=None, renderlayer=None):
-        self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
-        if renderlayer.use_pass_z:
-            self.register_pass(scene, renderlayer, "Depth", 1, "Z", "VALUE")
-        if renderlayer.use_pass_normal:
-            self.register_pass(scene, renderlayer, "Normal", 3, "XYZ", "VECTOR")
-        if renderlayer.phasetree.use_pass_albedo:
-            self.register_pass(scene, renderlayer, "Albedo", 3, "RGB", "COLOR")
+        for made in passes_of(renderlayer):
+            self.register_pass(scene, renderlayer, made.name, len(made.channels), made.ids, made.kind)
 
     def render(self, depsgraph):
         notes, phases = Notes(), ""
@@ -88,15 +76,20 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
 
     def _show(self, depsgraph, file, is_last):
         """Hands the pixels of an EXR file to Blender."""
-        channels = exr.read(file)
+        channels, attributes = exr.read_with_attributes(file)
+        made = {p.name: p for p in passes_of(depsgraph.view_layer)}
         x0, y0, x1, y1 = region_of(depsgraph.scene.render)
         size = channels["R"].shape
         if size != (y1 - y0, x1 - x0):
             raise TranslationError(f"phasetree rendered {size[1]} × {size[0]} pixels instead of {x1 - x0} × {y1 - y0}")
         result = self.begin_result(0, 0, x1 - x0, y1 - y0, layer=depsgraph.view_layer.name)
+        if depsgraph.view_layer.use_pass_cryptomatte_material:
+            ids = cryptomatte.renamed(channels, attributes)
+            for name, value in cryptomatte.metadata(depsgraph.view_layer.name, ids).items():
+                self.get_result().stamp_data_add_field(name, value)
         for render_pass in result.layers[0].passes:
-            if render_pass.name in PASSES:
-                fill(render_pass, channels)
+            if render_pass.name in made:
+                fill(render_pass, made[render_pass.name], channels)
         if is_last:
             self.end_result(result)
         else:
@@ -156,10 +149,10 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
             self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
 
 
-def fill(render_pass, channels):
+def fill(render_pass, made, channels):
     """Fills a pass, whose lowest row is the first."""
-    opaque = np.ones_like(channels["R"])
-    rows = np.stack([channels.get(name, opaque) for name in PASSES[render_pass.name]], axis=-1)[::-1]
+    absent = np.full_like(channels["R"], made.missing)
+    rows = np.stack([channels.get(name, absent) for name in made.channels], axis=-1)[::-1]
     render_pass.rect.foreach_set(np.ascontiguousarray(rows, dtype=np.float32).reshape(-1, rows.shape[-1]))
 
 

@@ -50,6 +50,11 @@ def unzipped(data, size):
 
 def read(path):
     """{channel: float32 (height, width)}, the top row first."""
+    return read_with_attributes(path)[0]
+
+
+def read_with_attributes(path):
+    """The channels, and the header's attributes as {name: bytes}."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, at = header_of(data)
@@ -68,4 +73,4 @@ def read(path):
         block = data[offset + 8 : offset + 8 + size]
         block = unzipped(block, whole) if compression else block
         pixels[first : first + count] = np.frombuffer(block, dtype="<f4").reshape(count, len(names), width)
-    return {name: pixels[:, i] for i, name in enumerate(names)}
+    return {name: pixels[:, i] for i, name in enumerate(names)}, attributes

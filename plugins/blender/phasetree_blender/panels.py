@@ -132,6 +132,51 @@ class PHASETREE_PT_passes(PhasetreePanel, bpy.types.Panel):
         self.layout.prop(context.view_layer, "use_pass_z", text="Depth")
         self.layout.prop(context.view_layer, "use_pass_normal", text="Normal")
         self.layout.prop(context.view_layer.phasetree, "use_pass_albedo")
+        self.layout.prop(context.view_layer, "use_pass_cryptomatte_material", text="Cryptomatte of Materials")
+
+
+class PHASETREE_PT_light_groups(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Light Groups"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        layer, row = context.view_layer, self.layout.row()
+        row.template_list("UI_UL_list", "lightgroups", layer, "lightgroups", layer, "active_lightgroup_index", rows=3)
+        buttons = row.column(align=True)
+        buttons.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
+        buttons.operator("scene.view_layer_remove_lightgroup", icon="REMOVE", text="")
+
+
+class LightGroupPanel(PhasetreePanel):
+    """The light group of what has one."""
+
+    bl_label = "Light Group"
+
+    def draw_group(self, owner, layer):
+        self.layout.use_property_split = True
+        self.layout.prop_search(owner, "lightgroup", layer, "lightgroups", text="Light Group", results_are_suggestions=True)
+
+
+class PHASETREE_PT_light_group_of_light(LightGroupPanel, bpy.types.Panel):
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.object is not None and context.object.type == "LIGHT"
+
+    def draw(self, context):
+        self.draw_group(context.object, context.view_layer)
+
+
+class PHASETREE_PT_light_group_of_world(LightGroupPanel, bpy.types.Panel):
+    bl_context = "world"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.world is not None
+
+    def draw(self, context):
+        self.draw_group(context.world, context.view_layer)
 
 
 class PHASETREE_PT_object(PhasetreePanel, bpy.types.Panel):
@@ -166,6 +211,9 @@ class PHASETREE_PT_material(PhasetreePanel, bpy.types.Panel):
         surface = surface_of(context.material, notes)
         if surface.is_clear:
             draw_text(self.layout, f"Clear, with index {surface.ior:.4g}: closed objects become phases.", "CHECKMARK")
+            self.layout.use_property_split = True
+            for name in ("medium", "glass"):
+                self.layout.prop(context.material.phasetree, name)
         elif max(surface.emission) > 0:
             draw_text(self.layout, "A glowing surface.", "CHECKMARK")
         else:
@@ -175,7 +223,8 @@ class PHASETREE_PT_material(PhasetreePanel, bpy.types.Panel):
 
 CLASSES = (
     PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_film, PHASETREE_PT_phases, PHASETREE_PT_report,
-    PHASETREE_PT_passes, PHASETREE_PT_object, PHASETREE_PT_material,
+    PHASETREE_PT_passes, PHASETREE_PT_light_groups, PHASETREE_PT_light_group_of_light, PHASETREE_PT_light_group_of_world,
+    PHASETREE_PT_object, PHASETREE_PT_material,
 )  # fmt: skip
 
 

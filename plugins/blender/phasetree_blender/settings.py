@@ -67,8 +67,32 @@ class PhasetreeObjectSettings(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (PhasetreeSceneSettings, PhasetreeViewLayerSettings, PhasetreeObjectSettings)
-OWNERS = ((bpy.types.Scene, CLASSES[0]), (bpy.types.ViewLayer, CLASSES[1]), (bpy.types.Object, CLASSES[2]))
+def items_of(first, names):
+    """Choices for an EnumProperty: the shader nodes, and names of the scene file."""
+    return (first, *((name.upper(), name.replace("_", " ").capitalize(), "") for name in names.split()))
+
+
+class PhasetreeMaterialSettings(bpy.types.PropertyGroup):
+    medium: EnumProperty(
+        name="Medium",
+        description="What light is absorbed and scattered by within a clear object",
+        items=items_of(
+            ("NODES", "From Volume", "The material's volume shader"),
+            "apple chicken1 chicken2 cream ketchup marble potato skim_milk skin1 skin2 spectralon whole_milk",
+        ),
+        default="NODES",
+    )
+    glass: EnumProperty(
+        name="Index",
+        description="A substance whose measured index spreads colours like a prism, for smooth clear objects",
+        items=items_of(("NODES", "From Surface", "The number of the shader"), "bk7 diamond f2 fused_silica sapphire sf11 water"),
+        default="NODES",
+    )
+
+
+CLASSES = (PhasetreeSceneSettings, PhasetreeViewLayerSettings, PhasetreeObjectSettings, PhasetreeMaterialSettings)
+OWNERS = ((bpy.types.Scene, CLASSES[0]), (bpy.types.ViewLayer, CLASSES[1]), (bpy.types.Object, CLASSES[2]),
+          (bpy.types.Material, CLASSES[3]))  # fmt: skip
 
 
 def register():

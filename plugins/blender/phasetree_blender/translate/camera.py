@@ -26,6 +26,8 @@ def camera_of(camera, depsgraph, width, height, notes):
         if data.dof.use_dof:
             notes.unsupported("depth of field of an orthographic camera is ignored")
         return {"orthographic": {**view(position, forward, up), "height": data.ortho_scale * height / fitted}}
+    if data.type == "PANO":
+        return panorama(data, view(position, forward, up), width, height, notes)
     if data.type != "PERSP":
         raise TranslationError(f'the camera "{camera.name}" is {data.type.lower()}; use a perspective or orthographic one')
     sensor = data.sensor_height if data.sensor_fit == "VERTICAL" else data.sensor_width
@@ -35,6 +37,24 @@ def camera_of(camera, depsgraph, width, height, notes):
     if data.shift_x == 0 and data.shift_y == 0:
         return {"thin_lens": lens}
     return {"tilt_shift": {**lens, "shift": [data.shift_x * fitted / height, data.shift_y * fitted / height]}}
+
+
+def panorama(data, seen, width, height, notes):
+    """An equirectangular picture of all directions, or an equidistant fisheye."""
+    settings = data if hasattr(data, "panorama_type") else data.cycles  # Cycles' until Blender 5
+    if data.dof.use_dof:
+        notes.unsupported("depth of field of a panoramic camera is ignored")
+    if settings.panorama_type == "EQUIRECTANGULAR":
+        limits = (settings.longitude_min, settings.longitude_max, settings.latitude_min, settings.latitude_max)
+        if any(abs(a - b) > 1e-4 for a, b in zip(limits, (-math.pi, math.pi, -math.pi / 2, math.pi / 2))):
+            notes.unsupported("limits of longitude and latitude are ignored: a panorama shows all directions")
+        return {"panorama": seen}
+    if settings.panorama_type == "FISHEYE_EQUIDISTANT":
+        if width != height:
+            notes.approximate("a fisheye is a circle in the middle of the picture, not an ellipse")
+        return {"dome": {**seen, "fov": min(math.degrees(settings.fisheye_fov), 360)}}
+    kind = settings.panorama_type.replace("_", " ").lower()
+    raise TranslationError(f"the camera's panorama is of the type {kind}; use Equirectangular or Fisheye Equidistant")
 
 
 def view(position, forward, up):

@@ -4,11 +4,21 @@ import math
 
 from mathutils import Vector
 
+from ..passes import group_name
+
 SHARPEST_SUN = 0.01  # degrees
 
 
 def light_of(item, matrix, notes):
     """The scene file's light for an evaluated light object; None if it is dark."""
+    made = light_without_group(item, matrix, notes)
+    if made and item.lightgroup:
+        for parameters in made.values():
+            parameters["group"] = group_name(item.lightgroup)
+    return made
+
+
+def light_without_group(item, matrix, notes):
     light = item.data
     notes = notes.about(f'light "{item.name}"')
     color, power = [max(c, 0.0) for c in light.color], light.energy

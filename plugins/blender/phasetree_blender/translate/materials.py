@@ -4,7 +4,7 @@ import copy
 import math
 from dataclasses import dataclass, field
 
-from . import layers, sockets, textures
+from . import layers, sockets, textures, volumes
 from .sockets import constant
 
 # Inputs of the Principled BSDF that are ignored, and whose effect vanishes at 0.
@@ -25,6 +25,7 @@ class Surface:
     emission: tuple = (0.0, 0.0, 0.0)
     is_clear: bool = False
     absorption: tuple = None  # attenuation colour and distance
+    scattering: dict = field(default_factory=dict)  # parameters of the scene file's clear material
     color_image: textures.Texture = None
     uses_image_alpha: bool = False
     roughness_image: textures.Channel = None  # multiplied by the number
@@ -226,15 +227,43 @@ SHADERS = {
 
 
 def read_volume(node, surface, notes):
-    """Beer's law: Blender absorbs density × (1 − colour) per unit of length."""
-    if node.bl_idname != "ShaderNodeVolumeAbsorption":
-        return notes.unsupported(f"the volume {node.name} is ignored; use Volume Absorption")
+    """Absorption becomes glTF's, a colour after a distance. glTF cannot scatter."""
     if not surface.is_clear:
         return notes.unsupported("the volume of an opaque surface is ignored")
-    color, density = constant(node, "Color", GREY, notes), constant(node, "Density", 1.0, notes)
-    if density > 0:
-        surface.absorption = (tuple(math.exp(-(1 - min(c, 1.0))) for c in color), 1 / density)
+    medium = volumes.medium_of(node, notes)
+    greatest = max(medium.absorption)
+    if greatest > 0:
+        surface.absorption = (tuple(math.exp(-a / greatest) for a in medium.absorption), 1 / greatest)
+    if max(medium.scattering) > 0:
+        surface.scattering = {"scattering": [float(s) for s in medium.scattering], "anisotropy": medium.anisotropy}
     return None
+
+
+def medium_of(surface, material, millimetres, notes):
+    """Parameters of the scene file's clear material that glTF lacks: scattering, a measured medium, a measured index.
+    `millimetres`: the length of Blender's unit."""
+    medium, settings = dict(surface.scattering), material.phasetree
+    if settings.medium != "NODES":
+        if medium or surface.absorption:
+            notes.information(f"its volume shader gives way to the measured medium {settings.medium.lower()}")
+        medium = {"medium": settings.medium.lower(), "scale": millimetres}
+    if settings.glass != "NODES":
+        if surface.roughness > 0 or "KHR_materials_iridescence" in surface.extensions:
+            notes.unsupported("the measured index is ignored: only smooth surfaces without a thin film have one")
+        else:
+            medium["glass"] = settings.glass.lower()
+    return medium
+
+
+def complete_phase(clear, medium):
+    """Adds the parameters to the clear material of a phase."""
+    if "glass" in medium:
+        for name in ("ior", "abbe_number"):
+            clear.pop(name, None)
+    if "medium" in medium:
+        for name in ("absorption", "color", "color_distance"):
+            clear.pop(name, None)
+    clear.update(medium)
 
 
 def gltf_of(surface, name, files, notes, is_opaque=False):

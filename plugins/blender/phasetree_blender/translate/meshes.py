@@ -80,10 +80,12 @@ def greatest_facet_angle(triangles, corners):
 class MeshWriter:
     """Adds objects to a glTF file. Instances of one object share a mesh."""
 
-    def __init__(self, glb, notes):
-        self._glb, self._notes = glb, notes
+    def __init__(self, glb, millimetres, notes):
+        """`millimetres`: the length of Blender's unit."""
+        self._glb, self._millimetres, self._notes = glb, millimetres, notes
         self._meshes, self._materials, self._surfaces, self._files = {}, {}, {}, TextureFiles(glb)
         self.has_clear, self.is_empty = False, True
+        self.media = {}  # material: parameters of the scene file's clear material that glTF lacks
 
     def add(self, instance_object, matrix):
         """Adds an evaluated object at a place, a 4×4 matrix."""
@@ -177,5 +179,9 @@ class MeshWriter:
                 notes.information("is clear, but opaque on objects whose role is Opaque")
             name = material.name if material else "Default"
             made = materials.gltf_of(surface, name, self._files, notes, is_opaque)
+            if surface.is_clear and not is_opaque:
+                medium = materials.medium_of(surface, material, self._millimetres, notes)
+                if medium:
+                    self.media[name] = medium
             self._materials[key] = self._glb.material(made)
         return self._materials[key]

@@ -9,7 +9,8 @@ import bpy
 
 from .. import command as commands
 from ..notes import TranslationError
-from . import camera, lights, meshes, world
+from ..passes import planes_of
+from . import camera, lights, materials, meshes, world
 from .glb import Glb
 
 
@@ -21,6 +22,7 @@ class Translation:
     glb: str  # path of the glTF file
     parts: dict  # of the scene file: camera, lights, background
     settings: dict  # "render" of the scene file
+    media: dict  # material: what the scene file says of the phase, and glTF cannot
     closes_gaps: bool
     digest: str  # equal digests: equal scenes
 
@@ -59,7 +61,7 @@ def write_scene(depsgraph, path, command, notes, active_camera=None, cancelled=l
 def translate(depsgraph, path, notes):
     """Writes the objects to a glTF file. Returns the scene without a camera."""
     scene, folder, glb = depsgraph.scene, os.path.dirname(path), Glb()
-    writer = meshes.MeshWriter(glb, notes)
+    writer = meshes.MeshWriter(glb, round(1000 * scene.unit_settings.scale_length, 4), notes)
     lamps = write_objects(depsgraph, writer, notes)
     if writer.is_empty:
         raise TranslationError("the scene has nothing to render: no visible object has faces")
@@ -71,9 +73,9 @@ def translate(depsgraph, path, notes):
     content, settings = glb.content(), render_settings(scene)
     with open(file, "wb") as out:
         out.write(content)
-    rest = json.dumps([parts, settings, scene.phasetree.closes_gaps])
+    rest = json.dumps([parts, settings, writer.media, scene.phasetree.closes_gaps])
     digest = hashlib.sha256(content + rest.encode()).hexdigest()
-    return Translation(path, file, parts, settings, scene.phasetree.closes_gaps, digest)
+    return Translation(path, file, parts, settings, writer.media, scene.phasetree.closes_gaps, digest)
 
 
 def complete(translation, command, notes, cancelled=lambda: False):
@@ -85,7 +87,11 @@ def complete(translation, command, notes, cancelled=lambda: False):
         document = json.load(file)
     for mesh in document.get("meshes", ()):
         mesh["gltf"]["imported"] = True  # the lights are in the scene file
-    is_spectral = document["render"].get("spectral", False)  # for the dispersion of a phase
+    for name, medium in translation.media.items():
+        if name in document.get("phases", ()):  # open surfaces of the material are not
+            materials.complete_phase(document["phases"][name]["clear"], medium)
+    # For the dispersion of a phase.
+    is_spectral = document["render"].get("spectral", False) or any("glass" in m for m in translation.media.values())
     document.pop("camera", None)
     document.update(translation.parts)
     document["render"] = {**translation.settings, **({"spectral": True} if is_spectral else {})}
@@ -121,6 +127,8 @@ def note_object(item, notes):
     if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in item.particle_systems):
         notes.unsupported("hair is left out")
     rays = ("camera", "diffuse", "glossy", "transmission", "shadow")
+    if item.lightgroup:
+        notes.unsupported("its light group is ignored: glowing surfaces are in the group of everything else")
     hidden = [name for name in rays if not getattr(item, f"visible_{name}", True)]
     if hidden:
         notes.unsupported(f"it is visible to all rays, although ray visibility excludes {', '.join(hidden)}")
@@ -154,9 +162,7 @@ def render_settings(scene):
 def options_of(scene, view_layer):
     """Options for `phasetree render` that are not in the scene file."""
     planes = ["alpha"] if scene.render.film_transparent else []
-    planes += ["depth"] if view_layer.use_pass_z else []
-    planes += ["normal"] if view_layer.use_pass_normal else []
-    planes += ["albedo"] if view_layer.phasetree.use_pass_albedo else []
+    planes += planes_of(view_layer)
     options = ["--planes", ",".join(planes)] if planes else []
     region, (width, height) = region_of(scene.render), size_of(scene.render)
     if region != (0, 0, width, height):

@@ -5,6 +5,7 @@ import os
 
 import bpy
 
+from ..passes import group_name
 from . import images, sockets
 from .sockets import constant
 
@@ -17,7 +18,13 @@ def world_light(world, folder, notes):
     """The scene file's light. Files that it needs are written to the folder."""
     if world is None:
         return DARK
-    notes = notes.about(f'world "{world.name}"')
+    made = light_of(world, folder, notes.about(f'world "{world.name}"'))
+    if world.lightgroup:
+        made = {kind: {**parameters, "group": group_name(world.lightgroup)} for kind, parameters in made.items()}
+    return made
+
+
+def light_of(world, folder, notes):
     if not world.use_nodes or world.node_tree is None:
         return constant_light(tuple(world.color), 1)
     output = world.node_tree.get_output_node("ALL")
@@ -33,6 +40,8 @@ def world_light(world, folder, notes):
     origin = sockets.source(shader.node.inputs["Color"])
     if origin is not None and origin.node.bl_idname == "ShaderNodeTexEnvironment" and origin.node.image is not None:
         return image_light(origin.node, strength, folder, notes)
+    if origin is not None and origin.node.bl_idname == "ShaderNodeTexSky":
+        return sky_light(origin.node, strength, notes)
     return constant_light(constant(shader.node, "Color", (1.0, 1.0, 1.0), notes), strength)
 
 
@@ -48,6 +57,31 @@ def image_light(node, strength, folder, notes):
     if node.projection != "EQUIRECTANGULAR":
         notes.unsupported("a mirror ball is used as an equirectangular image")
     return {"image": {"file": file, "rotation": MIDDLE + turn_of(node, notes), "intensity": strength}}
+
+
+# Light on level ground below Blender's sky, divided by that below phasetree's, with the sun 45° high.
+SKY_SCALE = {"PREETHAM": 2.1, "HOSEK_WILKIE": 0.3}
+SKY_SCALE_WITH_SUN, SKY_SCALE_WITHOUT_SUN = 30.0, 15.0  # of Nishita's model and its successors
+
+
+def sky_light(node, strength, notes):
+    """phasetree's own model of a clear sky, with the sun in the same place, and as bright on level ground."""
+    if node.sky_type in SKY_SCALE:
+        toward = node.sun_direction.normalized()
+        elevation, azimuth = math.asin(min(max(toward.z, -1), 1)), math.atan2(toward.x, toward.y)
+        sky, scale = {"turbidity": min(max(node.turbidity, 1), 10), "sun": False}, SKY_SCALE[node.sky_type]
+    else:
+        elevation, azimuth = node.sun_elevation, node.sun_rotation
+        sky = {"turbidity": min(max(1 + node.dust_density, 1), 10), "sun": node.sun_disc,
+               "sun_diameter": min(max(math.degrees(node.sun_size), 0.01), 90)}  # fmt: skip
+        scale = SKY_SCALE_WITH_SUN if node.sun_disc else SKY_SCALE_WITHOUT_SUN
+        if node.sun_disc and node.sun_intensity != 1:
+            notes.unsupported(f"the intensity of the sun of {node.name} is ignored")
+    notes.approximate(f"{node.name} is rendered by another model of the atmosphere")
+    if sockets.source(node.inputs.get("Vector")):
+        notes.unsupported(f"what is linked to {node.name} is ignored")
+    return {"sky": {"sun_elevation": math.degrees(elevation), "sun_azimuth": math.degrees(azimuth), **sky,
+                    "intensity": scale * strength}}  # fmt: skip
 
 
 def turn_of(node, notes):
