@@ -132,7 +132,8 @@ class PHASETREE_PT_passes(PhasetreePanel, bpy.types.Panel):
         self.layout.prop(context.view_layer, "use_pass_z", text="Depth")
         self.layout.prop(context.view_layer, "use_pass_normal", text="Normal")
         self.layout.prop(context.view_layer.phasetree, "use_pass_albedo")
-        self.layout.prop(context.view_layer, "use_pass_cryptomatte_material", text="Cryptomatte of Materials")
+        column = self.layout.column(heading="Cryptomatte")
+        column.prop(context.view_layer, "use_pass_cryptomatte_material", text="Material")
 
 
 class PHASETREE_PT_light_groups(PhasetreePanel, bpy.types.Panel):
