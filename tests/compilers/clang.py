@@ -33,7 +33,8 @@ MOST_CHANGED = 10
 VIEW = re.compile(r"\bviews::|ranges::(subrange|unique|remove|partition|stable_partition|rotate|search|equal_range|find_end)\w*\b")
 # Folders whose headers the short form checks, with the target whose options they are checked with.
 HEADERS = [("phasetree", "lib/include"), ("phasetree", "lib/src"), ("phasetree_command", "tracer/src"),
-           ("phasetree_embree[34]", "plugins/embree"), ("phasetree_python", "plugins/python/src")]
+           ("phasetree_embree[34]", "lib/embree"), ("phasetree_embree[34]", "plugins/embree"),
+           ("phasetree_python", "plugins/python/src")]
 
 
 def commands(build):

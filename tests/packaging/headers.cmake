@@ -7,7 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/checks.cmake)
 # A header of Embree, which ours may name.
 set(known_elsewhere rtcore.h)
 # The folders of the project's private headers.
-set(private_folders lib/src plugins/embree/core plugins/embree/src tracer/src)
+set(private_folders lib/src lib/embree plugins/embree/src tracer/src)
 
 # complaints(FOLDER OUT): the problems with the headers of an include folder, one per line.
 function(complaints folder out)
