@@ -1,5 +1,5 @@
 // Lines of voxels: blurring and splines against their definitions, and the bound on slopes against all differences.
-#include "nodes/voxel_lines.hpp"
+#include "nodes/voxels/lines.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
-#include "nodes/formula_solid.hpp"
+#include "nodes/formula/solid.hpp"
 
 #include <algorithm>
 
-#include "nodes/formula_slope.hpp"
-#include "nodes/formula_term_in_box.hpp"
+#include "nodes/formula/slope.hpp"
+#include "nodes/formula/term_in_box.hpp"
 
 namespace phasetree::nodes {
 

@@ -1,10 +1,10 @@
-#include "nodes/formula_slope.hpp"
+#include "nodes/formula/slope.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
 
-#include "nodes/formula_term_in_box.hpp"
+#include "nodes/formula/term_in_box.hpp"
 
 namespace phasetree::nodes {
 

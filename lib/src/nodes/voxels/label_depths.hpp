@@ -1,7 +1,7 @@
 #pragma once
 
-#include "nodes/depth_of_share.hpp"
-#include "nodes/voxel_lines.hpp"
+#include "nodes/voxels/depth_of_share.hpp"
+#include "nodes/voxels/lines.hpp"
 #include "phasetree/nodes/phased/labels.hpp"
 
 namespace phasetree {

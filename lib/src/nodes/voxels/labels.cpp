@@ -1,5 +1,5 @@
-// Maps the numbers of a grid to phases, and determines the positions of its voxels. nodes/label_depths.hpp makes the
-// fields.
+// Maps the numbers of a grid to phases, and determines the positions of its voxels. nodes/voxels/label_depths.hpp makes
+// the fields.
 #include "phasetree/nodes/phased/labels.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "model/preparation.hpp"
-#include "nodes/label_depths.hpp"
+#include "nodes/voxels/label_depths.hpp"
 
 namespace phasetree {
 

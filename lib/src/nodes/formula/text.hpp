@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/formula_steps.hpp"
+#include "nodes/formula/steps.hpp"
 
 namespace phasetree::nodes {
 

@@ -1,4 +1,4 @@
-#include "nodes/formula_functions.hpp"
+#include "nodes/formula/functions.hpp"
 
 #include <array>
 #include <cmath>

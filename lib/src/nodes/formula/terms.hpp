@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "nodes/formula_steps.hpp"
+#include "nodes/formula/steps.hpp"
 
 namespace phasetree::nodes {
 

@@ -1,4 +1,4 @@
-#include "nodes/voxel_lines.hpp"
+#include "nodes/voxels/lines.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-#include "nodes/formula_steps.hpp"
+#include "nodes/formula/steps.hpp"
 
 #include <algorithm>
 #include <array>

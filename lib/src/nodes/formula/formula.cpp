@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nodes/formula_slope.hpp"
-#include "nodes/formula_solid.hpp"
-#include "nodes/formula_text.hpp"
+#include "nodes/formula/slope.hpp"
+#include "nodes/formula/solid.hpp"
+#include "nodes/formula/text.hpp"
 
 namespace phasetree {
 

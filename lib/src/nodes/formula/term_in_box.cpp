@@ -1,4 +1,4 @@
-#include "nodes/formula_term_in_box.hpp"
+#include "nodes/formula/term_in_box.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "model/preparation.hpp"
-#include "nodes/formula_box.hpp"
-#include "nodes/formula_terms.hpp"
+#include "nodes/formula/box.hpp"
+#include "nodes/formula/terms.hpp"
 
 namespace phasetree::nodes {
 

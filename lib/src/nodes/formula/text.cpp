@@ -8,7 +8,7 @@
 //   exponent = { "+" | "-" } number
 //   atom     = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 
-#include "nodes/formula_text.hpp"
+#include "nodes/formula/text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -16,7 +16,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "nodes/formula_functions.hpp"
+#include "nodes/formula/functions.hpp"
 
 namespace phasetree::nodes {
 

@@ -1,4 +1,4 @@
-#include "nodes/formula_terms.hpp"
+#include "nodes/formula/terms.hpp"
 
 namespace phasetree::nodes {
 

@@ -1,4 +1,4 @@
-#include "nodes/label_depths.hpp"
+#include "nodes/voxels/label_depths.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

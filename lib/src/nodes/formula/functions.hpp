@@ -1,11 +1,11 @@
-// The functions that a formula may call. formula_functions.cpp contains the list.
+// The functions that a formula may call. functions.cpp contains the list.
 #pragma once
 
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "nodes/formula_steps.hpp"
+#include "nodes/formula/steps.hpp"
 
 namespace phasetree::nodes {
 
