@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/face_triangles.hpp"
+#include "io/geometry/face_triangles.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "support/sanitizers.hpp"

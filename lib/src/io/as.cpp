@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/object_reader.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 
 namespace phasetree {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "io/utf8.hpp"
-#include "io/words.hpp"
+#include "io/geometry/words.hpp"
+#include "io/json/utf8.hpp"
 
 namespace phasetree {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 #include "phasetree/io/suggest.hpp"
 
 namespace phasetree {

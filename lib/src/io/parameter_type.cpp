@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/suggest.hpp"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 
 namespace phasetree {
 

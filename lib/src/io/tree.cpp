@@ -4,8 +4,8 @@
 
 #include <map>
 
+#include "io/json/string_offset.hpp"
 #include "io/node_files.hpp"
-#include "io/string_offset.hpp"
 #include "model/text_error.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/meant_kind.hpp"

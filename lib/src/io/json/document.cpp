@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "io/document_data.hpp"
-#include "io/lexis.hpp"
-#include "io/parse.hpp"
+#include "io/json/document_data.hpp"
+#include "io/json/lexis.hpp"
+#include "io/json/parse.hpp"
 #include "io/read_file.hpp"
 #include "phasetree_support/folder.hpp"
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "io/absent_vertices.hpp"
-#include "io/face_triangles.hpp"
-#include "io/mesh_file.hpp"
-#include "io/ply.hpp"
+#include "io/geometry/absent_vertices.hpp"
+#include "io/geometry/face_triangles.hpp"
+#include "io/geometry/mesh_file.hpp"
+#include "io/geometry/ply.hpp"
 #include "phasetree/io/error.hpp"
 
 namespace phasetree::io {

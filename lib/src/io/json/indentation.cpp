@@ -1,9 +1,9 @@
-#include "io/indentation.hpp"
+#include "io/json/indentation.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "io/lexis.hpp"
+#include "io/json/lexis.hpp"
 
 namespace phasetree::io {
 

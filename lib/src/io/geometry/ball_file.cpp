@@ -1,5 +1,5 @@
 // Reads balls from files: the vertices of PLY, or the rows of CSV with a header.
-#include "io/ball_file.hpp"
+#include "io/geometry/ball_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/ply.hpp"
+#include "io/geometry/ply.hpp"
 #include "io/read_file.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree/io/number_table.hpp"

@@ -1,4 +1,4 @@
-#include "io/string_offset.hpp"
+#include "io/json/string_offset.hpp"
 
 #include <charconv>
 

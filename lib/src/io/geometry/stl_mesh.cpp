@@ -7,8 +7,8 @@
 #include <cstring>
 #include <utility>
 
-#include "io/mesh_file.hpp"
-#include "io/words.hpp"
+#include "io/geometry/mesh_file.hpp"
+#include "io/geometry/words.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree_support/reading.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/ply.hpp"
+#include "io/geometry/ply.hpp"
 
 #include <fmt/format.h>
 

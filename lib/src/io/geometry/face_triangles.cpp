@@ -1,4 +1,4 @@
-#include "io/face_triangles.hpp"
+#include "io/geometry/face_triangles.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
-#include "io/absent_vertices.hpp"
-#include "io/face_triangles.hpp"
-#include "io/mesh_file.hpp"
-#include "io/words.hpp"
+#include "io/geometry/absent_vertices.hpp"
+#include "io/geometry/face_triangles.hpp"
+#include "io/geometry/mesh_file.hpp"
+#include "io/geometry/words.hpp"
 #include "phasetree/io/error.hpp"
 #include "phasetree_support/reading.hpp"
 

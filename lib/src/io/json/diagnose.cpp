@@ -1,13 +1,13 @@
-#include "io/diagnose.hpp"
+#include "io/json/diagnose.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
-#include "io/indentation.hpp"
-#include "io/lexis.hpp"
-#include "io/utf8.hpp"
+#include "io/json/indentation.hpp"
+#include "io/json/lexis.hpp"
+#include "io/json/utf8.hpp"
 #include "phasetree/io/suggest.hpp"
 
 namespace phasetree::io {

@@ -1,4 +1,4 @@
-#include "io/mesh_file.hpp"
+#include "io/geometry/mesh_file.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/words.hpp"
+#include "io/geometry/words.hpp"
 #include "phasetree_support/reading.hpp"
 
 namespace phasetree::io {

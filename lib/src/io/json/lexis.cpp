@@ -1,10 +1,10 @@
-#include "io/lexis.hpp"
+#include "io/json/lexis.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "io/utf8.hpp"
+#include "io/json/utf8.hpp"
 
 namespace phasetree::io {
 

@@ -4,7 +4,7 @@
 // own grammar.) The token's start is what follows the white space, comments, commas and colons after the previous
 // token.
 
-#include "io/parse.hpp"
+#include "io/json/parse.hpp"
 
 #include <fmt/format.h>
 
@@ -17,9 +17,9 @@
 #include <span>
 #include <utility>
 
-#include "io/diagnose.hpp"
-#include "io/lexis.hpp"
-#include "io/utf8.hpp"
+#include "io/json/diagnose.hpp"
+#include "io/json/lexis.hpp"
+#include "io/json/utf8.hpp"
 #include "phasetree_support/reading.hpp"
 
 namespace phasetree::io {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/document_data.hpp"
+#include "io/json/document_data.hpp"
 
 namespace phasetree::io {
 
