@@ -12,17 +12,9 @@
 
 namespace phasetree::tracer {
 
-/// Checks a kind of camera against its concept. If the check fails, the compiler's message names the kind and the
-/// member.
-template <class Kind>
-struct CheckedCamera {
-    static_assert(CameraKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
+template <CameraKind... Kinds>
 struct CameraList {
-    using Any = std::variant<typename CheckedCamera<Kinds>::Type...>;
+    using Any = std::variant<Kinds...>;
     using AnyParameters = std::variant<typename Kinds::Parameters...>;
 };
 

@@ -17,16 +17,9 @@
 
 namespace phasetree::tracer {
 
-/// Checks a plane against its concept. If the check fails, the compiler's message names the kind and the member.
-template <class Kind>
-struct CheckedPlane {
-    static_assert(PlaneKind<Kind>);
-    using Type = Kind;
-};
-
 /// The first plane is the picture. It has three channels, which all formats support, and every film keeps it. The
 /// others become extra channels of the image.
-template <class Picture, class... Others>
+template <PlaneKind Picture, PlaneKind... Others>
 struct PlaneList {
     static constexpr std::size_t size = 1 + sizeof...(Others);
     static constexpr std::array<std::string_view, size> names{Picture::name, Others::name...};
@@ -53,7 +46,7 @@ struct PlaneList {
     // The sums of one plane.
     template <class Plane>
     struct PlaneSums {
-        using Sum = typename CheckedPlane<Plane>::Type::Sum;
+        using Sum = typename Plane::Sum;
 
         PlaneSums(const SceneNames& scene_names, std::size_t pixels)
             : plane(scene_names), channels(plane.channels().size()), width(plane.sums()), sums(width * pixels) {}

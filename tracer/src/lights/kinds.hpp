@@ -16,36 +16,14 @@
 
 namespace phasetree::tracer {
 
-/// Checks a kind of infinite light against its concept. If the check fails, the compiler's message names the kind and
-/// the member.
-template <class Kind>
-struct CheckedInfiniteLight {
-    static_assert(InfiniteLightKind<Kind>);
-    using Type = Kind;
-};
+template <PointLightKind... Kinds>
+using PointLightOf = std::variant<Kinds...>;
 
-/// As above, for an area light.
-template <class Kind>
-struct CheckedAreaLight {
-    static_assert(AreaLightKind<Kind>);
-    using Type = Kind;
-};
+template <InfiniteLightKind... Kinds>
+using InfiniteLightOf = std::variant<Kinds...>;
 
-/// As above, for a point light.
-template <class Kind>
-struct CheckedPointLight {
-    static_assert(PointLightKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
-using PointLightOf = std::variant<typename CheckedPointLight<Kinds>::Type...>;
-
-template <class... Kinds>
-using InfiniteLightOf = std::variant<typename CheckedInfiniteLight<Kinds>::Type...>;
-
-template <class... Kinds>
-using AreaLightOf = std::variant<typename CheckedAreaLight<Kinds>::Type...>;
+template <AreaLightKind... Kinds>
+using AreaLightOf = std::variant<Kinds...>;
 
 /// Every kind of infinite light.
 using InfiniteLight = InfiniteLightOf<ConstantEnvironment, GradientEnvironment, ImageEnvironment, Sun>;

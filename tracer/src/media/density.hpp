@@ -8,16 +8,8 @@
 
 namespace phasetree::tracer {
 
-/// Checks a kind of density against its concept. If the check fails, the compiler's message names the kind and the
-/// member.
-template <class Kind>
-struct CheckedDensity {
-    static_assert(DensityKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
-using DensityOf = std::variant<typename CheckedDensity<Kinds>::Type...>;
+template <DensityKind... Kinds>
+using DensityOf = std::variant<Kinds...>;
 
 using Density = DensityOf<FieldDensity, VoxelDensity>;
 

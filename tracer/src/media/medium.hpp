@@ -11,16 +11,8 @@
 
 namespace phasetree::tracer {
 
-/// Checks a kind of medium against its concept. If the check fails, the compiler's message names the kind and the
-/// member.
-template <class Kind>
-struct CheckedMedium {
-    static_assert(MediumKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
-using MediumOf = std::variant<typename CheckedMedium<Kinds>::Type...>;
+template <MediumKind... Kinds>
+using MediumOf = std::variant<Kinds...>;
 
 /// Every kind of medium. The first is the default, and transparent by default.
 using Medium = MediumOf<AbsorbingMedium, HomogeneousMedium, VaryingMedium>;

@@ -24,15 +24,8 @@
 
 namespace phasetree::tracer {
 
-/// Checks a kind of BSDF against its concept. If the check fails, the compiler's message names the kind and the member.
-template <class Kind>
-struct CheckedBsdf {
-    static_assert(BsdfKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
-using BsdfOf = std::variant<typename CheckedBsdf<Kinds>::Type...>;
+template <BsdfKind... Kinds>
+using BsdfOf = std::variant<Kinds...>;
 
 /// Every kind of BSDF.
 using AnyBsdf = BsdfOf<DiffuseBsdf, RoughDiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf,

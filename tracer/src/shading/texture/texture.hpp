@@ -28,16 +28,8 @@ namespace phasetree::tracer {
 using NamedTextures = TypeList<WoodTexture, SpeckleTexture, MarbleTexture, CheckerTexture, FieldTexture, ImageTexture,
                                MeshImageTexture, VertexColorTexture, MeasuredTexture, PerCopyTexture>;
 
-/// Checks a kind of texture against its concept. If the check fails, the compiler's message names the kind and the
-/// member.
-template <class Kind>
-struct CheckedTexture {
-    static_assert(TextureKind<Kind>);
-    using Type = Kind;
-};
-
-template <class... Kinds>
-using TextureOf = std::variant<typename CheckedTexture<Kinds>::Type...>;
+template <TextureKind... Kinds>
+using TextureOf = std::variant<Kinds...>;
 
 template <class... Named>
 TextureOf<ConstantTexture, TintedMeshImage, Named...> variant_of_textures(TypeList<Named...>);
