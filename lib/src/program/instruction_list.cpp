@@ -12,7 +12,7 @@ namespace phasetree::program {
 
 namespace {
 
-// Only this many constants, evenly spaced, are hashed of a long list such as an image. Lists with equal hashes are
+// In a long list of constants, such as an image, only this many, evenly spaced, are hashed. Lists with equal hashes are
 // compared in full.
 constexpr std::size_t most_hashed = 512;
 
