@@ -73,7 +73,9 @@ TEST_CASE("errors name the node, the parameter and what is wrong") {
     CHECK(error(WarpedField<Rotate>{{Rotate{.axis = {0, 0, 0}, .angle = 1}, ball, {}}}) ==
           "rotate: the axis must not be zero");
     CHECK(error(WarpedField<Scale>{{Scale{.factor = 0}, ball, {}}}) == "scale: \"factor\" must be positive, but is 0");
-    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) == "twist: the child must be bounded");
+    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) ==
+          "twist: the child is unbounded because of its \"plane\" (at plane); intersect it with a box: "
+          "{\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}");
     CHECK(error(WarpedField<Twist>{{Twist{.rate = 1e6f}, ball, {}}}) ==
           "twist: more than 800 turns from the origin to an end of the object");
     CHECK(error(WarpedField<Translate>{{Translate{.by = {0, infinity, 0}}, ball, {}}}) ==
@@ -294,6 +296,27 @@ TEST_CASE("a deeper tree is rejected") {
     CHECK(grow(max_tree_depth).node()->depth == max_tree_depth);
     CHECK_THROWS_WITH_AS((void)grow(max_tree_depth + 1),
                          fmt::format("the tree is deeper than {} nodes", max_tree_depth).c_str(), ModelError);
+}
+
+TEST_CASE("a node that needs a bounded child names what makes the child unbounded") {
+    const Field halves = Union{.of = {ball, Plane{}}};
+    const Phased solid = Set{.phase = Phase{1}, .of = halves};
+    const std::string intersect =
+        "; intersect it with a box: {\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}";
+    CHECK(error(WarpedField<Bend>{{Bend{.rate = 10}, halves, {}}}) ==
+          "bend: the child is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
+    CHECK(error(FieldEndlessGrid{{.of = halves, .spacing = {1, 0, 0}}}) ==
+          "endless_grid: the child is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
+    CHECK(error(PhasedEndlessGrid{{.of = solid, .spacing = {1, 0, 0}}}) ==
+          "endless_grid: the child is unbounded because of its \"plane\" (at set.of.union.of[1].plane)" + intersect);
+    CHECK(error(FieldBoundingVolume{{.of = halves, .volume = {}}}) ==
+          "bounding_volume: the child is unbounded because of its \"plane\" (at union.of[1].plane), so it has no "
+          "bounding box; give a \"volume\"");
+    FieldScatter scatter;
+    scatter.of = ball;
+    scatter.surface = halves;
+    CHECK(error(scatter) ==
+          "scatter: the surface is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
 }
 
 TEST_CASE("an object that cannot be traced says so") {

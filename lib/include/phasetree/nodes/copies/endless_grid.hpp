@@ -82,7 +82,7 @@ struct EndlessGrid {
     void prepare() {
         const Bounds b = phasetree::bounds(of);
         if (b.empty()) throw ModelError("endless_grid: the child is empty");
-        if (!b.finite()) throw ModelError("endless_grid: the child must be bounded");
+        if (!b.finite()) detail::throw_unbounded("endless_grid: the child", of);
         boxes.fold = {b.centre(), spacing, glm::vec3(0)};
         boxes.half = b.extent() * (0.5f * (1 + 1e-6f));
         clearance = Bounds::infinity;
