@@ -152,9 +152,11 @@ TEST_CASE("a tree that unfolds exponentially is rejected early") {
     Field f = Sphere{};
     for (int i = 0; i < 30; ++i) f = Union{.of = {warped(Translate{.by = {std::ldexp(0.001f, i), 0, 0}}, f), f}};
     const auto start = std::chrono::steady_clock::now();
-    CHECK_THROWS_WITH_AS(record(f, 100'000),
-                         "the object needs more than 100000 instructions, because every use of a shape repeats it",
-                         ModelError);
+    CHECK_THROWS_WITH_AS(
+        record(f, 100'000),
+        "the object needs more than 100000 instructions, because every use of a shape repeats it; use fewer "
+        "copies in the tree, or place copies of the whole object with \"instances\" of the scene",
+        ModelError);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
     CHECK(statistics(f).nodes == 61);
     // Without transforms between, shared subtrees stay shared.

@@ -177,7 +177,9 @@ class AreaEstimate {
 
 AreaResult estimate_areas(const Bounds& bounds, const LineTracer& lines, const AreaOptions& options) {
     if (bounds.empty()) throw ModelError("the object is empty, so it has no interfaces");
-    if (!bounds.finite()) throw ModelError("the object is unbounded, so its areas are not finite");
+    if (!bounds.finite())
+        throw ModelError(
+            "the bounds are infinite: the object is unbounded, so its areas are not finite; intersect it with a box");
     if (!(options.tolerance > 0))
         throw ModelError(fmt::format("the tolerance must be a positive number, but is {}", options.tolerance));
     if (!(options.seconds > 0))
