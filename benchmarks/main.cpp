@@ -109,19 +109,20 @@ int run(const std::vector<Command>& chosen, const Settings& settings, const std:
 int main(int argc, char** argv) {
     using namespace phasetree;
     using namespace phasetree::bench;
-    CLI::App app("Measures what phasetree claims about speed.", "phasetree-bench");
+    CLI::App app("Measures phasetree's claims about speed.", "phasetree-bench");
     Settings settings;
     std::optional<std::string> size, file;
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     app.add_flag("--quick", settings.quick, "Fewer rays and rounds: all of it within a minute");
-    app.add_option("--threads", settings.threads, "Threads that trace; with more than one the wall clock is read")
+    app.add_option("--threads", settings.threads,
+                   "Number of threads that trace; with more than one, times are wall-clock times")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--size", size, "Of the images of one ray per pixel, WIDTHxHEIGHT");
-    app.add_option("--seed", settings.seed, "Of the random rays");
-    app.add_option("--scenes", settings.scenes, "Of light and fingerprint: scenes of the gallery, separated by commas")
+    app.add_option("--size", size, "Size of the images of one ray per pixel, WIDTHxHEIGHT");
+    app.add_option("--seed", settings.seed, "Seed of the random rays");
+    app.add_option("--scenes", settings.scenes, "For light and fingerprint: scenes of the gallery, separated by commas")
         ->delimiter(',');
-    app.add_option("--samples", settings.samples, "Of light: samples a pixel")->check(CLI::Range(1, 65536));
-    app.add_option("--against", settings.against, "Of light: the command phasetree of another build")
+    app.add_option("--samples", settings.samples, "For light: samples per pixel")->check(CLI::Range(1, 65536));
+    app.add_option("--against", settings.against, "For light: the phasetree command of another build")
         ->check(CLI::ExistingFile);
     app.add_option("--json", file, "Also write the numbers to this file");
     app.require_subcommand(1);

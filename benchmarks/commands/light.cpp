@@ -162,7 +162,7 @@ class Measured {
         ++pairs_;
     }
     std::vector<double> means() const { return scaled(sums_, 2 * pairs_); }
-    // Of the mean over the picture: the value and its variance.
+    // The mean over the picture, and its variance.
     double mean() const { return sum(sums_) / (2.0 * pairs_ * static_cast<double>(sums_.size())); }
     double variance_of_mean() const {
         const auto n = static_cast<double>(sums_.size());

@@ -46,7 +46,7 @@ def escaped(text):
 
 
 def middle(value):
-    """Of what was measured several times, the median."""
+    """The value, or its median if it was measured several times."""
     return value["median"] if isinstance(value, dict) else value
 
 

@@ -198,8 +198,8 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
     return points;
 }
 
-// A point of each phase, joined by a path on which there are no other phases. Of all such points that are middles of
-// boxes, about the closest.
+// A point of each phase, joined by a path without other phases: about the closest of all such points that are centres
+// of boxes.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
     DisjointSets groups =

@@ -201,7 +201,7 @@ class Prover {
     Evaluator evaluator_;
     Clock::time_point start_;
     std::vector<Proof> proofs_;
-    // Of statements about volumes: the phases that are known to be somewhere, and whether there is an interval.
+    // For each statement about a volume: the phases that are known to be somewhere, and whether there is an interval.
     std::vector<PhaseSet> present_;
     std::vector<bool> is_measured_;
     double end_of_stage_ = 0;  // in seconds since the start

@@ -72,7 +72,7 @@ class Kind:
         required = [p for p in listed if not p.optional]
         self.parameters = [p for p in required if p.is_handle] + [p for p in required if not p.is_handle]
         self.parameters += [p for p in listed if p.optional]
-        # Of what it is made of in any number the arguments are as many: union(a, b, c).
+        # A required list of fields or objects, which may be passed as separate arguments: union(a, b, c).
         self.many = next((p for p in self.parameters if p.is_handle and p.is_list and not p.optional), None)
 
     @property

@@ -29,9 +29,9 @@ class Accessor {
     bool is_normalised() const { return is_normalised_; }
     /// Integers of an accessor that is `normalized` are divided by the largest number of their type.
     double number(std::size_t row, std::size_t column) const;
-    /// Throws GltfError for what is no number, or is beyond 10¹⁵.
+    /// Throws GltfError if it is not finite, or is larger than 10¹⁵.
     double finite_number(std::size_t row, std::size_t column) const;
-    /// Of rows of one whole number.
+    /// The index in a row that has one whole number.
     std::uint32_t index(std::size_t row) const;
 
     [[noreturn]] void fail(std::string_view what) const { item_.fail(what); }

@@ -37,7 +37,7 @@ MeshoptLayout layout_of(const Item& compressed) {
     return layout;
 }
 
-// What is read of a primitive's vertices. Of texture coordinates there are no more than a few sets in any file.
+// The attributes of vertices that are read. Files have at most a few sets of texture coordinates.
 constexpr std::array attribute_names{"POSITION",   "NORMAL",     "TANGENT",    "COLOR_0",    "JOINTS_0",
                                      "WEIGHTS_0",  "TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3",
                                      "TEXCOORD_4", "TEXCOORD_5", "TEXCOORD_6", "TEXCOORD_7"};

@@ -18,9 +18,9 @@ struct PlacedMesh {
     std::size_t mesh = 0;  ///< its number in "meshes"
     std::size_t node = 0;  ///< the number of its node in "nodes"
     glm::dmat4 placement{1};
-    /// Of a mesh with a skin; only vertices without joints go by the placement then.
+    /// The joints of a mesh with a skin. `placement` then applies only to vertices without joints.
     std::shared_ptr<const Joints> joints{};
-    /// Of the morph targets of its primitives; those that are missing are 0. Null if all are.
+    /// The weights of the morph targets of its primitives; missing ones are 0. Null if all are 0.
     std::shared_ptr<const std::vector<float>> weights{};
 };
 

@@ -80,8 +80,8 @@ void for_each_edge(std::span<const EdgeOfChain> edges, F&& f) {
     }
 }
 
-/// Round vertices to the lattice, and join those that touch. Of equal triangles one remains, or none if as many face
-/// either way. The result does not depend on the order of vertices and triangles.
+/// Round vertices to the lattice, and join those that touch. One of several equal triangles remains, or none if equally
+/// many face either way. The result does not depend on the order of vertices and triangles.
 Chain welded(const TriangleMesh&);
 
 /// Add up equal triangles, remove those that count zero times, and sort.

@@ -8,7 +8,7 @@
 
 namespace phasetree::support {
 
-/// While it lives it hears what its thread reads. Of several the newest does.
+/// Receives what its thread reads, as long as it exists. If there are several, only the newest one does.
 class ReadingListener {
   public:
     /// `hear` is called with numbers of bytes that have been read and understood since the last call.
