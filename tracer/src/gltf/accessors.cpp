@@ -61,7 +61,7 @@ std::string_view Accessors::bytes_of_view(std::size_t index, const Item& from) {
     const auto compressed = view.extension(meshopt_name);
     if (!compressed) return document_.view(index, from);
     if (!has_meshopt()) {
-        // A file that does not require the extension has the bytes without compression, too.
+        // A file that does not require the extension also has the uncompressed bytes.
         const Item buffer = document_.element("buffers", view.needed_index("buffer"), view);
         const auto fallback = buffer.extension(meshopt_name);
         if (buffer.has("uri") || !fallback || !fallback->flag("fallback")) return document_.view(index, from);

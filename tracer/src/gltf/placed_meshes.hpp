@@ -1,4 +1,4 @@
-// The meshes, cameras and lights of a glTF file where its nodes place them.
+// The meshes, cameras and lights of a glTF file, placed by its nodes.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace phasetree::tracer::gltf {
 
-/// For each joint of a skin the matrix from the space of the mesh to that of the file. A vertex goes to where the mean
-/// of these matrices takes it, weighted by its own weights: linear blend skinning.
+/// For each joint of a skin, the matrix from the space of the mesh to that of the file. A vertex is transformed by the
+/// mean of these matrices, weighted by the vertex's weights: linear blend skinning.
 using Joints = std::vector<glm::dmat4>;
 
 struct PlacedMesh {
@@ -37,8 +37,8 @@ struct PlacedMeshes {
     bool has_hidden = false;            ///< whether KHR_node_visibility hides a node that has a mesh
 };
 
-/// The visible meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the
-/// pose that its nodes have without animations. Throws GltfError, also for more than `most` of them.
+/// The visible meshes of the file's default scene, or of its first scene, in the order of its nodes and in the pose
+/// without animations. Throws GltfError, also for more than `most` meshes.
 PlacedMeshes placed_meshes(Accessors&, std::size_t most);
 
 }  // namespace phasetree::tracer::gltf
