@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr int most_slices = 100'000;
 
 struct SliceCommand {
-    std::array<std::optional<double>, 3> at;  // across x, y and z
+    std::array<std::optional<double>, 3> at;  // of planes perpendicular to x, y and z
     std::string axis = "z";
     std::optional<int> count;
     std::optional<double> from, to;
