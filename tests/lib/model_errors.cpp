@@ -229,12 +229,12 @@ auto chain(std::size_t depth) {
             node.phase_b = Phase{2};
         }
         if constexpr (std::is_same_v<Node, CloseGaps>) node.of_phases = {Phase{1}, Phase{2}};
-        // A blob looks at its skeletons from thousands of places while it is made.
+        // A blob evaluates its skeletons at thousands of points while it is prepared.
         if constexpr (std::is_same_v<Node, Blob>) {
             if (current.node()->depth == 20) break;
         }
         if constexpr (requires { node.surface; }) node.surface = Sphere{};
-        // What stands beside the chain must not be the chain again, or the tree has 2⁴⁰⁰ branches.
+        // The other children must not be the chain again, or the tree has 2⁴⁰⁰ branches.
         if constexpr (requires { node.volume; }) node.volume = Sphere{};
         if constexpr (requires { node.proxy; }) node.proxy = Sphere{};
         if constexpr (IsEndlessGrid<Node>) {
@@ -345,7 +345,7 @@ TEST_CASE("the nodes that make an object unbounded are found") {
     CHECK(paths(ball) == "");
     CHECK(paths(plane) == "plane");
     CHECK(paths(Field(Union{.of = {ball, plane}})) == "union.of[1].plane");
-    // What is subtracted from a ball may be unbounded; what a ball is subtracted from may not.
+    // The shape subtracted from a ball may be unbounded, but not the shape from which a ball is subtracted.
     CHECK(paths(Field(Difference{.from = ball, .subtract = {plane}})) == "");
     CHECK(paths(Field(Difference{.from = plane, .subtract = {ball, side}})) == "difference.from.plane");
     // A node whose children are bounded, or are each needed, is itself the reason.

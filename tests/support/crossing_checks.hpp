@@ -6,9 +6,9 @@
 /// repeated calls of first_crossing(): each ray starts at p_out of the previous crossing, in the phase entered there.
 ///
 /// Both are step functions of t. Where they differ over a stretch of the ray, the tracer is wrong, with two exceptions.
-/// The stretch may be shorter than four resolutions, because tracing promises no more. Or all of it may be within one
-/// resolution of an interface (a grazing ray, a ray within a face), where rounding decides labels. The same rules apply
-/// to rays that creep along an interface for long.
+/// The stretch may be shorter than four resolutions, because this is all that tracing promises. Or all of it may be
+/// within one resolution of an interface (a grazing ray, a ray within a face), where rounding decides labels. The same
+/// rules apply to rays that creep along an interface for long.
 ///
 /// Each ray's origin is the last one's p_out, rounded to floats. This displaces a ray that flickers along a face a
 /// thousand times, always in one direction if its steps are shorter than an ulp of a coordinate. From there on, a
