@@ -1,4 +1,4 @@
-// phasetree-bench: measures what the project claims about speed. See README.md here.
+// phasetree-bench: measures the project's claims about speed. See README.md in this folder.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,31 +27,32 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"table1", "seven objects with phases and without (Table 1)", table1},
         {"scaling", "the tentacle with 30 to 30,000 bumps", scaling},
-        {"quality", "objects built for a quick look and as usual", quality},
-        {"mesh", "fields against the triangles that would replace them", mesh},
-        {"triangles", "closed meshes as fields against the same triangles", triangles},
-        {"volumes", "grids of voxels as fields against triangles of the same surface", volumes},
-        {"naive", "interface cells against the paper's way", naive},
+        {"quality", "objects built with low and with medium quality", quality},
+        {"mesh", "fields compared with the triangles that would replace them", mesh},
+        {"triangles", "closed meshes as fields, compared with the same triangles", triangles},
+        {"volumes", "voxel grids as fields, compared with triangles of the same surface", volumes},
+        {"naive", "interface cells compared with the paper's method", naive},
         {"phases", "the same geometry with 1 to 32 phases (Figure 20)", phases},
         {"simd", "instruction sets and threads", simd},
-        {"host", "what a host pays for decoding, cells from files, points", host},
-        {"light", "error per second of pictures, of each technique alone and against another build", light},
-        {"carve", "carved bounds against boxes (Figure 23)", carve},
+        {"host", "costs of a host: decoding hits, reading cells, points", host},
+        {"light", "noise per second of pictures, for each technique alone and compared with another build", light},
+        {"carve", "carved bounds compared with boxes (Figure 23)", carve},
         {"march", "steps along one ray from phase to phase (Figure 21)", march},
-        {"proxies", "what proxies save by walking the tree, and through cells", proxies},
+        {"proxies", "what proxies save, when walking the tree and through cells", proxies},
     };
     return all;
 }
 
-// Minutes and gigabytes, and so not of all.
-const Command resolutions{"resolution", "a field against its triangles at 64³ to 1024³", resolution};
-const Command copies{"instances", "an object in one to a million places, as a field and as triangles", instances};
-const Command crowds{"lamps", "one of many lamps chosen by a tree, and by asking each", lamps};
+// These take minutes and gigabytes, so "all" does not include them.
+const Command resolutions{"resolution", "a field compared with its triangles at 64³ to 1024³", resolution};
+const Command copies{"instances", "one to a million instances of an object, as a field and as triangles", instances};
+const Command crowds{"lamps", "choosing one of many lamps: by a tree, and by evaluating each", lamps};
 const Command lists{"balls", "lists of ten thousand to ten million balls", balls};
 
-// Not a measurement, and so not one of all: what a change that should change nothing must leave as it was.
-const Command fingerprints{"fingerprint", "what is computed for every scene, to the last bit: for comparing two builds",
-                           fingerprint};
+// Not a measurement, so "all" does not include it: hashes that must stay the same if a change should not affect
+// results.
+const Command fingerprints{
+    "fingerprint", "hashes of all results for every scene, to the last bit, for comparing two builds", fingerprint};
 
 nlohmann::ordered_json machine() {
     std::string processor;
@@ -87,7 +88,7 @@ int run(const std::vector<Command>& chosen, const Settings& settings, const std:
                         {"seed", settings.seed},   {"rounds", settings.timing().rounds}};
     fmt::print("{}, {} cores, load {:.1f}, {}\n", json["machine"]["processor"].get<std::string>(),
                json["machine"]["cores"].get<int>(), json["machine"]["load"].get<double>(), simd_target());
-    fmt::print("times: {}, median of {} rounds in turn\n",
+    fmt::print("times: {}, median of {} alternating rounds\n",
                settings.threads == 1 ? "processor time of one thread" : "wall clock", settings.timing().rounds);
     bool sound = true;
     for (const Command& command : chosen) {
@@ -109,19 +110,20 @@ int run(const std::vector<Command>& chosen, const Settings& settings, const std:
 int main(int argc, char** argv) {
     using namespace phasetree;
     using namespace phasetree::bench;
-    CLI::App app("Measures what phasetree claims about speed.", "phasetree-bench");
+    CLI::App app("Measures phasetree's claims about speed.", "phasetree-bench");
     Settings settings;
     std::optional<std::string> size, file;
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    app.add_flag("--quick", settings.quick, "Fewer rays and rounds: all of it within a minute");
-    app.add_option("--threads", settings.threads, "Threads that trace; with more than one the wall clock is read")
+    app.add_flag("--quick", settings.quick, "Fewer rays and rounds: everything within a minute");
+    app.add_option("--threads", settings.threads,
+                   "Number of threads that trace; with more than one, times are wall-clock times")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--size", size, "Of the images of one ray per pixel, WIDTHxHEIGHT");
-    app.add_option("--seed", settings.seed, "Of the random rays");
-    app.add_option("--scenes", settings.scenes, "Of light and fingerprint: scenes of the gallery, separated by commas")
+    app.add_option("--size", size, "Size of the images of one ray per pixel, WIDTHxHEIGHT");
+    app.add_option("--seed", settings.seed, "Seed of the random rays");
+    app.add_option("--scenes", settings.scenes, "For light and fingerprint: scenes of the gallery, separated by commas")
         ->delimiter(',');
-    app.add_option("--samples", settings.samples, "Of light: samples a pixel")->check(CLI::Range(1, 65536));
-    app.add_option("--against", settings.against, "Of light: the command phasetree of another build")
+    app.add_option("--samples", settings.samples, "For light: samples per pixel")->check(CLI::Range(1, 65536));
+    app.add_option("--against", settings.against, "For light: the phasetree command of another build")
         ->check(CLI::ExistingFile);
     app.add_option("--json", file, "Also write the numbers to this file");
     app.require_subcommand(1);
@@ -134,9 +136,9 @@ int main(int argc, char** argv) {
     app.add_subcommand(crowds.name, crowds.what)->callback([&] { chosen.push_back(crowds); });
     app.add_subcommand(copies.name, copies.what)->callback([&] { chosen.push_back(copies); });
     app.add_subcommand(resolutions.name, resolutions.what)->callback([&] { chosen.push_back(resolutions); });
-    app.add_subcommand(
-           "all", "all of these but the copies, the lists of balls, the lamps, the resolutions and the fingerprints")
-        ->callback([&] { chosen = commands(); });
+    app.add_subcommand("all", "all of these except instances, balls, lamps, resolution and fingerprint")->callback([&] {
+        chosen = commands();
+    });
     try {
         app.parse(argc, argv);
         if (settings.quick) settings.width = settings.height = 128;
@@ -145,7 +147,7 @@ int main(int argc, char** argv) {
         return tracer::report_parse_error(app, e);
     }
     if (static_cast<unsigned>(settings.threads) > cores)
-        fmt::print("{} threads on {} cores: they will wait for each other\n", settings.threads, cores);
+        fmt::print("warning: {} threads share {} cores, so they will wait for each other\n", settings.threads, cores);
     try {
         return run(chosen, settings, file);
     } catch (const std::exception& e) {

@@ -1,7 +1,8 @@
-// Ten thousand to ten million balls as data of one node: does their number matter to a ray, and what do they take?
+// Ten thousand to ten million balls as data of one node: does their number slow rays down, and how much memory and time
+// do they need?
 //
-// Lists of ten thousand to ten million balls in four phases, on a lattice with places and radii moved at random, some
-// overlapping, opaque as grains are. Building is from the list in memory to Embree's hierarchy.
+// Lists of ten thousand to ten million balls in four phases, on a lattice, with random changes of position and radius.
+// Some overlap. They are opaque, like grains. Building includes everything from the list in memory to Embree's BVH.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -32,9 +33,9 @@ Report balls(const Settings& settings) {
         std::unique_ptr<FieldScene> scene;
         double balls, preparing_seconds, seconds;
     };
-    // As grains are: all but the vacuum around them.
+    // All phases are opaque, like grains, except the vacuum around them.
     const PhaseSet opaque = PhaseSet::of(std::vector{Phase{1}, Phase{2}, Phase{3}, Phase{4}});
-    // The largest comes first, so that the most memory that the process ever had by then is its own.
+    // The largest list comes first, so that the peak memory of the process is that of this list.
     std::vector<Object> objects(counts.size());
     double peak_of_largest = 0;
     for (std::size_t i = counts.size(); i-- > 0;) {
@@ -50,11 +51,10 @@ Report balls(const Settings& settings) {
     const auto camera = camera_for(objects.front().scene->cells().bounds());
     const Rays rays = camera_rays(camera, settings.width, settings.height);
     report.say(
-        fmt::format("built by all cores, from the list in memory to Embree's hierarchy, by the clock on the wall; "
-                    "{}×{} camera rays to the first interface, {} thread(s)",
+        fmt::format("build: from the list in memory to Embree's BVH, on all cores, wall-clock time; {}×{} camera rays "
+                    "to the first interface, {} thread(s)",
                     settings.width, settings.height, settings.threads));
-    report.say(
-        fmt::format("the most memory that the process had when the largest was built: {:.0f} MB", peak_of_largest));
+    report.say(fmt::format("peak memory of the process while the largest list was built: {:.0f} MB", peak_of_largest));
     std::vector<Contestant> contestants;
     for (std::size_t i = 0; i < objects.size(); ++i)
         contestants.push_back({fmt::format("{:.0f}", objects[i].balls),
@@ -85,10 +85,11 @@ Report balls(const Settings& settings) {
         table.row({numbers.begin(), numbers.end()});
     }
     report.table("counts", table);
-    report.at_most("slowdown of camera rays over the whole range", turns.ratio(objects.size() - 1, 0).median, 2);
+    report.at_most("slowdown of camera rays, most balls relative to fewest", turns.ratio(objects.size() - 1, 0).median,
+                   2);
     if (!settings.quick) {
-        report.at_most("seconds to build ten million", objects.back().seconds, 60, "{:.1f}");
-        report.at_most("MB at most", peak_of_largest, 4000, "{:.0f}");
+        report.at_most("seconds to build ten million balls", objects.back().seconds, 60, "{:.1f}");
+        report.at_most("peak memory, MB", peak_of_largest, 4000, "{:.0f}");
     }
     return report;
 }

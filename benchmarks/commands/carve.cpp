@@ -1,8 +1,8 @@
-// Sphere Carving: how much smaller than boxes carved bounds are, what they take, and where they pay.
+// Sphere Carving: how much smaller carved bounds are than boxes, what they cost, and where they pay off.
 //
-// Convex bounds by Sphere Carving against the library's boxes: volumes, evaluations and time, the cells' building time
-// beside it; and rays, by the whole program within either, and through cells with a test against the planes before
-// Embree.
+// Compares convex bounds by Sphere Carving with the library's boxes: volumes, evaluations and time, with the time to
+// build cells for comparison. Also compares rays: with the whole program inside either volume, and through cells with a
+// test against the planes before Embree.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
@@ -27,7 +27,8 @@ double volume_of(const Bounds& box) {
     return extent.x * extent.y * extent.z;
 }
 
-// A diagonal stick of six links, each turned within the one before: boxes around turned boxes at their poorest.
+// A diagonal stick of six links, each rotated relative to the previous one: the worst case for boxes around rotated
+// boxes.
 Phased nested_rotations() {
     const Field link = Box{.size = {0.12f, 0.12f, 1}};
     Field chain = link;
@@ -71,15 +72,15 @@ Checksum trace_whole(const InterfaceTracer& tracer, const Rays& rays) {
 }  // namespace
 
 Report carve(const Settings& settings) {
-    Report report("carve", "carved bounds against boxes, by volume, time and rays");
+    Report report("carve", "carved bounds compared with boxes: volume, time and rays");
     const int few = settings.quick ? 32 : 96;
     report.say(
-        "box: the bounds that the library has of the tree; carved box: the six sides that carving finds; 26-DOP: "
-        "the box's corners and edges cut as well; convex: up to 40 planes that carving chooses");
+        "box: the tree's bounds; carved box: the six sides found by carving; 26-DOP: corners and edges cut, too; "
+        "convex: up to 40 planes chosen by carving");
     report.say(
-        fmt::format("whole program: {0}×{0} camera rays by the object's whole program, within the convex bounds "
-                    "over within the box; cells: {1}×{2} rays through cells, with a test against the convex "
-                    "bounds before Embree over without; both above 1 where carving pays; 1 thread",
+        fmt::format("whole program: {0}×{0} camera rays with the program of the whole object, rate within the convex "
+                    "bounds relative to within the box; cells: {1}×{2} rays through cells, rate with a test against "
+                    "the convex bounds before Embree relative to without; above 1, carving pays off; 1 thread",
                     few, settings.width, settings.height));
     Table table({{"object", "object", ""},
                  {"box", "box", "{:.4g}"},

@@ -1,6 +1,6 @@
-// Fingerprints of all that the project computes, for every scene: a change that should change nothing (new names, other
-// rooms, a faster way to the same bits) leaves every one of them as it was. Two builds are compared by their JSON
-// files.
+// Fingerprints of everything that the project computes, for every scene. A change that should not affect results (new
+// names, moved files, a faster algorithm for the same bits) leaves all of them unchanged. Two builds are compared by
+// their JSON files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,8 +81,8 @@ void add(Fingerprint& found, const std::optional<Crossing>& crossing) {
     found.add(crossing->to.index);
 }
 
-// Through Embree and the cells, a path from phase to phase of at most eight crossings with their normals for each ray;
-// rays that leave a crossing state their phase, as those of a path tracer do. Half of the rays start inside, half at
+// For each ray, a path from phase to phase through Embree and the cells, with at most eight crossings and their
+// normals. Rays that leave a crossing carry their phase, as in a path tracer. Half of the rays start inside, half at
 // the camera.
 Fingerprint crossings(const FieldScene& scene, Rays rays) {
     Fingerprint found;
@@ -105,7 +105,7 @@ Fingerprint crossings(const FieldScene& scene, Rays rays) {
     return found;
 }
 
-// The whole object's program, without cells: much slower, so fewer rays.
+// With the program of the whole object, without cells. This is much slower, so there are fewer rays.
 Fingerprint whole_crossings(const Phased& object, std::span<const Ray> rays) {
     const InterfaceTracer tracer(object);
     Fingerprint found;
@@ -142,9 +142,9 @@ std::vector<std::string> all_scenes() {
 
 Report fingerprint(const Settings& settings) {
     const std::size_t count = settings.quick ? 4096 : 1'000'000;
-    Report report("fingerprint", "what is computed, to the last bit");
+    Report report("fingerprint", "hashes of all results, to the last bit");
     report.say(
-        fmt::format("{} random points and paths of rays through the cells, and some through the whole program", count));
+        fmt::format("{} random points and ray paths through the cells, and fewer with the whole program", count));
     Table table({{"scene", "scene", ""},
                  {"labels", "labels", ""},
                  {"cells", "cells", ""},
@@ -157,7 +157,7 @@ Report fingerprint(const Settings& settings) {
         const FieldScene field(scene.object, tracer::opaque_phases(scene.materials));
         const auto side = static_cast<int>(std::sqrt(static_cast<double>(count) / 2));
         Rays rays = camera_rays(scene.camera, side, side);
-        // A part of the whole's rays from each end: the camera's first and those from inside last.
+        // Some of the rays from both ends of the list: camera rays from its beginning, rays from inside from its end.
         const Rays inside = rays_from_inside(field, count - rays.size(), settings.seed);
         rays.insert(rays.end(), inside.begin(), inside.end());
         Rays few;

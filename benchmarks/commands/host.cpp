@@ -1,7 +1,7 @@
-// What a host of the C99 interface pays beside its rays: for decoding hits, for cells from a file, for points.
+// The costs of a host of the C99 interface besides tracing: decoding hits, cells from a file, points.
 //
-// Through the C99 interface, as other renderers have it: what decoding a hit costs, by the ray that found it; a
-// geometry with cells from a file, by building it; points all at once, by one at a time.
+// Uses the C99 interface, as other renderers do. Compares decoding a hit with tracing the ray that found it, reading a
+// geometry's cells from a file with building them, and points all at once with one at a time.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -19,7 +19,7 @@ namespace phasetree::bench {
 
 namespace {
 
-// A tree alone in a scene, as a host has it.
+// A scene of a host, which contains a single tree.
 class Host {
   public:
     explicit Host(const std::string& scene)
@@ -58,7 +58,7 @@ class Host {
     RTCScene scene_;
 };
 
-// Tracing the rays that hit, and decoding what they hit.
+// Times tracing the rays that hit, and decoding their hits.
 Turns decoding(const Host& host, const Rays& camera, const Settings& settings) {
     Rays hitting;
     std::vector<RTCRayHit> hits;
@@ -128,11 +128,11 @@ Turns asking(const Host& host, const Settings& settings) {
 }  // namespace
 
 Report host(const Settings& settings) {
-    Report report("host", "what a host of the C99 interface pays beside its rays");
-    report.say(fmt::format("{}×{} camera rays with a stock context, those that hit; each hit decoded", settings.width,
-                           settings.height));
-    report.say("a geometry with cells from a file against one that is built, Embree's hierarchy included; one thread");
-    report.say("the phase at random points of the bounds, one at a time and all at once");
+    Report report("host", "costs of a host of the C99 interface besides tracing");
+    report.say(fmt::format("{}×{} camera rays with an ordinary context, only those that hit; each hit is decoded",
+                           settings.width, settings.height));
+    report.say("a geometry with cells from a file compared with one that is built, including Embree's BVH; one thread");
+    report.say("the phase at random points of the bounds, one point per call compared with all points in one call");
     Table table({{"scene", "scene", ""},
                  {"ray_seconds", "ray ns", "{:.0f}", 1e9},
                  {"decode_seconds", "decode ns", "{:.0f}", 1e9},
@@ -143,7 +143,7 @@ Report host(const Settings& settings) {
                  {"point_seconds", "point ns", "{:.0f}", 1e9},
                  {"points_ratio", "at once/one", "{:.2f}"}});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const support::TemporaryDirectory folder;  // gone when the benchmark is
+    const support::TemporaryDirectory folder;  // removed at the end of the benchmark
     double decode = 0, read = 0;
     for (const std::string name : {"hourglass", "cable", "drinks", "tentacle"}) {
         const Host host(name);
@@ -159,8 +159,8 @@ Report host(const Settings& settings) {
         read = std::max(read, cells.ratio(1, 0).median);
     }
     report.table("scenes", table);
-    report.at_most("time to decode a hit, by that of the ray, the most of four scenes", decode, 1);
-    report.at_most("time to read cells, by that to build them, the most of four scenes", read, 0.25);
+    report.at_most("time to decode a hit, relative to tracing the ray, worst of four scenes", decode, 1);
+    report.at_most("time to read cells, relative to building them, worst of four scenes", read, 0.25);
     return report;
 }
 

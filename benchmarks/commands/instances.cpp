@@ -1,5 +1,5 @@
-// One object in one to a million places: what a place costs, and what rays through places cost, as a field and as
-// triangles.
+// One to a million instances of an object, as a field and as triangles: the cost of an instance, and of rays through
+// instances.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -41,7 +41,7 @@ std::vector<glm::mat4x3> places(int along, const Bounds& object, std::uint64_t s
     return result;
 }
 
-// The places as a file that a scene may name, for as long as this is there.
+// The instances as a file that a scene can refer to. The file exists as long as this object.
 class PlacesFile {
   public:
     explicit PlacesFile(std::span<const glm::mat4x3> places)
@@ -75,7 +75,7 @@ tracer::Scene scene_of(std::span<const glm::mat4x3> places) {
         "instances.json"));
 }
 
-// The places as the path tracer has them: each hit with its normal, and all else that a path needs.
+// The instances as the path tracer has them: each hit has its normal, and everything else that a path needs.
 class PlacedObjects {
   public:
     explicit PlacedObjects(std::span<const glm::mat4x3> places) : scene_(scene_of(places)), geometry_(scene_) {}
@@ -92,7 +92,7 @@ class PlacedObjects {
     tracer::TracedGeometry geometry_;
 };
 
-// The same rays for both, of which those that leave a surface start where each has it.
+// The same rays for both. Rays that leave a surface start at the hit of the respective surface.
 struct RaysOfBoth {
     Rays mesh;
     std::vector<tracer::Ray> field;
@@ -150,16 +150,16 @@ auto measured(Make&& make, double& taken, double& megabytes) {
 }  // namespace
 
 Report instances(const Settings& settings) {
-    Report report("instances", "an object in many places, as a field and as triangles");
+    Report report("instances", "instances of an object, as a field and as triangles");
     report.say(
-        fmt::format("the outer surface of an hourglass, and triangles of it by surface nets of {}³ cubes, by Embree's "
-                    "instances, not robust; places on a lattice, turned at random",
+        fmt::format("the outer surface of an hourglass, and its triangles (surface nets of {}³ cubes) as Embree "
+                    "instances, not robust; on a lattice, rotated at random",
                     cubes));
-    report.say(fmt::format(
-        "rays: {}×{} camera rays, one a pixel, and one random ray from each hit; {} thread(s); each hit has "
-        "its normal, the field's all that a path needs",
-        settings.width, settings.height, settings.threads));
-    report.say("build: from the places, by all cores and the clock on the wall");
+    report.say(
+        fmt::format("rays: {}×{} camera rays, one per pixel, and one random ray from each hit; {} thread(s); hits "
+                    "include the normal, those of the field everything that a path needs",
+                    settings.width, settings.height, settings.threads));
+    report.say("build: from the list of instances, on all cores, wall-clock time");
     Table table({{"copies", "copies", "{:.0f}"},
                  {"what", "", ""},
                  {"build_seconds", "build s", "{:.2f}"},
@@ -173,7 +173,7 @@ Report instances(const Settings& settings) {
     const glm::vec3 extent = bounds.extent();
     const double cube = static_cast<double>(std::max({extent.x, extent.y, extent.z})) / cubes;
     std::vector<std::vector<Table::Cell>> rows;
-    // The most come first, because memory that was freed hides what is taken again.
+    // The largest number comes first, because memory that was freed would hide new allocations.
     for (const int along : {100, 32, 10, 1}) {
         if (settings.quick && along > 32) continue;
         const auto where = places(along, bounds, settings.seed);
@@ -205,7 +205,7 @@ Report instances(const Settings& settings) {
         const Turns on_primary = contest(*field, *mesh, primary, settings);
         const Turns on_random = contest(*field, *mesh, random, settings);
         if (rows.empty())
-            report.say(fmt::format("memory that {:.0f} copies take: {:.0f} MB as fields, {:.0f} MB as triangles", count,
+            report.say(fmt::format("memory of {:.0f} copies: {:.0f} MB as fields, {:.0f} MB as triangles", count,
                                    field_megabytes, mesh_megabytes));
         const auto row = [&](std::size_t i, const std::string& what, double build) {
             const auto rate = [&](const Turns& turns) {

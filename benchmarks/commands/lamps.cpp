@@ -1,8 +1,8 @@
-// Many lamps: choosing one of them by the light tree is compared with asking each, by time and by variance.
+// Many lamps: compares choosing one of them by the light tree with evaluating each, by time and variance.
 //
-// Small balls that shine hang in a hall, in bunches. At each of some points of its floor the irradiance is estimated
-// many times, from one sample of the lights each, with nothing in the way. The relative variance of these estimates is
-// averaged over the points. The product of variance and time is what an error costs.
+// Clusters of small glowing balls hang in a hall. At some points of the floor, the irradiance is estimated many times,
+// each time from one sample of the lights, without occlusion. The relative variance of these estimates is averaged over
+// the points. The time to reach a given error is proportional to variance times time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,20 +70,19 @@ class Floor {
 }  // namespace
 
 Report lamps(const Settings& settings) {
-    Report report("lamps", "one of many lamps, chosen by a tree of clusters or by asking each");
+    Report report("lamps", "choosing one of many lamps: by a tree of clusters or by evaluating each lamp");
     const Floor floor(settings.quick ? 40 : 200, settings.quick ? 100 : 400, settings.seed);
     report.say(
-        "small balls in bunches over a floor; at points of it the irradiance is estimated by one sample of the "
-        "lights, "
-        "nothing in the way; variance: of a sample, relative to the square of the mean; 1 thread");
+        "clusters of small balls above a floor; the irradiance at points of the floor is estimated from one sample of "
+        "the lights, without occlusion; variance: of a sample, relative to the squared mean; 1 thread");
     Table table({{"lamps", "lamps", "{:.0f}"},
-                 {"each_seconds", "each asked, µs", "{:.2f}", 1e6},
-                 {"tree_seconds", "by the tree, µs", "{:.2f}", 1e6},
+                 {"each_seconds", "each lamp, µs", "{:.2f}", 1e6},
+                 {"tree_seconds", "tree, µs", "{:.2f}", 1e6},
                  {"speedup", "faster", "{:.2f} ×"},
-                 {"each_variance", "variance, each asked", "{:.3f}"},
-                 {"tree_variance", "by the tree", "{:.3f}"},
+                 {"each_variance", "variance, each lamp", "{:.3f}"},
+                 {"tree_variance", "tree", "{:.3f}"},
                  {"gain", "variance × time, ratio", "{:.2f} ×"}});
-    // 32 are not clustered, so both ways should be equal.
+    // 32 lamps are not clustered, so both methods should take the same time.
     for (const int count : settings.quick ? std::vector{32, 1000} : std::vector{32, 100, 1000, 10000}) {
         const tracer::Lights each = hall(count);
         tracer::Lights clustered = each;
@@ -102,7 +101,7 @@ Report lamps(const Settings& settings) {
         const double speedup = turns.ratio(0, 1).median;
         table.row({double(count), turns.seconds(0).median / samples, turns.seconds(1).median / samples, speedup,
                    a.relative_variance, b.relative_variance, speedup * a.relative_variance / b.relative_variance});
-        report.check(fmt::format("{} lamps: as bright", count), std::abs(b.mean / a.mean - 1) < 0.02,
+        report.check(fmt::format("{} lamps: the same brightness", count), std::abs(b.mean / a.mean - 1) < 0.02,
                      fmt::format("{:.4f}", b.mean / a.mean));
     }
     report.table("lamps", table);

@@ -2,9 +2,9 @@
 // against another build.
 //
 // The error is the variance of a pixel's luminance, relative to the square of its mean (plus a hundredth of the square
-// of the picture's mean, so that black pixels do not decide), averaged over the pixels. It needs no reference: two
-// pictures of different seeds have it as half the square of their difference. What is compared is error times processor
-// time, which does not depend on the number of samples as long as errors fall with it.
+// of the picture's mean, so that black pixels do not decide), averaged over the pixels. It needs no reference: it is
+// half the squared difference of two pictures with different seeds. The benchmark compares error times processor time,
+// which does not depend on the number of samples as long as the error is inversely proportional to it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -38,7 +38,7 @@ struct Picture {
     double seconds = 0;  // of processor time, without preparing the scene
 };
 
-// A picture of each seed.
+// Renders one picture per seed.
 struct Painter {
     std::string name;
     std::function<Picture(std::uint32_t seed)> paint;
@@ -59,12 +59,12 @@ Picture painted_here(const tracer::World& world, tracer::Scene& scene, tracer::T
     return picture;
 }
 
-// A folder that goes when this goes.
+// A folder that is removed together with this object.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "phasetree-bench-XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("cannot make a folder for pictures");
+        if (!::mkdtemp(name.data())) throw std::runtime_error("cannot create a folder for pictures");
         path_ = name;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -100,7 +100,7 @@ double run(const std::vector<std::string>& arguments) {
     return in_seconds(usage.ru_utime) + in_seconds(usage.ru_stime);
 }
 
-// Another build's command. What it takes to prepare the scene is the time of one sample of one pixel.
+// The command of another build. The time to prepare the scene is taken to be the time of one sample of one pixel.
 class OtherBuild {
   public:
     OtherBuild(std::string command, std::string scene, glm::ivec2 size, int samples, int threads)
@@ -146,13 +146,13 @@ class OtherBuild {
     double preparing_ = 0;
 };
 
-// What pictures of one painter say: pairs of them, each with its time.
+// The results of one painter: pairs of pictures, each with its time.
 class Measured {
   public:
     void add(const Picture& a, const Picture& b) {
         if (sums_.empty()) sums_.resize(a.luminances.size()), variances_.resize(a.luminances.size());
         if (a.luminances.size() != sums_.size() || b.luminances.size() != sums_.size())
-            throw std::runtime_error("pictures of one scene differ in size");
+            throw std::runtime_error("pictures of the same scene differ in size");
         for (std::size_t i = 0; i < sums_.size(); ++i) {
             const double x = a.luminances[i], y = b.luminances[i];
             sums_[i] += x + y;
@@ -162,13 +162,13 @@ class Measured {
         ++pairs_;
     }
     std::vector<double> means() const { return scaled(sums_, 2 * pairs_); }
-    // Of the mean over the picture: the value and its variance.
+    // The mean over the picture, and its variance.
     double mean() const { return sum(sums_) / (2.0 * pairs_ * static_cast<double>(sums_.size())); }
     double variance_of_mean() const {
         const auto n = static_cast<double>(sums_.size());
         return sum(variances_) / pairs_ / (2.0 * pairs_) / (n * n);
     }
-    // Relative to these means, of one picture.
+    // The error of one picture, relative to these means.
     double error(const std::vector<double>& means) const {
         const double average = sum(means) / static_cast<double>(means.size());
         double total = 0;
@@ -194,12 +194,12 @@ class Measured {
     int pairs_ = 0;
 };
 
-// All painters in turn. The first is the one that the others are compared with.
+// Runs all painters alternately. The others are compared with the first one.
 std::vector<Measured> measure(const std::vector<Painter>& painters, int rounds, std::uint32_t seed) {
     std::vector<Measured> measured(painters.size());
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < painters.size(); ++i) {
-            // Forwards and backwards by turns, each painter with seeds of its own.
+            // Alternately forwards and backwards, each painter with its own seeds.
             const std::size_t k = round % 2 == 0 ? i : painters.size() - 1 - i;
             const auto first = seed + 2 * static_cast<std::uint32_t>(round) + 1000 * static_cast<std::uint32_t>(k);
             const Picture a = painters[k].paint(first), b = painters[k].paint(first + 1);
@@ -211,7 +211,7 @@ std::vector<Measured> measure(const std::vector<Painter>& painters, int rounds, 
 }  // namespace
 
 Report light(const Settings& settings) {
-    Report report("light", "what is left of noise after a second: pictures of the gallery");
+    Report report("light", "noise per second of processor time: pictures of the gallery");
     const std::vector<std::string> names =
         !settings.scenes.empty() ? settings.scenes
         : settings.quick         ? std::vector<std::string>{"hourglass", "drinks"}
@@ -219,10 +219,11 @@ Report light(const Settings& settings) {
                                                             "land_block", "kintsugi", "soap_film"};
     const int rounds = settings.quick ? 2 : 4;
     const int longest = std::max(settings.width / 4, 1);  // of a picture's sides, in pixels
-    report.say(fmt::format("{} samples a pixel, {} pairs of pictures in turn, the longer side {} pixels, {} thread(s)",
-                           settings.samples, rounds, longest, settings.threads));
+    report.say(fmt::format(
+        "{} samples per pixel, {} pairs of pictures rendered alternately, longer side {} pixels, {} thread(s)",
+        settings.samples, rounds, longest, settings.threads));
     report.say("error: relative variance of a picture's pixels; seconds: processor time of all threads for a picture");
-    report.say("gain: error times seconds, of that line by that of this build; more is better for this build");
+    report.say("gain: error times seconds of a line, relative to the first line; above 1 is better for this build");
     Table table({{"scene", "scene", ""},
                  {"painter", "light by", ""},
                  {"mean", "mean", "{:.4f}"},
@@ -264,11 +265,11 @@ Report light(const Settings& settings) {
             if (i == 0 || !settings.against) continue;
             logarithms += std::log(gain);
             ++compared;
-            // Two builds show the same picture. Noise that is not normal asks for a wide limit.
+            // Both builds must show the same picture. The limit is wide, because the noise is not normally distributed.
             const double sigma = std::sqrt(m.variance_of_mean() + measured[0].variance_of_mean());
             const double off = (m.mean() - measured[0].mean()) / sigma;
             report.check(
-                name + ": the mean of both builds is one", std::abs(off) < 5,
+                name + ": both builds have the same mean", std::abs(off) < 5,
                 fmt::format("{:.5f} and {:.5f}, {:.1f} standard errors apart", measured[0].mean(), m.mean(), off));
         }
     }

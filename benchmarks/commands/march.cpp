@@ -1,9 +1,8 @@
-// The paper's Figure 21: how far one may go along a ray. One ray through the hourglass's glass and sand, and three ways
-// along it: by the smallest |φᵢ|, as the paper steps; by the interface distance, the second smallest component with the
-// vacuum among them; and by cells, eight samples at a time.
+// The paper's Figure 21: the step sizes along a ray. Compares three methods for one ray through the glass and the sand
+// of the hourglass: steps by the smallest |φᵢ|, as in the paper; steps by the interface distance, the second smallest
+// component including the vacuum's; and cells, with eight samples at a time.
 //
-// One ray from phase to phase, by the paper's step, by the interface distance and by cells; the values along it are
-// kept in the JSON for the plot.
+// The values along the ray are written to the JSON for the plot.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
@@ -61,7 +60,7 @@ Report march(const Settings&) {
     const FieldScene field(scene.object);
     const InterfaceCells& cells = field.cells();
     const Bounds& box = cells.bounds();
-    // From the left a little above the neck, through both walls of the bulb and the sand, past a rod.
+    // From the left, slightly above the neck, through both walls of the bulb and the sand, past a rod.
     const Ray ray{glm::vec3(box.low.x - 0.3f, -0.12f, 0.3f), glm::normalize(glm::vec3(1, 0.06f, 0.02f)), vacuum};
     const double until = static_cast<double>(box.extent().x) + 0.6;
     report.say("evaluations: of all components at one point, or of eight points together for cells");

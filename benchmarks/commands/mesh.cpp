@@ -1,10 +1,10 @@
 // A field against the mesh that would replace it: four scenes' outer surfaces and the same surfaces as triangles.
 //
-// Surfaces as fields of one phase, or of the tentacle four (opaque, as a mesh is), and the same as triangles by
-// surface nets (mesh/), 512 cubes along the longest side, in an Embree scene of their own that is not robust (which is
-// faster). Random rays leave what the camera's rays hit; the mesh's start at its own hit, lifted by 10⁻⁵ of the
-// object, in the same direction. A triangle's normal comes with the hit, a field's is computed apart: both are given.
-// That the two are the same surface is checked by the camera's rays.
+// The surfaces are fields of one phase, or of four for the tentacle (opaque, like a mesh). The triangles are made by
+// surface nets (mesh/) with 512 cubes along the longest side, in an Embree scene of their own that is not robust, which
+// is faster. Random rays start at the hits of camera rays. For the mesh they start at its own hit, raised by 10⁻⁵ of
+// the object, in the same direction. A triangle's normal comes with the hit and a field's is computed separately, so
+// rays are timed with and without it. Camera rays check that both surfaces are the same.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -35,29 +35,27 @@ std::vector<NamedScene> scenes_to_compare() {
         const tracer::Scene scene = scene_file("benchmark/" + name + "_monophase");
         scenes.push_back({name, scene.object, scene.camera});
     }
-    // With all its phases: that they are opaque leaves the surface.
+    // With all of its phases. They are opaque, so only the outer surface is left.
     scenes.push_back({"tentacle, 3,000 bumps", tentacle(3000), std::nullopt});
     return scenes;
 }
 
 void say_what_is_compared(Report& report, const Settings& settings, int cubes) {
+    report.say(
+        fmt::format("field: one phase, four for the tentacle; mesh: {}³ cubes{}, Embree triangles of medium and high "
+                    "build quality, not robust",
+                    cubes, settings.quick ? " (512³ without --quick)" : ""));
     report.say(fmt::format(
-        "the field: one phase, of the tentacle four; the mesh: {}³ cubes{}, Embree triangles of medium and of high "
-        "build quality, not robust",
-        cubes, settings.quick ? " (512³ without --quick)" : ""));
+        "rays: {}×{} camera rays, one per pixel; as many random rays outwards from their hits; {} thread(s)",
+        settings.width, settings.height, settings.threads));
     report.say(
-        fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit into the open; {} "
-                    "thread(s)",
-                    settings.width, settings.height, settings.threads));
+        "rays of the field carry their phase and their last hit, as in a path tracer; those of the mesh start at a "
+        "small offset");
     report.say(
-        "rays of the field carry their phase and their last hit, as those of a path tracer do; "
-        "the mesh's ray starts a hair off");
+        "build: processor time on one thread, from the tree for the field; meshing and Embree's build for the mesh");
     report.say(
-        "build: processor time on one thread, from the tree for the field; the mesh's is the meshing and Embree's "
-        "build");
-    report.say(
-        "field + normal: with the surface's normal at the hit, which a field computes apart; a triangle's comes with "
-        "it");
+        "field + normal: with the normal at the hit, which a field computes separately; a triangle's comes with the "
+        "hit");
 }
 
 }  // namespace
@@ -89,10 +87,11 @@ Report mesh(const Settings& settings) {
             return bench::timed(make, taken);
         };
         double field_seconds = 0, meshing_seconds = 0, medium_seconds = 0, high_seconds = 0;
-        // No ray is inside, of either.
+        // No ray is inside either surface.
         const PhaseSet opaque{phases(scene.object).bits & ~std::uint64_t{1}};
         const auto field = timed([&] { return std::make_unique<FieldScene>(scene.object, opaque); }, field_seconds);
-        // Where several opaque phases meet nothing is known to a line of the grid that passes through.
+        // Cells know nothing of places where several opaque phases meet, and lines of the grid may pass through these.
+        // Such an object is therefore meshed from its outer surface.
         const bool is_one = std::popcount(opaque.bits) == 1;
         const auto surface = is_one ? nullptr : std::make_unique<FieldScene>(outer(scene.object), PhaseSet{0b10});
         const Triangles triangles =
@@ -128,7 +127,7 @@ Report mesh(const Settings& settings) {
         const Agreement agreement = compare(*field, *medium, primary);
         agreements.row({scene.name, double(agreement.either), agreement.share(), agreement.mean() / cube,
                         agreement.largest / cube});
-        // A cube is seen under a pixel or so: silhouettes are a few thousandths of the rays.
+        // A cube is about as large as a pixel, so silhouettes affect a few thousandths of the rays.
         report.check(scene.name + ": field and mesh are the same surface",
                      agreement.share() > 0.98 && agreement.mean() < 0.5 * cube,
                      fmt::format("{:.2f} % of rays hit both, {:.3f} cubes apart on average", 100 * agreement.share(),
@@ -152,9 +151,10 @@ Report mesh(const Settings& settings) {
     }
     report.table("scenes", table);
     report.table("agreement", agreements);
-    report.at_least("field against triangles, primary rays, worst scene", least_primary, 0.7);
-    report.at_least("field against triangles, random rays from the surface, worst scene", least_random, 0.7);
-    report.at_most("memory of the field against the triangles', worst scene", most_memory, 1);
+    report.at_least("rate of the field relative to triangles, primary rays, worst scene", least_primary, 0.7);
+    report.at_least("rate of the field relative to triangles, random rays from the surface, worst scene", least_random,
+                    0.7);
+    report.at_most("memory of the field relative to triangles, worst scene", most_memory, 1);
     return report;
 }
 

@@ -1,9 +1,9 @@
-// Against the paper's way on the CPU: the same rays, the same hits.
+// Compares cells with the paper's method on the CPU: the same rays, the same hits.
 //
-// Against the paper's way on the CPU, in which the whole object is one primitive of Embree and each step of sphere
-// tracing walks the tree (naive/). Few camera rays, chosen at random, the same for both; where the label changes is
-// compared ray by ray. Cells gain from few rays, which the caches hold: their rate over the whole image is given too,
-// and the lower counts.
+// In the paper's method (naive/), the whole object is one primitive of Embree, and each step of sphere tracing walks
+// the tree. Both trace the same few camera rays, chosen at random, and the positions of the first change of label are
+// compared ray by ray. Few rays favour cells, because the caches hold them. The rate of cells over the whole image is
+// therefore measured, too, and the lower rate counts.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace phasetree::bench {
 
 namespace {
 
-// A random choice, in the order of the image: few rays, but of all kinds in the image's proportions.
+// A random subset, in the order of the image: few rays, but all kinds of rays in the same proportions as in the image.
 Rays some_of(const Rays& all, std::size_t count, std::uint64_t seed) {
     Random random(seed);
     Rays chosen;
@@ -36,9 +36,9 @@ struct Disagreement {
     float farthest = 0;
 };
 
-// Other: one hits and the other does not, another phase is entered, or farther apart than both resolutions explain. A
-// ray that meets the surface at a slant passes it slowly: a label within a resolution of the surface is rounding's
-// choice.
+// `other` counts rays of which only one hits, which enter different phases, or whose hits are farther apart than both
+// resolutions explain. A grazing ray crosses the surface slowly, and within a resolution of the surface, rounding
+// decides the label.
 Disagreement compare(const FieldScene& cells, const NaiveScene& naive, const Rays& rays, float tolerance) {
     const FlushSubnormals flush;
     Disagreement d;
@@ -56,8 +56,9 @@ Disagreement compare(const FieldScene& cells, const NaiveScene& naive, const Ray
 }  // namespace
 
 Report naive(const Settings& settings) {
-    Report report("naive",
-                  "interface cells against the paper's way: the tree walked at every step, one user primitive");
+    Report report(
+        "naive",
+        "interface cells compared with the paper's method: the tree is walked at every step, in one user primitive");
     struct Scene {
         std::string name;
         Phased object;
@@ -70,16 +71,15 @@ Report naive(const Settings& settings) {
     const std::vector<Scene> scenes{{"hourglass", hourglass.object, hourglass.camera, 2000 * part, 10},
                                     {"tentacle, 3,000 bumps", tentacle(3000), std::nullopt, 60 * part, 500}};
     report.say(
-        fmt::format("camera rays to the first interface, chosen at random from {}×{}, the same for both; 1 thread",
+        fmt::format("the same camera rays to the first interface for both, chosen at random from {}×{}; 1 thread",
                     settings.width, settings.height));
     report.say(
-        "\"all\": the cells' rate on the whole image too, where fewer of them are in the caches; the lower counts");
-    report.say(
-        "the naive way steps by min |φᵢ| as in the paper, or by the second smallest component; the faster counts");
+        "\"all\": the rate of cells for the whole image, where fewer of them are in the caches; the lower rate counts");
+    report.say("the paper's method steps by min |φᵢ|, or by the second smallest component; the faster one counts");
 
     Table table({{"scene", "scene", ""},
                  {"rays", "rays", "{:.0f}"},
-                 {"disagreements", "other hits", "{:.0f}"},
+                 {"disagreements", "different hits", "{:.0f}"},
                  {"least_magnitude_rays_per_second", "min |φ| k/s", "{:.3f}", 1e-3},
                  {"interface_distance_rays_per_second", "s(p) k/s", "{:.3f}", 1e-3},
                  {"cells_rays_per_second", "cells k/s", "{:.0f}", 1e-3},
@@ -111,7 +111,7 @@ Report naive(const Settings& settings) {
         const Disagreement a = compare(cells, least, rays, 10 * resolution);
         const Disagreement b = compare(cells, second, rays, 10 * resolution);
         report.check(scene.name + ": the same hits", a.other + b.other <= 2 + rays.size() / 500,
-                     fmt::format("of {} rays {} hit; otherwise than the cells: {} by min |φ|, {} by s(p)", rays.size(),
+                     fmt::format("{} rays, {} hit; different from the cells: {} by min |φ|, {} by s(p)", rays.size(),
                                  a.hits, a.other, b.other));
         const Spread ratio = turns.ratio(better, 2);
         Spread on_all = turns.ratio(better, 3);

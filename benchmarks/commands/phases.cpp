@@ -1,7 +1,7 @@
 // The paper's Figure 20: the same geometry with more and more phases.
 //
-// 96 overlapping balls and boxes, in 1 to 32 phases; the surface is the same. Beside it the growth of the tree walked
-// at every step with arrays of phases, which is how the paper does it.
+// 96 overlapping balls and boxes, in 1 to 32 phases, with the same surface. For comparison, it also measures the
+// paper's method, which walks the tree at every step with arrays of phases.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace phasetree::bench {
 Report phases(const Settings& settings) {
     Report report("phases", "a cluster of 96 balls and boxes, in 1 to 32 phases");
     const std::vector<int> counts{1, 2, 3, 4, 5, 8, 12, 16, 20, 24, 32};
-    const int few = settings.quick ? 24 : 48;  // the naive way's image is this many pixels wide
+    const int few = settings.quick ? 24 : 48;  // width in pixels of the image for the paper's method
     std::vector<std::unique_ptr<FieldScene>> cells;
     std::vector<std::unique_ptr<NaiveScene>> naive;
     for (const int n : counts) {
@@ -29,10 +29,10 @@ Report phases(const Settings& settings) {
     const auto camera = camera_for(cells.front()->cells().bounds());
     const Rays rays = camera_rays(camera, settings.width, settings.height), fewer = camera_rays(camera, few, few);
     report.say(
-        fmt::format("camera rays to the surface, one a pixel: {}×{} through cells, {} thread(s); {}×{} by the tree "
-                    "walked at every step with arrays of phases, 1 thread",
+        fmt::format("camera rays to the surface, one per pixel: {}×{} through cells, {} thread(s); {}×{} by walking "
+                    "the tree at every step with arrays of phases, 1 thread",
                     settings.width, settings.height, settings.threads, few, few));
-    report.say("T(n)/T(1): the time of an image with n phases over that with one, timed in turn");
+    report.say("T(n)/T(1): the time of an image with n phases relative to one phase, timed alternately");
 
     std::vector<Contestant> through_cells, by_walking;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -76,10 +76,10 @@ Report phases(const Settings& settings) {
                    ms(slow.seconds(i)), slow.ratio(i, 0)});
     }
     report.table("counts", table);
-    report.check("the same surface whatever the phases", different <= rays.size() / 2000,
+    report.check("the surface does not depend on the phases", different <= rays.size() / 2000,
                  fmt::format("{} of {} rays differ", different, rays.size()));
     report.at_most("T(32)/T(1)", fast.ratio(counts.size() - 1, 0).median, 1.5);
-    // A bump: more than the line between the multiples of four on both sides.
+    // The excess above the line between the multiples of four on both sides.
     double bump = 0;
     for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
         if (counts[i] % 4 == 0) continue;
@@ -90,7 +90,7 @@ Report phases(const Settings& settings) {
         const double line = (1 - share) * fast.ratio(below, 0).median + share * fast.ratio(above, 0).median;
         bump = std::max(bump, fast.ratio(i, 0).median / line);
     }
-    report.at_most("largest bump at 2, 3 and 5 phases over the line between their neighbours", bump, 1.1);
+    report.at_most("largest excess at 2, 3 and 5 phases above the line between their neighbours", bump, 1.1);
     return report;
 }
 

@@ -1,8 +1,7 @@
-// What bounding volumes and levels of detail within a tree save: where the tree is walked at every step, as the paper
-// does, and where cells have taken from it what does not matter anyway.
+// What bounding volumes and levels of detail in a tree save: when the tree is walked at every step, as in the paper,
+// and with cells, which have already removed what does not matter.
 //
-// A ball with 2,048 studs, plain, with a bounding volume around every 32, and with two levels of detail: by the tree
-// walked at every step, and through cells.
+// A ball with 2,048 studs: plain, with a bounding volume around every 32 studs, and with two levels of detail.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,8 +25,8 @@ namespace {
 constexpr int studs = 2048, in_a_group = 32;
 constexpr Phase leather{1}, brass{2};
 
-// A ball studded with small ones along a Fibonacci spiral, which are united in groups of neighbours; each group may
-// have a bounding volume, its box.
+// A ball with small balls as studs along a Fibonacci spiral. Neighbouring studs are united in groups, and each group
+// may have a bounding volume, its box.
 Field stud_groups(bool bounded) {
     Union all;
     Union group;
@@ -43,7 +42,7 @@ Field stud_groups(bool bounded) {
 Phased ball(const Field& with) {
     return Under{{Set{leather, Sphere{1}}, Set{brass, with}}};
 }
-// With its studs in the half that is nearer to the camera.
+// With studs only on the half that is nearer to the camera.
 Phased with_levels(const glm::vec3& viewpoint) {
     return PhasedLevelOfDetail{{.of = {ball(stud_groups(false)), Set{leather, Sphere{1}}},
                                 .viewpoint = viewpoint,
@@ -54,8 +53,9 @@ Phased with_levels(const glm::vec3& viewpoint) {
 }  // namespace
 
 Report proxies(const Settings& settings) {
-    Report report("proxies",
-                  "a ball with 2,048 studs: plain, with a bounding volume around every 32, with two levels of detail");
+    Report report(
+        "proxies",
+        "a ball with 2,048 studs: plain, with a bounding volume around every 32 studs, with two levels of detail");
     const int few = settings.quick ? 16 : 32;
     const Phased plain = ball(stud_groups(false));
     const auto camera = camera_for(bounds(plain));
@@ -63,8 +63,8 @@ Report proxies(const Settings& settings) {
                                                               {"bounding volumes", ball(stud_groups(true))},
                                                               {"levels of detail", with_levels(camera.position)}};
     report.say(
-        fmt::format("walked: {0}×{0} camera rays by the tree walked at every step; cells: {1}×{2} rays through "
-                    "cells; the plain object's time over each one's, above 1 where it saves; 1 thread",
+        fmt::format("walked: {0}×{0} camera rays, walking the tree at every step; cells: {1}×{2} rays through cells; "
+                    "the time of the plain object divided by that of each object, so above 1 is faster; 1 thread",
                     few, settings.width, settings.height));
     std::vector<std::unique_ptr<FieldScene>> cells;
     std::vector<std::unique_ptr<NaiveScene>> naive;

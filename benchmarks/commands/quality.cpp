@@ -1,7 +1,8 @@
-// What the qualities of building are worth: cells, time to build and to trace.
+// What build qualities gain: cells, time to build and to trace.
 //
-// The same objects in cells of low and of medium quality of build (BuildQuality; everything else is measured with
-// medium): time and bytes, and the rates of camera rays and of random ones that leave what those hit, knowing where.
+// Builds cells of the same objects with low and with medium quality (BuildQuality; everything else is measured with
+// medium). Measures time and memory, and the rates of camera rays and of random rays that leave their hits and carry
+// the hit.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -17,7 +18,7 @@
 namespace phasetree::bench {
 
 Report quality(const Settings& settings) {
-    Report report("quality", "four objects, built for a quick look and as usual");
+    Report report("quality", "four objects, built with low and with medium quality");
     struct Object {
         std::string name;
         Phased object;
@@ -39,13 +40,13 @@ Report quality(const Settings& settings) {
 
     report.say("three of the gallery's scenes with their materials, and the tentacle with all phases clear and opaque");
     report.say(
-        fmt::format("build: program, cells and Embree's hierarchy, processor time on one thread, in turn, "
-                    "median of {}; times those of medium quality",
+        fmt::format("build: program, cells and Embree's BVH, processor time on one thread, alternately, median of {}; "
+                    "relative to medium quality",
                     build_rounds));
-    report.say(fmt::format(
-        "rays to the first interface: {}×{} camera rays, one a pixel, and as many random ones from what those "
-        "hit; {} thread(s); rates times those of medium quality",
-        settings.width, settings.height, settings.threads));
+    report.say(
+        fmt::format("rays to the first interface: {}×{} camera rays, one per pixel, and as many random rays from their "
+                    "hits; {} thread(s); rates relative to medium quality",
+                    settings.width, settings.height, settings.threads));
     Table table({{"object", "object", ""},
                  {"quality", "quality", ""},
                  {"cells", "cells", "{:.0f}"},
@@ -97,8 +98,8 @@ Report quality(const Settings& settings) {
     report.table("objects", table);
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (objects[i].name.starts_with("3,000 bumps"))
-            report.at_most("seconds to build " + objects[i].name + " on one thread, of low quality", low_seconds[i],
-                           0.25, "{:.3f}");
+            report.at_most("seconds to build " + objects[i].name + " on one thread, low quality", low_seconds[i], 0.25,
+                           "{:.3f}");
     return report;
 }
 

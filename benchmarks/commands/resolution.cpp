@@ -1,8 +1,7 @@
-// A field against the triangles that would replace it, at grids from 64³ to 1024³: what a mesh costs depends on how
-// near to the surface it shall be, a field is the surface.
+// A field against the triangles that would replace it, at grids from 64³ to 1024³: the cost of a mesh depends on how
+// close to the surface it has to be, whereas a field is the surface.
 //
-// A field against its triangles at 64³ to 1024³, with how far the mesh's hits are from the surface, memory and
-// building time.
+// Measures rays, memory, building time, and the distance of the mesh's hits from the surface.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -20,9 +19,9 @@ namespace phasetree::bench {
 
 namespace {
 
-// How far the mesh's hits are from the surface, in parts of the object's diagonal: the mean, and what 99 % are below.
-// |φ| bounds the distance from below; a field of the benchmark's scenes is within a few per cent of it near the
-// surface.
+// The distance of the mesh's hits from the surface, relative to the object's diagonal: the mean and the 99th
+// percentile. |φ| bounds the distance from below; a field of the benchmark's scenes is within a few per cent of it near
+// the surface.
 struct Error {
     double mean = 0, most = 0;
 };
@@ -49,17 +48,17 @@ Error error_of(const FieldScene& field, const MeshScene& mesh, const Rays& rays)
 }  // namespace
 
 Report resolution(const Settings& settings) {
-    Report report("resolution", "a field against its triangles, over the mesh's resolution");
+    Report report("resolution", "a field compared with its triangles, by the mesh's resolution");
     const std::vector<int> grids =
         settings.quick ? std::vector<int>{64, 128, 256} : std::vector<int>{64, 128, 256, 512, 1024};
     report.say(
-        fmt::format("{}×{} camera rays, and as many random ones from what those hit; Embree triangles of medium "
-                    "quality, not robust; 1 thread",
+        fmt::format("{}×{} camera rays, and as many random rays from their hits; Embree triangles of medium quality, "
+                    "not robust; 1 thread",
                     settings.width, settings.height));
     report.say(
-        "error: of the mesh's hits from the surface, mean and 99th percentile, in parts of the object's diagonal; "
-        "missed: rays that hit one and not the other");
-    report.say("ratios: the time of the triangles over that of the field, above 1 where the field is faster");
+        "error: distance of the mesh's hits from the surface, mean and 99th percentile, relative to the object's "
+        "diagonal; missed: rays that hit only one of the two");
+    report.say("ratios: the time with triangles divided by the time with the field, above 1 where the field is faster");
     Table table({{"scene", "scene", ""},
                  {"cubes", "cubes", "{:.0f}"},
                  {"triangles", "triangles", "{:.0f}"},

@@ -1,8 +1,8 @@
-// The tentacle with 30 to 30,000 bumps: does the number of primitives matter to a ray?
+// The tentacle with 30 to 30,000 bumps: does the number of primitives slow rays down?
 //
-// A tentacle of four phases with 30 to 30,000 bumps (objects/tentacle.hpp): camera rays, and random rays from points
-// spread evenly over the inside. Build time is that of the program, the cells and Embree's hierarchy on one thread;
-// bytes are the cells' own and, apart, what Embree asked for.
+// A tentacle of four phases with 30 to 30,000 bumps (objects/tentacle.hpp). Traces camera rays, and random rays from
+// points distributed evenly over the inside. The build time includes the program, the cells and Embree's BVH, on one
+// thread. The memory of the cells and that requested by Embree are shown separately.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -29,7 +29,7 @@ Report scaling(const Settings& settings) {
         const Phased object = tentacle(bumps);
         Object o;
         {
-            // Everything, from the tree to Embree's hierarchy, on this thread.
+            // Everything from the tree to Embree's BVH, on this thread.
             const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
             const auto time_builds = [&](PhaseSet opaque) {
                 std::vector<double> times;
@@ -46,7 +46,7 @@ Report scaling(const Settings& settings) {
         }
         objects.push_back(std::move(o));
     }
-    // One camera for all: bounds grow a little with the largest bump.
+    // One camera for all, although the bounds grow slightly with the largest bump.
     const auto camera = camera_for(objects.back().scene->cells().bounds());
     std::vector<Contestant> primary, random;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -58,12 +58,12 @@ Report scaling(const Settings& settings) {
         random.push_back({name, [&o, &settings] { return o.scene->trace(o.random, settings.threads); }});
     }
     report.say(
-        fmt::format("rays to the first interface: {}×{} camera rays, one a pixel; {} random ones from points inside "
+        fmt::format("rays to the first interface: {}×{} camera rays, one per pixel; {} random rays from points inside "
                     "the object; {} thread(s)",
                     settings.width, settings.height, settings.pixels(), settings.threads));
-    report.say(fmt::format("build: program, cells and Embree's hierarchy, processor time on one thread, median of {}",
+    report.say(fmt::format("build: program, cells and Embree's BVH, processor time on one thread, median of {}",
                            build_rounds));
-    report.say("opaque: the same, told that no ray is ever inside; all else is with clear phases");
+    report.say("opaque: the same with all phases declared opaque; everything else is measured with clear phases");
     const Turns on_primary = in_turn(primary, settings.timing());
     const Turns on_random = in_turn(random, settings.timing());
 
@@ -104,10 +104,11 @@ Report scaling(const Settings& settings) {
                    rate(on_random), batches(o.primary), batches(o.random), slower_primary, slower_random});
     }
     report.table("counts", table);
-    report.at_most("slowdown of primary rays over the whole range", slowest_primary, 2);
-    report.at_most("slowdown of random rays over the whole range", slowest_random, 2);
+    report.at_most("slowdown of primary rays, most bumps relative to fewest", slowest_primary, 2);
+    report.at_most("slowdown of random rays, most bumps relative to fewest", slowest_random, 2);
     report.at_most("seconds to build 3,000 bumps on one thread", objects[2].build_seconds.median, 0.25, "{:.3f}");
-    report.at_most("MB of 3,000 bumps, cells and Embree's", static_cast<double>(objects[2].scene->bytes()) * 1e-6, 40);
+    report.at_most("MB of 3,000 bumps, cells and Embree's BVH", static_cast<double>(objects[2].scene->bytes()) * 1e-6,
+                   40);
     return report;
 }
 

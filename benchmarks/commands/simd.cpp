@@ -1,8 +1,7 @@
-// The same with every instruction set of this machine, and with more threads.
+// The same rays with every instruction set of this machine, and with more threads.
 //
-// Every instruction set of the machine, and 1 thread against 2 or more, whose results must be equal to the last bit.
-// On a loaded machine the wall clock says little about threads; their own processor time, given beside it, says what
-// they lose to each other.
+// All results must be equal to the last bit. On a loaded machine, wall-clock time says little about the efficiency of
+// threads. Their processor time, which is also shown, shows how much they slow each other down.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -21,7 +20,7 @@ namespace phasetree::bench {
 
 namespace {
 
-// Puts back what was in use.
+// Restores the instruction set that was in use.
 struct RestoredTarget {
     std::string before = simd_target();
     ~RestoredTarget() { use_simd_target(before); }
@@ -57,12 +56,12 @@ Report simd(const Settings& settings) {
     add("hourglass", hourglass.object, hourglass.camera);
     add("tentacle, 3,000 bumps", tentacle(3000), std::nullopt);
     report.say(
-        fmt::format("rays to the first interface: {}×{} camera rays, one a pixel, and {} random ones from inside",
+        fmt::format("rays to the first interface: {}×{} camera rays, one per pixel, and {} random rays from inside",
                     settings.width, settings.height, settings.pixels()));
-    report.say("speed: on one thread, by processor time, as a multiple of the slowest instruction set's");
+    report.say("speed: on one thread, by processor time, relative to the slowest instruction set");
     report.say(
-        fmt::format("threads: wall clock, time on 1 over {0} × time on {0}; the processors' own: their time on 1 over "
-                    "their time on {0}, which other load does not lengthen",
+        fmt::format("threads: wall clock: time on 1 thread / ({0} × time on {0} threads); processors: processor time "
+                    "on 1 thread / processor time on {0} threads, which other load does not affect",
                     threads));
     if (threads > static_cast<int>(cores))
         report.say(fmt::format("there are {} cores: {} threads cannot be {} times as fast", cores, threads, threads));
@@ -79,7 +78,7 @@ Report simd(const Settings& settings) {
                  {"rays_per_second", "M/s", "{:.2f}", 1e-6},
                  {"speed", "× slowest", "{:.2f}"},
                  {"thread_efficiency", "wall clock %", "{:.0f}", 100},
-                 {"processor_efficiency", "processors' %", "{:.0f}", 100}});
+                 {"processor_efficiency", "processors %", "{:.0f}", 100}});
     double least_wall = 1e30, least_processor = 1e30;
     bool same = true;
     for (const Scene& scene : scenes) {
@@ -115,7 +114,7 @@ Report simd(const Settings& settings) {
     report.check("the same results with every instruction set and number of threads", same,
                  same ? "hits and distances are equal to the last bit" : "they differ");
     report.at_least(fmt::format("efficiency of {} threads, wall clock, worst", threads), least_wall, 0.95);
-    report.at_least(fmt::format("efficiency of {} threads, processors' own, worst", threads), least_processor, 0.95);
+    report.at_least(fmt::format("efficiency of {} threads, processor time, worst", threads), least_processor, 0.95);
     return report;
 }
 

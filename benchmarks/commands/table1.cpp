@@ -1,11 +1,11 @@
-// The paper's Table 1: does it cost anything that an object has phases?
+// The paper's Table 1: what do phases cost?
 //
-// Seven objects with their phases, and the same outer surfaces as trees of one phase that were written by hand as a
-// library of distance fields would have them (scenes/benchmark/*_monophase.json): unions, differences and offsets,
-// without what nobody can see. The multiphase trees are the gallery's scenes; only the cake has one of its own,
-// because the entremet's glaze blends all that is below it, which no other tree can. That two surfaces are one is
-// checked at random points, half of them near it, and along the camera's rays. primary is one ray a pixel, bounce adds
-// a ground plane of two triangles and one diffuse ray more from what was met.
+// Compares seven objects that have phases with trees of one phase for the same outer surfaces. The latter are written
+// by hand as for a library of distance fields (scenes/benchmark/*_monophase.json): unions, differences and offsets,
+// without invisible parts. The multiphase trees are scenes of the gallery, except for the cake. It has a tree of its
+// own, because the glaze of the entremet blends everything below it, which no tree of one phase can do. Random points,
+// half of them near the surface, and camera rays check that both surfaces are the same. "primary" is one ray per pixel;
+// "bounce" adds a ground plane of two triangles, and one diffuse ray from each hit.
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
@@ -36,8 +36,8 @@ const std::vector<Object>& objects() {
     return all;
 }
 
-// A pixel's ray, and from what it meets, object or ground, another one into a random direction, more often along the
-// normal (by the cosine, as a diffuse surface scatters). The random numbers are the pixel's.
+// The ray of a pixel, and from its hit on the object or the ground another one in a random direction, with a cosine
+// distribution as for a diffuse surface. The random numbers depend only on the pixel.
 Checksum trace_with_bounce(const FieldScene& scene, const Rays& rays, const std::vector<glm::vec3>& sphere,
                            int threads) {
     return trace_many(rays, threads, [&](const Ray& ray) -> std::optional<float> {
@@ -55,14 +55,14 @@ Checksum trace_with_bounce(const FieldScene& scene, const Rays& rays, const std:
 
 Report table1(const Settings& settings) {
     Report report("table1",
-                  "seven objects with phases, and their surfaces alone as hand-made trees of one phase (Table 1)");
+                  "seven objects with phases, and their outer surfaces as hand-written trees of one phase (Table 1)");
     const std::size_t points = settings.quick ? 20'000 : 200'000;
-    report.say(fmt::format(
-        "primary: {0}×{1} camera rays to the first interface, one a pixel; bounce: with a ground plane, and "
-        "from what they meet one diffuse bounce more; {2} thread(s)",
-        settings.width, settings.height, settings.threads));
-    report.say("cells as a render makes them: which phases are opaque is the scene files' to say");
-    report.say("overhead: the time with phases over that without, less one; both of both trees timed in turn");
+    report.say(
+        fmt::format("primary: {0}×{1} camera rays to the first interface, one per pixel; bounce: with a ground plane, "
+                    "and one diffuse bounce from each hit; {2} thread(s)",
+                    settings.width, settings.height, settings.threads));
+    report.say("cells as in a render: the scene files determine which phases are opaque");
+    report.say("overhead: the time with phases relative to that without, minus one; all four are timed alternately");
     report.say(fmt::format("the same surface: {} points, half of them near it, and the camera rays", points));
 
     Table table({{"object", "object", ""},

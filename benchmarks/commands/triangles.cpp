@@ -1,8 +1,8 @@
-// A closed mesh as a field against the same triangles in Embree: what it costs that a mesh can be offset, hollowed out
-// and filled.
+// Compares a closed mesh as a field with the same triangles in Embree: the cost of being able to offset, hollow and
+// fill a mesh.
 //
-// A closed mesh, scenes/assets/spot.ply, as a field (mesh), and the same triangles in Embree, as for mesh; then with
-// each triangle cut into 4 and 16. Both are the same surface, which the camera's rays check.
+// The mesh is scenes/assets/spot.ply, then the same mesh with each triangle divided into 4 and 16. Camera rays check
+// that field and triangles are the same surface.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -24,7 +24,7 @@ namespace phasetree::bench {
 
 namespace {
 
-// Each triangle becomes four, with the middles of its edges.
+// Divides each triangle into four at the midpoints of its edges.
 TriangleMesh divided(const TriangleMesh& mesh) {
     TriangleMesh result{mesh.vertices, {}};
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -78,17 +78,16 @@ void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& re
 
 Report triangles(const Settings& settings) {
     Report report("triangles", "a closed mesh as a field, and the same triangles in Embree");
+    report.say(
+        fmt::format("scenes/assets/spot.ply, and the same with each triangle divided into 4 {}; Embree triangles of "
+                    "medium build quality, not robust",
+                    settings.quick ? "once" : "once and twice"));
     report.say(fmt::format(
-        "scenes/assets/spot.ply, and the same with each triangle cut into 4 {}; Embree triangles of medium build "
-        "quality, not robust",
-        settings.quick ? "once" : "once and twice"));
+        "rays: {}×{} camera rays, one per pixel; as many random rays outwards from their hits; {} thread(s)",
+        settings.width, settings.height, settings.threads));
     report.say(
-        fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit into the open; {} "
-                    "thread(s)",
-                    settings.width, settings.height, settings.threads));
-    report.say(
-        "checks: that the mesh is a solid, with the field's own hierarchy; build: cells and Embree's hierarchy, or the "
-        "latter alone; both processor time on one thread");
+        "checks: checking that the mesh is a solid, and the field's own hierarchy; build: cells and Embree's BVH, or "
+        "for triangles the BVH alone; both are processor time on one thread");
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(settings.threads));
     std::vector<Column> columns{{"triangles", "triangles", "{:.0f}"},   {"what", "", ""},

@@ -1,6 +1,6 @@
-// Grids of voxels as fields, `volume` and `labels`, against the triangles of the same surface in Embree.
+// Compares voxel grids as fields, `volume` and `labels`, with triangles of the same surface in Embree.
 //
-// A level set and labels at voxels, 64³ to 512³, and triangles of the same surface in Embree.
+// The grids have 64³ to 512³ voxels.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -55,7 +55,7 @@ FromFile<VoxelGrid> level_set(int n) {
     return file;
 }
 
-// The solid in three phases that touch.
+// The same solid in three phases that touch.
 FromFile<LabelGrid> labels_of(int n) {
     LabelGrid grid;
     grid.lattice = cube_of(n);
@@ -70,7 +70,7 @@ FromFile<LabelGrid> labels_of(int n) {
     return file;
 }
 
-// One field's row, and that of the triangles of its surface.
+// The row of a field, and that of the triangles of its surface.
 struct Contest {
     int n;
     const Settings& settings;
@@ -105,15 +105,12 @@ Report volumes(const Settings& settings) {
     Report report("volumes", "grids of voxels as fields, and triangles of the same surface in Embree");
     report.say(
         "a ring with two balls: as a level set with a narrow band of 3 voxels (volume), and as labels of three opaque "
-        "phases; "
-        "triangles by surface nets of as many cubes, Embree's medium build quality, not robust");
+        "phases; triangles by surface nets with as many cubes, Embree's medium build quality, not robust");
+    report.say(fmt::format("rays: {}×{} camera rays, one per pixel; as many random rays from their hits; {} thread(s)",
+                           settings.width, settings.height, settings.threads));
     report.say(
-        fmt::format("rays: {}×{} camera rays, one a pixel; as many random ones from what those hit; {} thread(s)",
-                    settings.width, settings.height, settings.threads));
-    report.say(
-        "prepare: the slope of the level set, or the blur and splines of labels; build: cells and Embree's hierarchy, "
-        "or "
-        "the latter alone; both processor time on one thread");
+        "prepare: the slope of the level set, or blur and splines of the labels; build: cells and Embree's BVH, or for "
+        "triangles the BVH alone; both are processor time on one thread");
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(settings.threads));
     std::vector<Column> columns{{"voxels", "voxels along an axis", "{:.0f}"},

@@ -46,7 +46,7 @@ def escaped(text):
 
 
 def middle(value):
-    """Of what was measured several times, the median."""
+    """The value, or its median if it was measured several times."""
     return value["median"] if isinstance(value, dict) else value
 
 
@@ -159,11 +159,11 @@ def decades(values):
 
 
 def draw_table1(data):
-    """Table 1 and its objects (Figure 19): the time with phases over that without."""
+    """Table 1 and its objects (Figure 19): the overhead of phases."""
     rows = {row["object"]: row for row in data["objects"]}
     f = Picture(860, 420, "Table 1: what phases cost, the paper's numbers and ours")
     a = Axes(f, (84, 62, 740, 262), (0, len(PAPER_TABLE_1)), (-30, 30), "What phases cost: Table 1, on the objects of Figure 19",
-             "", "time with phases, over without, %", x_ticks=[-1])
+             "", "overhead of phases, %", x_ticks=[-1])
     f.parts = [p for p in f.parts if ">-1<" not in p]
     a.level(0, "c3", "")
     for i, (name, _, mono_nodes, mono, multi_nodes, multi) in enumerate(PAPER_TABLE_1):
@@ -180,7 +180,7 @@ def draw_table1(data):
         f.text(at, 377, f"{row['monophase_nodes']:.0f}, {row['multiphase_nodes']:.0f}", "small", "middle")
     f.text(76, 361, "#N, paper", "small", "end")
     f.text(76, 377, "#N, ours", "small", "end")
-    for k, (kind, text) in enumerate([("c3", "paper (GPU, sphere tracing)"), ("c0", "ours, one ray a pixel"), ("c1", "ours, ground and a bounce")]):
+    for k, (kind, text) in enumerate([("c3", "paper (GPU, sphere tracing)"), ("c0", "ours, one ray per pixel"), ("c1", "ours, ground and a bounce")]):
         f.rect(84 + 225 * k, 394, 14, 11, kind + " bar")
         f.text(104 + 225 * k, 404, text)
     f.write("table1.svg")
@@ -190,16 +190,16 @@ def draw_phases(data):
     """Figure 20: the growth with phases."""
     rows = data["counts"]
     n = [row["phases"] for row in rows]
-    f = Picture(860, 400, "Figure 20: the time of an image over the number of phases")
+    f = Picture(860, 400, "Figure 20: the time of an image by the number of phases")
     a = Axes(f, (84, 48, 520, 290), (1, 32), (0.5, 32), "The same surface in more and more phases: Figure 20",
-             "phases", "time over that of one phase", log_y=True, x_ticks=[1, 4, 8, 12, 16, 20, 24, 32], y_ticks=[0.5, 1, 2, 4, 8, 16, 32])
+             "phases", "time relative to one phase", log_y=True, x_ticks=[1, 4, 8, 12, 16, 20, 24, 32], y_ticks=[0.5, 1, 2, 4, 8, 16, 32])
     a.plot([(1, 1), (32, 32)], "c3", "6 4", False)
     a.plot([(k, middle(row["naive_ratio"])) for k, row in zip(n, rows)], "c1")
     a.plot([(k, middle(row["ratio"])) for k, row in zip(n, rows)], "c0")
-    legend(f, 622, 90, [("in proportion: “almost”,", "c3", "6 4"), ("the tree walked with arrays", "c1", ""), ("interface cells", "c0", "")], 44)
-    f.text(653, 107, "says the paper of its GPU", "small")
+    legend(f, 622, 90, [("proportional to phases:", "c3", "6 4"), ("walking the tree with arrays", "c1", ""), ("interface cells", "c0", "")], 44)
+    f.text(653, 107, "“almost” so in the paper (GPU)", "small")
     f.text(653, 151, "of phases, on one thread", "small")
-    f.text(653, 195, "a ray runs what it needs alone", "small")
+    f.text(653, 195, "a ray runs only what it needs", "small")
     f.write("phases.svg")
 
 
@@ -210,9 +210,9 @@ def draw_scaling(data):
     x = decades(n)
     f = Picture(860, 340, "The growth with the size of the tree")
     for k, (title, label, series) in enumerate([
-            ("Rays", "million rays a second", [("primary_rays_per_second", 1e-6, "c0", "camera rays"), ("random_rays_per_second", 1e-6, "c1", "random, from inside")]),
+            ("Rays", "million rays per second", [("primary_rays_per_second", 1e-6, "c0", "camera rays"), ("random_rays_per_second", 1e-6, "c1", "random, from inside")]),
             ("Building", "seconds, one thread", [("build_seconds", 1, "c0", "all phases"), ("opaque_build_seconds", 1, "c1", "opaque")]),
-            ("Memory", "MB", [("cell_bytes", 1e-6, "c0", "cells"), ("embree_bytes", 1e-6, "c1", "Embree's tree")])]):
+            ("Memory", "MB", [("cell_bytes", 1e-6, "c0", "cells"), ("embree_bytes", 1e-6, "c1", "Embree's BVH")])]):
         values = [middle(row[key]) * scale for key, scale, _, _ in series for row in rows]
         a = Axes(f, (76 + 278 * k, 48, 195, 190), x, decades(values), title, "bumps", label, True, True)
         for i, (key, scale, kind, name) in enumerate(series):
@@ -229,7 +229,7 @@ def draw_march(data):
     ways = {row["way"]: row for row in data["ways"]}
     most = 1.05 * max(max(row["least"], row["interface"]) for row in profile)
     f = Picture(860, 470, "Figure 21: steps along a ray from phase to phase")
-    a = Axes(f, (84, 48, 740, 230), (0, until), (0, most), "How far one may go: a ray through the hourglass, Figure 21",
+    a = Axes(f, (84, 48, 740, 230), (0, until), (0, most), "Safe step sizes: a ray through the hourglass, Figure 21",
              "", "safe distance, dm", x_ticks=[-1])
     f.parts = [p for p in f.parts if ">-1<" not in p]
     bands, start = [], 0
@@ -252,7 +252,7 @@ def draw_march(data):
                 x = a.at(step["t"], 0)[0]
                 f.line(x, y - 11, x, y + 11, kind, 1.1)
     f.text(84, 404, "t along the ray →", "small")
-    names = ["least |φᵢ|, as the paper steps", "interface distance s, the second smallest φ with the vacuum's", "interface cells"]
+    names = ["least |φᵢ|, the paper's step", "interface distance s, the second smallest φ including the vacuum's", "interface cells"]
     for k, (key, kind) in enumerate([("least |φᵢ|", "c1"), ("interface distance", "c0"), ("cells, batches of eight", "c2")]):
         f.rect(84, 414 + 18 * k, 14, 11, kind + " bar")
         unit = "batches of eight points" if kind == "c2" else "evaluations"
@@ -265,15 +265,15 @@ def draw_march(data):
 
 
 def draw_resolution(data):
-    """Rays against triangles, over the mesh's resolution."""
-    f = Picture(860, 640, "A field against its triangles over the mesh's resolution")
+    """Rays compared with triangles, by the mesh's resolution."""
+    f = Picture(860, 640, "A field compared with its triangles, by the mesh's resolution")
     meshes, fields = data["meshes"], {row["scene"]: row for row in data["fields"]}
     scenes = list(fields)
     kinds = dict(zip(scenes, ["c0", "c1"]))
     grids = sorted({row["cubes"] for row in meshes})
     x = (grids[0] / 1.2, grids[-1] * 1.2)
-    panels = [("Rays: a field over its triangles", "rate of the field, ×", None, (0.2, 2.5)),
-              ("Error of the mesh", "mean, parts of the diagonal", "error", None),
+    panels = [("Rays: field relative to triangles", "rate of the field, ×", None, (0.2, 2.5)),
+              ("Error of the mesh", "mean, relative to the diagonal", "error", None),
               ("Memory", "MB", "bytes", None), ("Building", "seconds, one thread", "build_seconds", None)]
     for k, (title, label, key, limits) in enumerate(panels):
         left, top = 84 + 420 * (k % 2), 48 + 290 * (k // 2)
@@ -294,7 +294,7 @@ def draw_resolution(data):
                 a.plot([(row["cubes"], row[key] * scale) for row in rows], kinds[scene])
                 a.level(fields[scene]["resolution" if key == "error" else key] * scale, kinds[scene], "7 5")
     legend(f, 84, 604, [(f"{scenes[0]}: triangles; in “Rays” camera rays", "c0", ""), (f"{scenes[1]}", "c1", "")])
-    legend(f, 420, 604, [("in “Rays”: random rays from the surface", "c3", "2 4"), ("the field itself, which has no grid; as error, its bracket", "c3", "7 5")])
+    legend(f, 420, 604, [("in “Rays”: random rays from the surface", "c3", "2 4"), ("the field, which has no grid; its error is its bracket", "c3", "7 5")])
     f.write("resolution.svg")
 
 

@@ -23,7 +23,7 @@ nlohmann::ordered_json as_json(const Table::Cell& cell) {
     return std::get<double>(cell);
 }
 
-// Characters, not bytes: headings have "×" and "µ".
+// Counts characters, not bytes, because headings have "×" and "µ".
 std::size_t width_of(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
@@ -41,7 +41,7 @@ void print(const std::string& line) {
 }  // namespace
 
 void Table::row(std::vector<Cell> cells) {
-    if (cells.size() != columns_.size()) throw std::logic_error("a row has other columns than its table");
+    if (cells.size() != columns_.size()) throw std::logic_error("a row does not have the columns of its table");
     rows_.push_back(std::move(cells));
 }
 

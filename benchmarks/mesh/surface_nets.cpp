@@ -108,7 +108,7 @@ class Net {
         std::fill(layer_[1].begin(), layer_[1].end(), none);
     }
     // The edge from point p along `axis`, crossed at `along` of its length; `out` if the surface faces along the axis.
-    // Of the cubes about it, in the plane across the axis, (−1, −1) … (0, 0) are touched. z: the current layer.
+    // It touches the cubes (−1, −1) … (0, 0) around it, in the plane perpendicular to the axis. z: the current layer.
     void edge(const glm::ivec3& p, int axis, float along, bool out) {
         glm::vec3 at(p);
         at[axis] += along;

@@ -250,7 +250,7 @@ def pruning():
     f.text(644, 143, "over the box", "small")
     f.text(466, 262, "b &gt; 0 all over the box,", "small")
     f.text(466, 278, "beyond what is required", "small")
-    f.text(340, 312, "Of six instructions one is left in the box: a.", "")
+    f.text(340, 312, "In the box, one of six instructions is left: a.", "")
     f.write("pruning.svg")
 
 

@@ -38,7 +38,7 @@ class BuildByCMake(build_ext):
             subprocess.run(["cmake", "--build", build, "--target", "phasetree_python", "-j", jobs], check=True)
         module = pathlib.Path(build) / "plugins/python/phasetree" / target.name
         if not module.exists():
-            raise RuntimeError(f"{module} was not built: is pybind11 (Debian: pybind11-dev) there for {sys.executable}?")
+            raise RuntimeError(f"{module} was not built: is pybind11 (Debian: pybind11-dev) installed for {sys.executable}?")
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(module, target)
 

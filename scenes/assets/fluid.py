@@ -45,7 +45,7 @@ class Box:
     def __init__(self, shape, time_step):
         self.shape, self.time_step = shape, time_step
         self.cells = np.meshgrid(*(np.arange(n, dtype=np.float32) for n in shape), indexing="ij")
-        # Of the discrete Laplace operator, whose eigenvectors are cosines.
+        # The eigenvalues of the discrete Laplace operator, whose eigenvectors are cosines.
         self.eigenvalues = sum(
             (2 * np.cos(np.pi * np.arange(n) / n) - 2).reshape([-1 if i == axis else 1 for i in AXES])
             for axis, n in enumerate(shape)

@@ -114,7 +114,7 @@ def smooth_least(values, r):
 
 
 def nearest_two(points, seeds, with_distances=False):
-    """Of each point the nearest seed, and with distances the second one, too."""
+    """The nearest seed of each point; with distances, also the second nearest."""
     n = len(points)
     first, second = np.empty(n, int), np.empty(n, int)
     d1, d2 = np.empty(n), np.empty(n)

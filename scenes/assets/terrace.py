@@ -55,7 +55,7 @@ def gingham():
     def pixel(x, y):
         stripes = (x < side // 2) + (y < side // 2)
         red, other = ((0.93, 0.90), (0.86, 0.50), (0.74, 0.12))[stripes]
-        # Of a weave each second crossing shows the other thread.
+        # In a weave, every second crossing shows the other thread.
         thread = across[x] if (x + y) % 2 else along[y]
         return (red * thread, other * thread, other * thread * 0.96, 1)
 
@@ -147,7 +147,7 @@ def tube(name, points, radius, made_of, cyclic=False):
 
 
 def chair(x, y, turn, wood):
-    """Of bent wood, seen from afar."""
+    """A chair of bent wood, seen from afar."""
     floor, seat = -TABLE_HEIGHT, -TABLE_HEIGHT + 4.5
     cosine, sine = math.cos(turn), math.sin(turn)
 

@@ -1,5 +1,5 @@
-// Rays through cells of listed balls, whose programs have the few balls that matter there: they must find what marching
-// through the whole object finds.
+// Rays through cells of lists of balls. The program of a cell has only the few balls that matter there; rays must find
+// what marching through the whole object finds.
 #include <doctest/doctest.h>
 
 #include "phasetree/cells/cells.hpp"

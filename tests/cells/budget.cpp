@@ -1,4 +1,4 @@
-// Cells with a limit of memory are coarser and slower, but as right as all others.
+// Cells with a memory limit are coarser and slower, but as correct as all others.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

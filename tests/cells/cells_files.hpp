@@ -1,4 +1,4 @@
-// What the tests of files of cells share: an object, its cells in a file, and why a file is rejected.
+// Shared by the tests of cell files: an object, a file of its cells, and the reason why a file is rejected.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -57,7 +57,7 @@ inline Phased various() {
 
 inline const CellOptions few{.max_depth = 3};
 
-// Why a file is rejected; nothing if it is not.
+// The reason why a file is rejected; empty if it is accepted.
 inline std::optional<Reason> refusal(const fs::path& path, const Phased& object, const CellOptions& options = few,
                                      std::string* message = nullptr) {
     try {

@@ -1,5 +1,5 @@
-// Boxes of cells are cut to where interfaces can be, by the fields that meet at an edge and by set algebra. That cells
-// hold every interface is tested with random points here, and by the comparisons of rays in rays.cpp.
+// Boxes of cells are cut to where interfaces can be, by the fields that meet at an edge and by set algebra. Random
+// points here, and the comparisons of rays in rays.cpp, test that cells contain every interface.
 #include <doctest/doctest.h>
 
 #include <glm/trigonometric.hpp>

@@ -1,5 +1,4 @@
-// Whatever is done to a file of cells is rejected or harmless: it is cut short, its bytes are changed, its counts and
-// checksums are forged.
+// Damaged cell files are rejected or harmless: truncated files, changed bytes, forged counts and checksums.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -32,7 +31,7 @@ std::optional<Crossing> nearest(const InterfaceCells& cells, const glm::vec3& fr
     return hit;
 }
 
-// Makes a changed file's checksums right.
+// Corrects the checksums of a changed file.
 void forge(Bytes& file) {
     CellsFileHeader h = header_of(file);
     constexpr std::array<std::size_t, CellsFileHeader::sections> size{64, 24, 16, 12, 4, 16, 4, 4};

@@ -1,6 +1,6 @@
 // Near a joint of two solids that continue each other, such as the links of a bent arm, their distances and gradients
-// are nearly the same, and only an enclosure of their difference proves which of them is nearer. Pruning by that must
-// not move the surface, and must delete most of what can be deleted.
+// are nearly the same, and only an enclosure of their difference proves which of them is nearer. Pruning by this
+// enclosure must not move the surface, and must delete most of what can be deleted.
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
-// Solids are displaced by noise, of which cells know slope and curvature: rays must find what marching through the
-// whole object finds.
+// Solids displaced by noise, whose slope and curvature cells know: rays must find what marching through the whole
+// object finds.
 #include <doctest/doctest.h>
 
 #include <atomic>

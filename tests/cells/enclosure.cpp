@@ -1,5 +1,5 @@
-// Enclosures against what they enclose: values, gradients and curvatures of every primitive at random points of random
-// boxes.
+// Compares enclosures with what they enclose: values, gradients and curvatures of every primitive at random points of
+// random boxes.
 #include "enclosure/enclosure.hpp"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ struct CellBuffer {
     std::size_t curved = 0;  ///< chords that half of the curvature would not have held
 };
 
-/// Values and gradients are computed in floats; tests/lib holds them to these.
+/// Values and gradients are computed in floats; tests/lib checks their accuracy.
 constexpr double value_error = 1e-5, gradient_error = 1e-4;
 /// Of the mean of two values less a third, each of a few numbers up to 3 rounded to 2⁻²³.
 constexpr double chord_error = 2e-6;
@@ -178,7 +178,7 @@ TEST_CASE("a box's own point is made ready as any affine point is") {
 
 namespace {
 
-/// How much the distance bends at most along straight lines through q, by differences of its gradient.
+/// The maximum curvature of the distance along straight lines through q, from differences of its gradient.
 template <class Solid>
 double largest_bend(const Solid& solid, const glm::dvec3& q) {
     const auto gradient = [&](const glm::dvec3& at) {
@@ -295,7 +295,7 @@ TEST_CASE("what is known at a box's centre encloses rounded solids, behind affin
 
 namespace {
 
-/// Walks a tree with enclosures as cells do with its program.
+/// Evaluates a tree with enclosures, as cells evaluate its program.
 struct EnclosingWalk {
     using Scalar = Enclosure;
     using Point = Vec3<Enclosure>;

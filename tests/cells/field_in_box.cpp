@@ -1,5 +1,5 @@
-// A field that is known in a box, as a function of the points of another: of quadratic fields all is known exactly, so
-// that what their enclosures allow is what they do, but for how maps bend. And what is known of noise.
+// Fields with known bounds in a box, as functions of the points of another box. For quadratic fields, everything is
+// known exactly, so enclosures must be tight, except for the curvature of maps. Also tests bounds of noise.
 #include "enclosure/field_in_box.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Files of cells: what is read is what was written, with any instruction set, and a file appears whole or not at all.
+// Cell files: reading returns what was written, with any instruction set, and a file appears complete or not at all.
 #include "phasetree/cells/file.hpp"
 
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-// Files that hold no cells, or not those that are asked for, are rejected for that reason.
+// Files without cells, or with other cells than those requested, are rejected with this reason.
 #include <sys/stat.h>
 
 #include "cells/cells_files.hpp"

@@ -1,4 +1,4 @@
-// Cells against the whole program with each kind of node at the root: the same labels.
+// Cells give the same labels as the whole program, with each kind of node at the root.
 #include <doctest/doctest.h>
 
 #include <algorithm>

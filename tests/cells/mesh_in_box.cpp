@@ -1,4 +1,5 @@
-// What is known of the distance to a mesh in a box, against its values in the box, and rays through cells of meshes.
+// Compares bounds of the distance to a mesh in a box with its values in the box, and tests rays through cells of
+// meshes.
 #include "bounding/mesh_in_box.hpp"
 
 #include <doctest/doctest.h>

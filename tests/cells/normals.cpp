@@ -1,4 +1,4 @@
-// The normals that cells give, tested as those of whole programs are in tests/lib/normals.cpp.
+// Tests the normals from cells as tests/lib/normals.cpp tests those from whole programs.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-// No ray is where the phases of an opaque object meet, so the cells that rays outside find are those of one phase.
+// No ray is where the phases of an opaque object meet, so the cells that rays outside find are the same as for an
+// object of one phase.
 #include <doctest/doctest.h>
 
 #include <fstream>

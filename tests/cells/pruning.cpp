@@ -1,5 +1,5 @@
-// Required intervals reach down through long chains of operators: what pruning leaves of a chain must be the same
-// solid, and must be without most of what can be deleted.
+// Required intervals are passed down through long chains of operators. After pruning, a chain must be the same solid,
+// without most of what can be deleted.
 
 #include <doctest/doctest.h>
 

@@ -48,7 +48,7 @@ TEST_CASE("with opaque phases rays in the others meet what they met, and where o
     CHECK(all.into_opaque > all.rays / 4);
     CHECK(all.different == 0);
 
-    // A ball in a ball: of the inner one nothing is left, and of all that is opaque nothing at all.
+    // A ball in a ball. Nothing is left of the inner one; if everything is opaque, no cell is left.
     const Phased ball = Over{.of = {Set{.phase = Phase{1}, .of = Sphere{.radius = 0.5f}},
                                     Set{.phase = Phase{2}, .of = Sphere{.radius = 1}}}};
     const InterfaceCells outer(ball, {.opaque = {0b110}});

@@ -71,8 +71,8 @@ struct RandomProgram {
         return result;
     }
 
-    /// A guard whose field is steeper than its bound, as that of a fold may be. That it is no steeper than the bound is
-    /// vouched for, as a node would.
+    /// A guard whose field may be steeper than its bound, as that of a fold may be. It is declared not to be steeper,
+    /// as a node would declare it.
     static RandomProgram of_guard(Random& rng, float steepness) {
         RandomProgram result;
         result.add_leaf(Plane{.normal = rng.direction(), .offset = rng.uniform(-1, 1)});
@@ -193,7 +193,7 @@ std::optional<WorkingProgram> pruned_in_ball(const RandomProgram& program, const
     return prune(whole, ranges, context, {results, scratch});
 }
 
-/// What was compared of programs and what is left of them in balls.
+/// Totals of the comparisons of programs with what is left of them in balls.
 struct Outcome {
     std::size_t shortened = 0, gone = 0, points = 0, wrong = 0, too_steep = 0;
     int first_wrong = -1, first_too_steep = -1;  ///< numbers of programs

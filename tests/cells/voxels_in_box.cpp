@@ -1,4 +1,4 @@
-// What is known in a box of grids of voxels, against their values there, and rays through cells of them.
+// Compares bounds of voxel grids in a box with their values there, and tests rays through their cells.
 #include "bounding/voxels_in_box.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// Files that scenes name: what they cost before they are rejected, that each is read once, what an error may say of
-// them, and the folder that they must lie in.
+// Files that scenes name: their cost before they are rejected, reading each of them once, what an error may say about
+// them, and the folder that they must be in.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -192,7 +192,7 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
     const std::string here = fs::canonical(at("assets")).string();
 
     const auto check = [&](const SceneText& scene, const std::vector<std::string>& more) {
-        // The scene itself may be anywhere; names are sought from where it is.
+        // The scene itself may be anywhere; names are relative to its folder.
         write_text(at("assets/scene.json"), scene.text());
         std::vector<std::string> words{"check", "assets/scene.json"};
         words.insert(words.end(), more.begin(), more.end());
@@ -234,7 +234,7 @@ TEST_CASE("--assets-within: what leaves the folder is rejected, whatever it is")
         CHECK(o.code == 2);
         CHECK(o.err.find("is outside") != std::string::npos);
     }
-    // A stack of images of which a link leads one out of the folder.
+    // A stack of images, one of which is a link that leads out of the folder.
     SceneText stack;
     stack.tree = R"({"under": [{"set": {"phase": "glass", "of": "ball"}},
                       {"labels": {"file": "layer_##.pgm", "phases": ["glass"], "spacing": [1, 1, 1]}}]})";

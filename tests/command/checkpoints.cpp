@@ -1,4 +1,4 @@
-// A render that is killed, however and whenever, goes on from its checkpoint and ends with the same bytes.
+// A render that is killed in any way at any time resumes from its checkpoint and ends with the same bytes.
 #include <optional>
 #include <thread>
 
@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> resumed{"--checkpoint", "a.part", "--resume", "a.part", "--or-start"};
 
-// Whether a run writes what there is when a signal arrives. The handler of SIGTERM alone may still be that of the
+// Whether a run writes its current state when a signal arrives. The handler of SIGTERM alone may still be that of the
 // process that it is a fork of.
 bool is_ready(pid_t child) {
     return catches(child, SIGUSR1) && catches(child, SIGTERM);
@@ -100,7 +100,7 @@ TEST_CASE("SIGTERM and SIGHUP say \"resume me\", and Ctrl-C does not; each leave
         const bool same = bytes_of(shell.directory / "a.exr") == whole;
         CHECK(same);
     }
-    // Of what has no checkpoint nobody can go on.
+    // Without a checkpoint, nothing can be resumed.
     bool is_sent = false;
     const auto send = [&](pid_t child) {
         if (!is_sent && is_ready(child)) is_sent = ::kill(child, SIGTERM) == 0;
@@ -157,7 +157,7 @@ TEST_CASE("SIGUSR1 asks for a checkpoint at any time and ends nothing") {
     CHECK_MESSAGE(o.code == 0, o.err);
     CHECK(asked == 20);
     CHECK(is_written_meanwhile);
-    // A finished one is gone on with, too: there is nothing to do.
+    // A finished render can be resumed, too: there is nothing to do.
     const std::string image = bytes_of(shell.directory / "a.exr");
     const Outcome finished = shell.run(joined(render, resumed));
     CHECK(finished.code == 0);

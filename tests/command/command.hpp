@@ -38,14 +38,14 @@ struct Outcome {
     int signal = 0;  // that signal; SIGKILL also for a run that was given up
     std::string out, err;
     double seconds = 0;
-    double processor_seconds = 0;  // how long it takes on a busy machine says nothing of the program
+    double processor_seconds = 0;  // wall-clock time on a busy machine says nothing about the program
     double peak_megabytes = 0;     // of memory that was there at once
 };
 
 // What a process has used of the processors so far, all threads together; 0 of one that has ended.
 inline double processor_seconds(pid_t process) {
     const std::string stat = bytes_of("/proc/" + std::to_string(process) + "/stat");
-    // Behind the name, which may hold anything, from the third field on: the 14th and 15th are clock ticks.
+    // Fields after the name, which may contain anything, starting with the third. The 14th and 15th are clock ticks.
     std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
     std::string field;
     double ticks = 0;

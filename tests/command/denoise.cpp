@@ -1,4 +1,4 @@
-// --denoise as a person asks for it.
+// --denoise on the command line.
 #include "cut_scene.hpp"
 
 namespace test_denoise {
@@ -66,7 +66,7 @@ TEST_CASE("--denoise refuses what it cannot do, and says what it has left undone
     REQUIRE(shell.run(joined(render, {"--denoise=regression", "-o", "clean.part"})).code == 0);
     refused({"merge", "clean.part", "--denoise=regression", "-o", "a.part"}, "all outputs are .part files");
     CHECK_FALSE(std::filesystem::exists(shell.directory / "a.png"));
-    // Whoever stops a render is not made to wait for this.
+    // A user who stops a render need not wait for denoising.
     const Outcome stopped =
         shell.run(joined(render, {"--denoise=regression", "--spp", "1000000", "-o", "b.png"}), "", [](pid_t child) {
             if (catches(child, SIGUSR1)) ::kill(child, SIGTERM);

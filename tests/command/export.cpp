@@ -1,5 +1,4 @@
-// `phasetree export`: the files that it writes, and what it says where it cannot. What the shaders compute is compared
-// in tests/glsl.
+// `phasetree export`: the files that it writes, and its errors. tests/glsl tests what the shaders compute.
 #include "command.hpp"
 
 namespace test_export {
@@ -8,7 +7,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-// Checks that `export` with some arguments is rejected in a few words, among which are these.
+// Checks that `export` with these arguments is rejected with a short message that contains this text.
 auto refused_by(const Shell& shell) {
     return [&shell](const std::vector<std::string>& arguments, const std::string& said, int code = 2) {
         std::vector<std::string> words{"export"};

@@ -1,4 +1,4 @@
-// What `phasetree farm` writes, as far as it goes without a farm; tests/farm has a real one.
+// The output of `phasetree farm`, as far as it can be tested without a farm; tests/farm uses a real one.
 #include <algorithm>
 #include <numeric>
 #include <sstream>

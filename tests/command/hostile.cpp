@@ -1,5 +1,6 @@
-// Scene files that are wrong, by mistake or on purpose: one error that says where and what, exit code 2, at once, and
-// nothing left behind. Never a crash, never a hang. What else a person gives is in wrong_arguments.cpp.
+// Invalid scene files, by mistake or on purpose. They must cause a single error with the position and the problem and
+// exit code 2, at once, leave no files behind, and never cause a crash or a hang. wrong_arguments.cpp tests other
+// invalid input.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ struct Case {
     std::string name, text, message;
 };
 
-// Scenes that are each wrong in one thing, and what is said of it.
+// Scenes with one mistake each, and the error message for it.
 class WrongScenes {
   public:
     WrongScenes() {
@@ -162,7 +163,7 @@ class WrongScenes {
         tree("a twist of an unbounded object", "",
              R"({"set": {"phase": "glass", "of": {"twist": {"rate": 10, "of": {"plane": {}}}}}})");
     }
-    // Trees that have no end, or none that can be waited for.
+    // Trees that are infinite, or too large to wait for.
     void add_trees_without_end() {
         ball("a shape of itself", "contains itself", R"({"translate": {"by": [0, 0, 1], "of": "ball"}})");
         add("two shapes of each other", "contains itself",
@@ -292,8 +293,8 @@ TEST_CASE("wrong scenes: one error with its place, exit code 2, at once, nothing
 
 namespace {
 
-// What only a picture needs: that the object can be traced and is seen and lit, and that the files of lights and meshes
-// are there. The other commands that read scenes do not ask for it.
+// Requirements of pictures only: the object can be traced, seen and lit, and the files of lights and meshes exist.
+// Other commands that read scenes do not require this.
 bool is_for_pictures_alone(const std::string& name) {
     for (const char* part : {"camera in wood", "no lights", "unbounded", "too large for rays", "too small for rays",
                              "a view that is not there", "an image that is not there", "a directory for an image",

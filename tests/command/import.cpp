@@ -32,7 +32,8 @@ TEST_CASE("a drink becomes phases: glass keeps its wall, ice its part of the wat
     const Outcome render = shell.run({"render", "out.json", "--size", "12x8", "--spp", "2", "-o", "a.png", "--quiet"});
     CHECK(render.code == 0);
     CHECK(render.err == "");
-    // For people: no line is longer than they write it, and none has only a bracket that could end the one before.
+    // Readable layout: no line is longer than people write it, and no line consists of a bracket that could end the
+    // previous one.
     const std::string text = bytes_of(shell.directory / "out.json");
     CHECK(has(text,
               "\n  \"tree\": {\"over\": [\n    {\"set\": {\"phase\": \"Glass\", \"of\": {\"mesh\": {\"file\": "

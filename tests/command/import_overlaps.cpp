@@ -69,7 +69,7 @@ TEST_CASE("phasetree_matter says what an object is made of, whatever its name an
     CHECK(has(matters({{"phasetree_matter", "liquid"}}, {{"phasetree_matter", "solid"}}).out, liquid));
     CHECK(has(matters({{"phasetree_matter", "gas"}}, Json::object()).out, "\"Cup\" wins (solid over gas)\n"));
     CHECK(matters({{"phasetree_matter", "gas"}}, Json::object()).err == "");
-    // What it does not know is reported, and changes nothing.
+    // Unknown values are reported, and change nothing.
     const Outcome unknown = matters({{"phasetree_matter", "plasma"}}, Json::object());
     CHECK(has(
         unknown.err,

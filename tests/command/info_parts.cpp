@@ -1,4 +1,4 @@
-// `phasetree info` where it does more than count: carved bounds, and cells in a limited memory.
+// Options of `phasetree info`: carved bounds, and cells with a memory limit.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

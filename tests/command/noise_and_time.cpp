@@ -1,4 +1,4 @@
-// Renders that end by their noise or by their time, as a person asks for them.
+// Renders that end at a noise limit or a time limit.
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -54,7 +54,7 @@ TEST_CASE("--noise gives the same bytes with any threads, after kills, and throu
     // There is nothing left to do.
     REQUIRE(shell.run(joined(joined(render, noise), {"-o", "a.exr", "--resume", "a.part"})).code == 0);
     CHECK(is_same(shell, "whole.exr", "a.exr"));
-    // With more samples allowed the noisy ones go on, as if that had been said at once.
+    // With more samples allowed, the noisy blocks continue, as if that had been requested from the start.
     REQUIRE(shell.run(joined(joined(render, noise), {"-o", "a.exr", "--resume", "a.part", "--spp", "300"})).code == 0);
     REQUIRE(shell.run(joined(joined(render, noise), {"-o", "b.exr", "--spp", "300"})).code == 0);
     CHECK(is_same(shell, "a.exr", "b.exr"));
@@ -73,7 +73,7 @@ TEST_CASE("a crop is the same through a part, which holds whole blocks") {
     const Outcome o = shell.run({"merge", "a.part", "-o", "b.exr"});
     CHECK(is_same(shell, "a.exr", "b.exr"));
     CHECK(o.err.find("b.exr (16x15, ") != std::string::npos);
-    // It goes on as if more samples had been asked for at once.
+    // It continues as if more samples had been requested from the start.
     REQUIRE(shell.run(joined(joined(render, crop), {"-o", "a.exr", "--spp", "150", "--resume", "a.part"})).code == 0);
     REQUIRE(shell.run(joined(joined(render, crop), {"-o", "b.exr", "--spp", "150"})).code == 0);
     CHECK(is_same(shell, "a.exr", "b.exr"));

@@ -1,5 +1,5 @@
-// What a run comes to when something outside fails: a disk, a terminal, threads; and what `check` says of scenes that
-// are good for less than a picture.
+// The outcome of a run if something outside fails: a disk, a terminal, threads. Also what `check` says about scenes
+// that are not sufficient for a picture.
 #include <fmt/format.h>
 #include <grp.h>
 

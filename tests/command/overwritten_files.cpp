@@ -15,7 +15,7 @@ struct Case {
     std::string message;  // the whole error
 };
 
-// Runs the command lines, which must be refused without any work, and leave every file as it is.
+// Runs the command lines, which must be rejected before any work, and leave every file unchanged.
 void check_refused(const Shell& shell, const std::vector<Case>& cases) {
     const auto content = [&] {
         std::vector<std::pair<std::string, std::string>> files;

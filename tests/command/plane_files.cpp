@@ -1,4 +1,4 @@
-// A file for each plane, whoever writes them: a render, a merge, a farm.
+// One file per plane, written by a render, a merge or a farm.
 #include <map>
 
 #include "cut_scene.hpp"

@@ -1,4 +1,4 @@
-// Before the first sample: how far the reading is, and signals, which end the command at once.
+// Before the first sample: progress of reading, and signals, which end the command at once.
 #include <regex>
 
 #include "command.hpp"

@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// What is said when the object is prepared and the first sample is to come.
+// The message when the object has been prepared, before the first sample.
 constexpr const char* samples_begin = "Progress: 0%";
 
 // Sends a signal once a run has worked for a while since it has a handler for it, and since its standard error has the
@@ -217,7 +217,7 @@ TEST_CASE("--cells keeps the prepared object from one rendering to the next") {
     CHECK(file() == second_file);
     CHECK(shell.directory.size() == 3);
 
-    // What is no such file is left alone.
+    // Files of other kinds are left alone.
     write_text(shell.directory / "notes.txt", "not to be lost, however long it takes to say so\n");
     const Outcome o = render({"--cells", "notes.txt"});
     CHECK(o.code == 2);

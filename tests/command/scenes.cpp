@@ -1,4 +1,4 @@
-// The scenes that come with the project: each is sound, has its picture, and is what the gallery says of it.
+// The scenes of the project: each is valid, has its picture, and matches its description in the gallery.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Standard input, output and error: what is read there, and what happens when they are closed, full or gone.
+// Standard input, output and error: reading from them, and what happens if they are closed, full or disconnected.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -34,7 +34,7 @@ std::vector<User> users() {
              {{"0", "0.25", "5", "0", "0", "-1"}, {"2", "0", "-1.5e0", "-1", "0", "0"}}}};
 }
 
-// What is made of a table.
+// The result of reading a table.
 Outcome use(const Shell& shell, const User& user, const std::string& table) {
     if (user.name != "particles") {
         write_text(shell.directory / "scene.json", ball);

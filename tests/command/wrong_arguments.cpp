@@ -155,7 +155,7 @@ TEST_CASE("what holds linear light, or no light at all, is written whatever $OCI
     check_done({"info", "scene.json", "--cells"});
     check_done({"eval", "scene.json"}, "0 0 0\n");
     check_done({"trace", "scene.json"}, "0 -5 0 0 1 0\n");
-    // What is shown needs the configuration, and so does who asks for a view by name.
+    // Displayed pictures need the configuration, and so does a view requested by name.
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"render", "scene.json", "-o", "a.exr", "-o", "d.png"},
           {"render", "scene.json", "-o", "a.exr", "--view", "Raw"},

@@ -1,4 +1,4 @@
-// Rays that tell which phase they are in.
+// Rays that carry the phase that they are in.
 #include "embree/alone.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"

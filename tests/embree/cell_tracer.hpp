@@ -1,6 +1,6 @@
 #pragma once
 
-/// A tracer through Embree and cells, as support/crossing_checks.hpp has it.
+/// A tracer through Embree and cells, with the interface that support/crossing_checks.hpp requires.
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
-// Phases that are meant to touch do: along random rays through every scene of the gallery, no film of any phase, the
-// vacuum included, lies between two others but where its author wants one.
+// Phases that are meant to touch do touch. Along random rays through every scene of the gallery, no film of any phase,
+// including the vacuum, lies between two others, except where the author wants one.
 //
 // A film is a stretch of one phase that is thin and has parallel sides. A ray that clips a corner, or grazes a ball, is
 // in a phase for a short stretch, too; but there the sides that it enters and leaves by are at an angle, or face the
@@ -30,15 +30,15 @@ using namespace phasetree::support;
 
 namespace {
 
-// How thick a film is at most, as a part of the object's diagonal: a drink that rises between its glass and the air is
-// 0.4 % thick.
+// The maximum thickness of a film, as a fraction of the object's diagonal: a drink that rises between its glass and the
+// air is 0.4 % thick.
 constexpr double thin = 1e-2;
 
-// Whatever ends in a sharp edge is thin there, so a few rays meet a film of nearly every phase: as many as this share
+// Anything that ends in a sharp edge is thin there, so a few rays meet a film of nearly every phase: at most this share
 // of them.
 constexpr double share_of_edges = 0.008;
 
-// What is thin, and between which phases it lies; from either side.
+// The phase of a film, and the phases between which it lies, in either order.
 struct Film {
     std::string phase, one, other;
     auto operator<=>(const Film&) const = default;
@@ -59,7 +59,7 @@ bool is_one_of(const Film& film, const Film& meant) {
                                            (is(meant.one, film.other) && is(meant.other, film.one)));
 }
 
-// What an author wants thin, and why.
+// A film that an author wants, and the reason.
 struct Meant {
     std::string scene;
     std::vector<Film> films;

@@ -1,5 +1,5 @@
-// A PhaseTree in an Embree scene: what an application sees that knows only Embree. The yardstick is InterfaceTracer,
-// which marches through the whole object by its whole program.
+// A PhaseTree in an Embree scene, as seen by an application that knows only Embree. The reference is InterfaceTracer,
+// which marches through the object with its whole program.
 #include "embree/alone.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"

@@ -1,4 +1,4 @@
-// Rays that are none.
+// Invalid rays.
 #include <sys/wait.h>
 #include <unistd.h>
 

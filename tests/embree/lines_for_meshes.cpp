@@ -1,4 +1,4 @@
-// Meshes whose lines go through cells in Embree are those of the whole program's lines.
+// Meshes from lines traced through cells in Embree equal those from lines traced by the whole program.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace phasetree;
 
 namespace {
 
-// How many of some points have none of the others within a distance.
+// The number of points that have no other point within a distance.
 std::size_t without_counterpart(const std::vector<glm::vec3>& points, std::vector<glm::vec3> others, float distance) {
     const auto x = [](const glm::vec3& p) { return p.x; };
     std::ranges::sort(others, {}, x);

@@ -1,5 +1,5 @@
-// Rays through several objects at once: each has its own phase of each, and what happens along it is what happens in
-// every object alone, merged by distance.
+// Rays through several objects at once. A ray has a phase for each object, and its crossings are those of the objects
+// alone, merged by distance.
 #include <algorithm>
 
 #include "embree/embree.hpp"
@@ -24,7 +24,7 @@ std::shared_ptr<const InterfaceCells> cells_of(const Phased& object) {
     return std::make_shared<const InterfaceCells>(object);
 }
 
-// One object where it stands: what rays know it by, and where its own space is in the world.
+// A placed object: how rays identify it, and the transform from its own space to the world.
 struct Standing {
     ObjectInstance id;
     const InterfaceCells* cells;

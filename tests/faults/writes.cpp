@@ -1,4 +1,4 @@
-// Files that cannot be written, or only byte by byte: whole files or none, and a message.
+// Files that cannot be written, or only byte by byte: there must be complete files or none, and a message.
 #include <cerrno>
 
 #include "faults/support/child.hpp"

@@ -1,5 +1,5 @@
-// Primitives of long lists, balls or pieces of a mesh: what a search finds at a point is to the last bit what a loop
-// over all of the list would, and the few of a box are enough there.
+// Primitives with long lists of balls or of pieces of a mesh. At a point, a search must find the same as a loop over
+// the whole list, to the last bit, and in a box, the few that are selected for it must suffice.
 #pragma once
 
 #include <bit>

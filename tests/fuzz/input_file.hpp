@@ -1,4 +1,4 @@
-// An input as a file, for what reads files.
+// An input as a file, for readers of files.
 #pragma once
 
 #include <unistd.h>

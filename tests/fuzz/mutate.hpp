@@ -1,4 +1,4 @@
-// One input becomes another: a few random changes, of bytes, of lines or of what a JSON text is made of.
+// Turns one input into another by a few random changes: of bytes, of lines, or of the elements of a JSON text.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Random {
     support::SplitMix64 generator_;
 };
 
-// One change. `words` are what keys and names may become.
+// Makes one change. Keys and names may be replaced by `words`.
 std::string mutated(const std::string& input, Inputs, const std::vector<std::string>& words, Random&);
 
 }  // namespace phasetree::fuzz

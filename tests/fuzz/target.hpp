@@ -1,6 +1,6 @@
-// The ways into the program from outside, each with what it does with an input.
+// The ways in which input enters the program, each with a function that processes an input.
 //
-// A new one is a file of targets/, whose name is the target's, and a line in list.cpp. Its inputs are found by
+// A new target needs a file in targets/, named after the target, and a line in list.cpp. Its inputs are found by
 // libFuzzer (tests/run.sh --fuzz); the smallest set of them that covers the same code lies in corpus/NAME.tar.gz and is
 // replayed, with mutations, by the ordinary tests.
 #pragma once
@@ -36,7 +36,7 @@ std::span<const Target> targets();
 // std::invalid_argument for a name that is not among them.
 const Target& target(std::string_view name);
 
-// A finding that is no crash: ends the process with what was promised.
+// Reports a finding that is not a crash: ends the process with the guarantee that was violated.
 [[noreturn]] void broken(const char* promise);
 inline void promised(bool holds, const char* promise) {
     if (!holds) broken(promise);

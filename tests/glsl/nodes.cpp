@@ -1,4 +1,4 @@
-// What the shaders compute is what the CPU computes: every node, on a real OpenGL.
+// Shaders compute what the CPU computes: tests every node on a real OpenGL.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Balls from PLY and CSV files, and what is said of files that are none.
+// Balls from PLY and CSV files, and errors for invalid files.
 #include <doctest/doctest.h>
 
 #include <string>

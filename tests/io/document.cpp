@@ -1,4 +1,4 @@
-// What is right is read right: values, order, keys, and the place of each in the text.
+// Correct texts are read correctly: values, order, keys, and the position of each in the text.
 
 #include "phasetree/io/document.hpp"
 
@@ -36,7 +36,7 @@ const std::string sample = R"(// A scene.
 }
 // end)";
 
-// The first character of every value and key in the sample, against the positions the document tells.
+// Compares the first character of every value and key in the sample with the positions in the document.
 void check_positions(const Document& document, Value value) {
     const std::string_view rest = std::string_view(document.text()).substr(value.offset());
     CAPTURE(rest.substr(0, 20));

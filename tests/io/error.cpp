@@ -1,4 +1,4 @@
-// How an error looks: one line that names the place, the source line, and a caret under the place.
+// The appearance of an error: a line that names the position, the source line, and a caret under the position.
 
 #include "phasetree/io/error.hpp"
 

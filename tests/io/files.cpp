@@ -1,4 +1,4 @@
-// What is no readable scene file is named plainly, and nothing waits for a pipe.
+// Errors say plainly why something is not a readable scene file, and reading never waits for a pipe.
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -38,7 +38,7 @@ std::string told(const fs::path& path) {
     return "was accepted";
 }
 
-// A privileged user may read everything: take the place of another for a while.
+// A privileged user may read everything, so become another user for a while.
 class Unprivileged {
   public:
     Unprivileged() : was_root_(::geteuid() == 0) {

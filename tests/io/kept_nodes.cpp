@@ -1,4 +1,5 @@
-// Nodes made from files, which a scene that is read again takes from the reading before: only where nothing changed.
+// Nodes made from files: when a scene is read again, they are reused from the previous read, but only if nothing has
+// changed.
 #include "phasetree/io/kept_nodes.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +28,7 @@ std::string scene(const std::string& first, const std::string& second) {
            R"(}}, {"set": {"phase": "b", "of": )" + second + "}}]}}";
 }
 
-/// A folder with a file, whose content is one digit, and a reader of it that counts how often it is asked.
+/// A folder with a file, whose content is one digit, and a reader that counts its calls.
 class Place {
   public:
     Place() { save('3', std::chrono::hours(2)); }

@@ -1,4 +1,4 @@
-// A kind's list of parameters is all that its reader, its page and its schema are made of.
+// A kind's reader, page and schema are all derived from its list of parameters.
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// Meshes in files of each kind, and files that are none.
+// Meshes in files of each kind, and invalid files.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -56,15 +56,15 @@ TEST_CASE("what files say of the corners of triangles") {
     const MeshFile odd = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5\nvn -nan(ind) 0 1\nf 1/1/1 2/1/1 3/1/1\n");
     CHECK(corner(odd.texture, odd, 0, 0) == glm::vec2(0.5f, 0));
     CHECK(corner(odd.normals, odd, 0, 0) == glm::vec3(0, 0, 1));
-    // Lines go on behind a backslash and end at a comment; what is too small for a float is 0.
+    // A backslash continues a line, and a comment ends it; numbers too small for a float are 0.
     const MeshFile joined = read("a.obj", "v 0 0 1e-50\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3 # the only one\n");
     CHECK(joined.mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}});
     CHECK(joined.mesh.vertices[0].z == 0);
-    // A face without normals has some of length 0 if another has some.
+    // A face without normals gets normals of length 0 if another face has normals.
     const MeshFile flat = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nf 1 2 3\nf 1//1 2//1 3//1\n");
     CHECK(corner(flat.normals, flat, 0, 1) == glm::vec3(0));
     CHECK(corner(flat.normals, flat, 1, 1) == glm::vec3(0, 1, 0));
-    // What one face lacks, none has; a weight behind coordinates is no colour.
+    // Attributes that one face lacks are dropped for all; a weight after coordinates is not a colour.
     const MeshFile lacking = read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nvt 0 0\nf 1/1 2/1 3/1\nf 1 2 3/1\n");
     CHECK(lacking.texture.empty());
     CHECK(lacking.normals.empty());
@@ -80,7 +80,7 @@ TEST_CASE("what files say of the corners of triangles") {
     CHECK(corner(ply.colors, ply, 0, 0) == glm::vec3(1, 0, 0.2f));
     CHECK(corner(ply.normals, ply, 0, 1) == glm::vec3(1, 0, 0));
     CHECK(corner(ply.texture, ply, 0, 2) == glm::vec2(0, 0.5f));
-    // Those of the faces' corners come before those of the vertices.
+    // Values at the corners of faces take precedence over those of the vertices.
     const MeshFile wedges =
         read("a.ply",
              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty "
@@ -102,7 +102,7 @@ TEST_CASE("what is wrong in a file is said with its place, and nothing of it is 
     CHECK(files.said("a.obj", "v 0 0 0\nf 1 1 2\n") == "a.obj: a face refers to a vertex that does not exist (line 2)");
     CHECK(files.said("a.ply", "plx\n") == "a.ply: is not a PLY file: it does not begin with \"ply\" (line 1)");
     CHECK(files.said("a.ply", "ply\nformat ascii 1.0\n") == "a.ply: the header has no end (line 3)");
-    // Billions of rows are not believed.
+    // A header that claims billions of rows is not trusted.
     CHECK(files.said("a.ply", ply_header("binary_little_endian", 2'000'000'000)) ==
           "a.ply: is shorter than its header declares");
     std::string text = word_ply;

@@ -1,4 +1,4 @@
-// What OBJ files and PLY files alone may have.
+// Features that only OBJ files or only PLY files have.
 #include <doctest/doctest.h>
 
 #include <string>

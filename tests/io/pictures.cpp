@@ -64,7 +64,7 @@ struct NamesInTree {
     }
 };
 
-/// Checks a node's example and picture, and enters both into the files that there should be.
+/// Checks a node's example and picture, and adds both to the list of expected files.
 void check_example(const std::string& chapter, std::string_view node, std::set<std::string>& files) {
     const std::string stem = chapter + "/" + std::string(node);
     CAPTURE(stem);

@@ -1,5 +1,5 @@
-// The reference of the nodes, as page, text and schema, follows from the nodes' own definitions. What a whole scene
-// file may say, the path tracer's kinds too, is in tracer/scene/scene_reference.cpp.
+// The reference of the nodes, as page, text and schema, follows from the nodes' own definitions.
+// tracer/scene/scene_reference.cpp tests the reference of whole scene files, including the path tracer's kinds.
 
 #include "phasetree/io/reference.hpp"
 

@@ -1,4 +1,4 @@
-// Meshes whose triangles have corners of their own that differ by rounding, as CAD programs write STL files.
+// Meshes in which each triangle has separate corners, which differ by rounding, as in STL files from CAD programs.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// STL files, of words and of numbers.
+// STL files, text and binary.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A tetrahedron as files of each kind, and the check that a mesh is that one.
+// A tetrahedron as a file of each kind, and a check whether a mesh is this tetrahedron.
 #pragma once
 
 #include <doctest/doctest.h>

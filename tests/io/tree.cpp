@@ -1,4 +1,4 @@
-// The model of a scene: how deep it may be, and what may be written in short.
+// The model of a scene: its maximum depth, and what may be abbreviated.
 #include "phasetree/io/tree.hpp"
 
 #include <doctest/doctest.h>
@@ -118,7 +118,7 @@ TEST_CASE("the parameters of nodes may be spelt in British or American English")
 }
 
 TEST_CASE("the reference says what the program does") {
-    // intersect_shape and subtract_shape leave another vacuum when all phases are cut than when some are.
+    // intersect_shape and subtract_shape leave a different vacuum if all phases are cut than if only some are.
     const auto vacuum_of = [](const std::string& cut) {
         return distances(read(R"({")" + cut + R"(, "shape": {"plane": {"offset": 5}}, "of": )" + ball + "}}"),
                          {0, 0, 0})[0];

@@ -1,4 +1,4 @@
-// Few lines that ask for much work before anything is traced: refused, at their place.
+// Few lines that request much work before anything is traced: they are rejected, with their position.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -33,7 +33,7 @@ const std::string ball = "{\"sphere\": {\"radius\": 1}}";
 const std::string two_copies = forty(ball, "{\"union\": [{\"translate\": {\"by\": [0.1, 0, 0], \"of\": ",
                                      "}}, {\"translate\": {\"by\": [0, 0.13, 0], \"of\": ", "}}]}");
 
-/// What is said of it.
+/// The error message.
 std::string said_of(const std::string& text) {
     try {
         (void)read_tree(Document::from_text(text));

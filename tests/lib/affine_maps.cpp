@@ -1,5 +1,5 @@
-// Maps of space that say they are affine, and their composition: to the last bit, because a cell's program runs them in
-// one instruction where the whole object's runs several.
+// Tests maps of space that are declared affine, and their composition. Results must agree to the last bit, because a
+// cell's program applies in one instruction what the whole object's program applies in several.
 
 #include "phasetree/math/affine_map.hpp"
 
@@ -66,7 +66,7 @@ TEST_CASE("an affine map is equal to what it says it is") {
             }
         });
     }
-    // None of the list is missing.
+    // No affine map of the list is missing.
     for_each_type(PointMaps(), [&]<class M>() {
         bool is_tried = !AffinePointMap<M>;
         for_each_affine_map(rng, [&](const auto& map) { is_tried |= std::is_same_v<std::decay_t<decltype(map)>, M>; });
@@ -94,7 +94,7 @@ TEST_CASE("maps that are composed do what they did one after the other") {
                 }
             });
         });
-    // Before and behind what turns there is room for one translation each.
+    // There is room for one translation before a rotation and one after it.
     CHECK(composed > tried / 10);
     CHECK(composed < tried);
     CHECK(thrice > 0);

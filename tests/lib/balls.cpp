@@ -1,4 +1,4 @@
-// Fields and objects of listed balls, against all balls one by one, and lists that there cannot be.
+// Compares fields and objects made of lists of balls with evaluating the balls one by one, and tests invalid lists.
 #include "phasetree/nodes/fields/balls.hpp"
 
 #include <doctest/doctest.h>
@@ -70,7 +70,7 @@ TEST_CASE("the search finds the distance that a loop over all balls would, to th
 
 TEST_CASE("the distance is the same to the last bit in whatever order the balls are given") {
     Random rng(392);
-    BallList list = random_balls(rng, 70'000), other = list;  // more than one task's
+    BallList list = random_balls(rng, 70'000), other = list;  // more than one task processes
     std::ranges::reverse(other.centres);
     std::ranges::reverse(other.radii);
     CHECK(node_of(list).table == node_of(other).table);

@@ -28,7 +28,7 @@ TEST_CASE("the slope's bound is that of the steepest place, not the sum of all")
     // In one place, they add.
     CHECK(two_points(0).slope == doctest::Approx(2 * 1.7173).epsilon(0.021));
     CHECK(two_points(0).slope >= 2 * 1.7172f);
-    // Between, the sum of both at the worst place, found by a search along the axis and across it.
+    // In between, the sum of both at the worst point, found by a search along the axis and perpendicular to it.
     const float apart = 0.7f;
     double steepest = 0;
     for (int i = 0; i <= 400; ++i)

@@ -1,4 +1,4 @@
-// Bounds hold everything that is not vacuum, and are infinite where the field is unbounded.
+// Bounds contain everything that is not vacuum, and are infinite where the field is unbounded.
 #include <doctest/doctest.h>
 
 #include "phasetree/model/handle.hpp"
@@ -40,7 +40,7 @@ glm::vec3 probe(Random& rng, const Bounds& b) {
     glm::vec3 p = rng.in(region.inflated(rng.chance(0.5) ? 0.f : region.diagonal()));
     if (rng.chance(0.2)) p *= std::exp2(rng.uniform(0, 10));
     if (rng.chance(0.1)) p[rng.below(3)] *= 1000;
-    // Just outside a face is where a box that is too small fails.
+    // A box that is too small fails just outside a face.
     if (rng.chance(0.3) && b.finite()) {
         const int axis = rng.below(3);
         const float beyond = b.diagonal() * std::exp2(rng.uniform(-14, -2));
@@ -113,7 +113,8 @@ TEST_CASE("at every level, what is within the level of a field lies within the b
 }
 
 TEST_CASE("primitives' bounds touch them") {
-    // Each face has a point of the solid within a thousandth of the size: a box too large is slow everywhere.
+    // Each face has a point of the solid within a thousandth of the size, because a box that is too large slows
+    // everything down.
     const auto check = [](const Field& f) {
         const Bounds b = bounds(f);
         REQUIRE(b.finite());
@@ -172,7 +173,7 @@ TEST_CASE("a plane that is almost parallel to an axis is unbounded along it") {
 }
 
 TEST_CASE("asking for bounds of shared subtrees takes no longer than the tree is large") {
-    // Each use asks at its own level; 2²⁴ levels would take minutes.
+    // Each use queries the bounds at its own level; 2²⁴ levels would take minutes.
     Field f = Sphere{};
     for (int i = 0; i < 24; ++i) f = Union{.of = {Offset{.of = f, .amount = std::ldexp(0.1f, -i)}, f}};
     const Bounds b = bounds(f);

@@ -1,5 +1,5 @@
-// Sphere Carving: no point of the solid lies outside of the carved planes, for any tree, phase and amount of work; of
-// solids whose hull is known the volume is near it.
+// Sphere carving: no point of the solid lies outside the carved planes, for any tree, phase and amount of work. For
+// solids with a known hull, the carved volume is close to the hull's.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -30,8 +30,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// How many of the solid's points lie outside of the carved bounds, of those that random points within a box find, and
-// of those that random rays find on its surface.
+// The number of points of the solid that lie outside the carved bounds: among random points in a box, and among points
+// that random rays find on its surface.
 struct Outside {
     std::size_t points = 0, outside = 0;
 };
@@ -94,7 +94,7 @@ TEST_CASE("no point of any phase of any tree lies outside, however little work t
             const Outside found = points_outside(object, of, carved, rng, 1500);
             points += found.points;
             CHECK(found.outside == 0);
-            // The test can fail: planes a hundredth too near are found out.
+            // The test can fail: it detects planes that are a hundredth too near.
             const double inward = 0.01 * static_cast<double>(b.diagonal());
             planted += points_outside(object, of, moved_inward(carved, inward), rng, 1500).outside > 0;
         }
@@ -107,7 +107,7 @@ TEST_CASE("volumes are near those of known convex hulls") {
     struct Known {
         const char* name;
         Field field;
-        double hull, allowed;  // the carved volume over the hull's
+        double hull, allowed;  // ratio of the carved volume to the hull's
     };
     const Field turned = warped(Rotate{.axis = {1, 2, 3}, .angle = 50}, Field(Box{.size = {2, 0.3f, 0.2f}}));
     const Field pair = Union{.of = {warped(Translate{{-1, 0, 0}}, Field(Sphere{.radius = 0.5f})),
@@ -119,7 +119,8 @@ TEST_CASE("volumes are near those of known convex hulls") {
         {"a ball", Sphere{.radius = 1}, 4 * pi / 3, 1.15},
         {"a cylinder", Cylinder{.radius = 0.5f, .height = 2}, pi / 2, 1.12},
         {"two balls", pair, 2 * pi * 0.25 + pi / 6, 1.15},
-        // A ring's hull is a rounded disk: Pappus, half of the tube's circle outside, and what is between.
+        // The hull of a ring is a rounded disk. By Pappus, its volume is that of the outer half of the tube, plus the
+        // part in between.
         {"a ring", Torus{.major = 1, .minor = 0.25f},
          pi * 0.5 + pi * pi * 0.25 * 0.25 + 4 * pi / 3 * 0.25 * 0.25 * 0.25, 1.15},
     };

@@ -1,5 +1,6 @@
-// Closed gaps between phases: the vacuum between simple shapes, by distances to points of their surfaces; and a glass
-// of water whose water overlaps the glass, or touches it, or leaves a gap, against the exact tree.
+// Tests closing gaps between phases. The vacuum between simple shapes is checked by distances to points of their
+// surfaces. A glass of water, in which the water overlaps the glass, touches it or leaves a gap, is compared with the
+// exact tree.
 //
 // That the components are 1-Lipschitz, and that at most one is negative, is tested with all nodes in lipschitz.cpp.
 #include "phasetree/nodes/phased/close_gaps.hpp"
@@ -151,7 +152,7 @@ struct Differences {
     int near = 0;   ///< nearer, water instead of vacuum
 };
 
-/// Labels of an object against those of the exact glass of water, at points around its walls and everywhere.
+/// Compares the labels of an object with those of the exact glass of water, at points around its walls and everywhere.
 Differences differences(const Phased& object) {
     const Phased truth = exact();
     Random rng(702);
@@ -302,7 +303,7 @@ TEST_CASE("no ray meets vacuum between glass and water, whether they overlap, to
         CHECK(after.slivers == 0);
         CHECK(after.wetted > 100'000);
         if (larger_by < 0) CHECK(before.slivers > 10'000);
-        // Where the walls coincide, few rays meet what rounding leaves between them.
+        // Where the walls coincide, few rays meet the slivers that rounding leaves between them.
         if (larger_by == 0) CHECK(before.slivers > 0);
     }
 }

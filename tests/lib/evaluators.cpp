@@ -29,7 +29,7 @@ struct RestoreTarget {
     ~RestoreTarget() { use_simd_target(name); }
 };
 
-/// Points about the object, a few on round coordinates, where ties are, and a few very far.
+/// Points around the object, a few with round coordinates, where ties occur, and a few very far away.
 glm::vec3 random_point(Random& rng, const Bounds& region) {
     glm::vec3 p = rng.in(region);
     if (rng.chance(0.2)) p = glm::round(p * 4.f) / 4.f;
@@ -60,7 +60,7 @@ std::vector<Phases<float>> walk(const Phased& object, const Points& points) {
     return all;
 }
 
-/// How many components, labels or interface distances differ between the walk and the program in use.
+/// The number of components, labels and interface distances that differ between the walk and the program in use.
 int differences(const std::vector<Phases<float>>& walked, const Evaluator& evaluator, const Points& points) {
     Evaluator::Workspace w;
     const auto& outputs = evaluator.program().outputs;
@@ -178,8 +178,8 @@ TEST_CASE("dual numbers carry the same values, and the program's gradients are t
 }
 
 TEST_CASE("gradients equal central differences away from kinks") {
-    // Differences of the oracle's Φ in double, h = 10⁻⁵: they are off by h² and 10⁻¹⁶/h, about 10⁻¹⁰. A kink shows
-    // itself by one-sided differences that disagree; so does curvature above 50/m, whose share must stay small.
+    // Differences of the oracle's Φ in double, h = 10⁻⁵: they are off by h² and 10⁻¹⁶/h, about 10⁻¹⁰. Kinks are
+    // recognised by one-sided differences that disagree. So is curvature above 50/m, whose share must stay small.
     constexpr double h = 1e-5;
     std::size_t compared = 0, skipped = 0, ties = 0;
     double worst = 0;
@@ -217,11 +217,11 @@ TEST_CASE("gradients equal central differences away from kinks") {
                 CAPTURE(p.y);
                 CAPTURE(p.z);
                 // Rounding of a position, some 10⁻⁷, turns the gradient by up to curvature times that: below 10⁻⁴. But
-                // where two places of a surface are as near but for rounding, the direction to either may be given:
-                // one that lies aside by a share δ of the distance is farther by a share δ²/2. Examples are a point
-                // above a face of a box and beside that of its copy, and a curve's place near the end of a piece of
-                // it. The differences of coordinates, their squares and their sum round, by 2·2⁻²⁴ of the distance
-                // together, to either place: δ²/2 < 4·2⁻²⁴, so that δ < 7·10⁻⁴.
+                // if two points of a surface are equally near within rounding, the direction to either may be returned.
+                // A point that is displaced sideways by a fraction δ of the distance is farther by a fraction δ²/2.
+                // Examples are a point above a face of a box and beside that of its copy, and a curve's place near the
+                // end of a piece of it. The differences of coordinates, their squares and their sum round, by 2·2⁻²⁴ of
+                // the distance together, to either place: δ²/2 < 4·2⁻²⁴, so that δ < 7·10⁻⁴.
                 ties += error > 1e-4;
                 REQUIRE(error < 1e-4 + 7e-4);
             });

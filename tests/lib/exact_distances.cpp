@@ -1,5 +1,5 @@
-// Primitives that call themselves exact: |f| is the distance to the nearest point of the other kind, inside or outside,
-// which is searched for by membership alone.
+// Primitives that are declared exact: |f| is the distance to the nearest point on the other side, inside or outside.
+// This point is searched for by membership alone.
 #include <doctest/doctest.h>
 
 #include "phasetree/model/handle.hpp"
@@ -42,8 +42,8 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// How near the search comes to a point whose membership is the other one. From several starts; steps grow after a
-/// success and shrink otherwise (Rechenberg's rule), a last bisection towards p included.
+/// The distance from p of the nearest point found on the other side. Searches from several starts; steps grow after a
+/// success and shrink otherwise (Rechenberg's rule), and end with a bisection towards p.
 double search(const Field& f, const glm::vec3& from, Random& rng) {
     const glm::dvec3 p(from);
     const bool here = inside(f, p);
@@ -74,7 +74,7 @@ double search(const Field& f, const glm::vec3& from, Random& rng) {
 
 struct Agreement {
     int too_large = 0;   ///< |f| exceeds what the search found: not even a bound
-    int not_exact = 0;   ///< the search found nothing so near
+    int not_exact = 0;   ///< the search found nothing that near
     double average = 0;  ///< of what was found over |f|
 };
 
@@ -138,7 +138,7 @@ TEST_CASE("exact primitives are as far from their surface as a search by members
         CAPTURE(index++);
         const Agreement a = compare(f, rng, 25);
         CHECK(a.too_large == 0);
-        // The search itself may miss a corner periodically.
+        // The search itself may occasionally miss a corner.
         CHECK(a.not_exact <= 1);
         CHECK(a.average < 1.008);
     }
@@ -208,7 +208,7 @@ TEST_CASE("the search tells a bound, and a field 1 % off, from an exact distance
     Random rng(142);
     CHECK(compare(Ellipsoid{.radii = {1, 0.7f, 0.3f}}, rng, 25).too_large == 0);
     CHECK(compare(Ellipsoid{.radii = {1, 0.7f, 0.3f}}, rng, 25).not_exact > 2);
-    // What is claimed for a ball, tested against one that is larger or smaller by 1 % of the distance.
+    // The test can fail: the distance of a ball, compared with a ball that is larger or smaller by 1 % of the distance.
     for (const double factor : {0.99, 1.01}) {
         const Field ball = Sphere{.radius = 1};
         double average = 0;

@@ -1,4 +1,4 @@
-// Subnormal numbers are zero while a FlushSubnormals lives, and are what they are before and afterwards.
+// Subnormal numbers count as zero during the lifetime of a FlushSubnormals, and keep their values before and after it.
 #include "phasetree/math/float_mode.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Formulas: what their text means, how steep they may be, and what is rejected, where in the text.
+// Formulas: the meaning of their text, the limits on their slopes, and what is rejected at which position in the text.
 #include "phasetree/nodes/fields/formula.hpp"
 
 #include <doctest/doctest.h>

@@ -20,7 +20,7 @@ std::size_t indentation_of(const std::string& line) {
     return line.find_first_not_of(' ');
 }
 
-// Whether a line begins something else than code: a namespace, a type, a list of values.
+// Whether a line begins something other than code: a namespace, a type, a list of values.
 bool begins_no_function(const std::string& line) {
     const std::string_view text = std::string_view(line).substr(indentation_of(line));
     for (const std::string_view word :
@@ -29,7 +29,7 @@ bool begins_no_function(const std::string& line) {
     return line.find("= {") != std::string::npos || text == "{";
 }
 
-// Lines of raw string literals are emptied: they are indented as it comes.
+// Lines of raw string literals are emptied, because their indentation is arbitrary.
 std::vector<std::string> code_of(const fs::path& file) {
     std::vector<std::string> lines = lines_of(file);
     std::string end;

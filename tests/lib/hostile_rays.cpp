@@ -1,4 +1,4 @@
-// Rays that no camera sends: nothing is found, and that soon.
+// Invalid or extreme rays that no camera sends: they find nothing, quickly.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -35,9 +35,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 const Phased object =
     Under{.of = {Set{.phase = Phase{1}, .of = Sphere{}}, Set{.phase = Phase{2}, .of = Box{.size = {1, 1, 3}}}}};
 
-/// Batches that a ray takes at most where what it creeps along can be enclosed.
+/// The maximum number of batches for a ray that creeps along something that can be enclosed.
 constexpr std::uint64_t max_batches = 5000;
-/// And at all, by the law of trace/creep.hpp: 524,288, and then some for each doubling of its steps.
+/// The maximum for any ray, according to trace/creep.hpp: 524,288, plus some for each doubling of its steps.
 constexpr std::uint64_t most_batches_at_all = 600'000;
 
 }  // namespace
@@ -212,7 +212,7 @@ TEST_CASE("a ray creeps along any surface in bounded time, at any resolution, an
                 float passed = 0;
                 std::uint64_t most = 0;
                 bool is_found = false;
-                // What is within rounding of the surface may be in it for some while.
+                // A ray within rounding of the surface may stay in it for a while.
                 for (int n = 0; n < 100; ++n) {
                     TraceCounters c;
                     const auto hit = tracer.first_crossing(from, along, 0, infinity, carried, w, &c);

@@ -1,4 +1,4 @@
-// Segmented scans: what is at the centres of voxels, and between them.
+// Segmented scans: labels at the centres of voxels, and between them.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ Labels node_of(LabelGrid grid, float smoothing = 1, const glm::vec3& spacing = g
             .grid = {}};
 }
 
-// How many centres of voxels are of another phase than the voxel, or of two.
+// The number of voxels whose centre is in another phase, or in two phases.
 std::size_t wrong_centres(const LabelGrid& grid, const Phased& object, const glm::dvec3& spacing) {
     std::size_t wrong = 0, at = 0;
     const auto [nx, ny, nz] = grid.lattice.size;
@@ -148,7 +148,7 @@ TEST_CASE("the surface of a ball of voxels is smooth and is the ball's") {
     const auto [rough_mean, rough] = roughness(0);
     MESSAGE("in voxels, mean and deviation: ", smooth_mean, " and ", smooth, "; without smoothing ", rough_mean,
             " and ", rough);
-    // A blur moves a curved interface inward, by σ²/R of a ball.
+    // A blur moves a curved interface inward: that of a ball of radius R by σ²/R.
     CHECK(smooth_mean == doctest::Approx(-1 / radius).epsilon(0.2));
     CHECK(smooth < 0.09);
     CHECK(rough > 2 * smooth);

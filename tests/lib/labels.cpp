@@ -1,9 +1,9 @@
 // Labels equal plain Boolean set algebra (support/set_algebra.hpp), computed without φ. Invariants alone cannot tell a
 // wrong operator from a right one: many wrong forms keep every component 1-Lipschitz and at most one of them negative.
 //
-// Points nearer to an interface than rounding are skipped. The margin is held by a measurement of its own: φ in float
-// never differs by more than `rounding` from the same φ in double, so a label is decided where the second smallest
-// component exceeds twice that.
+// Points within rounding errors of an interface are skipped. The margin is checked by a separate measurement: φ in
+// float never differs by more than `rounding` from the same φ in double. So a label is certain where the second
+// smallest component exceeds twice that.
 #include <doctest/doctest.h>
 
 #include <sstream>
@@ -111,7 +111,7 @@ TEST_CASE("labels of random trees equal set algebra at a million points") {
     MESSAGE(c.points, " points, ", c.skipped, " too near an interface, ", c.materials,
             " in a material; largest error of φ over 1 + |p|: ", c.largest_error);
     CHECK(c.points >= 1'000'000);
-    // Few are skipped: those near a surface by chance, and trees that are a phantom zero as a whole.
+    // Few points are skipped: those that happen to be near a surface, and those of trees that consist of phantom zeros.
     CHECK(c.skipped < c.points / 50);
     CHECK(c.materials > c.points / 10);
 }
@@ -146,7 +146,7 @@ float least(const Phases<float>& a, int except) {
     return r;
 }
 
-/// Section 4.3, with −min over the phases of B of which `leaves_out` excludes the phase itself.
+/// Section 4.3, with −min over the phases of B; `leaves_out` excludes the phase itself.
 template <bool leaves_out, bool carries_vacuum, bool keeps_a>
 Phases<float> under(const Phases<float>& a, const Phases<float>& b) {
     Phases<float> r;
@@ -198,7 +198,7 @@ double share_of_wrong_labels(Cut cut) {
     Random rng(78);
     int wrong = 0, compared = 0;
     for (int tree = 0; tree < 200; ++tree) {
-        // Two phases side by side, one of which is cut, so that the phase-specific form is what is compared.
+        // Two phases side by side, one of which is cut, so that the phase-specific form is compared.
         const Phased a = Under{.of = {Set{.phase = Phase{1}, .of = Box{.size = {1, 1, 1}}},
                                       Set{.phase = Phase{2}, .of = random_field(rng, 2)}}};
         const Field shape = random_field(rng, 2);

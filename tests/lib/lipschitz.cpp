@@ -16,7 +16,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// Error of a component in float; held by labels.cpp.
+/// Error of a component in float; checked by labels.cpp.
 double rounding(const glm::vec3& p) {
     return 4e-6 * (1 + static_cast<double>(glm::length(p)));
 }
@@ -58,7 +58,8 @@ void look(const Phased& object, Random& rng, int pairs, Slopes& s) {
             first = std::min(first, static_cast<double>(a[i]));
         });
         s.overlapping += !(first + second >= -2 * rounding(p));
-        // At most one is negative, and one is: but for rounding, since where a phase meets itself it is a zero alone.
+        // Exactly one component is negative, except within rounding errors, and where a phase meets itself: there it is
+        // zero.
         if (second > 2 * rounding(p)) s.not_one += negative > 1 || first > rounding(p);
     }
 }
@@ -72,10 +73,10 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
         Random rng = random_for(51, kind);
         Slopes s;
         CAPTURE(kind.name);
-        // A bound that is far too large would be safe and slow: some pair sees a slope close to 1.
-        // A periodic sheet's slope is 1 at single points only, which tests of their own look at (fractal_noise.cpp),
-        // and that of Voronoi phases only between two sites. What moves space by noise is steep where it moves little,
-        // which not every fifty trees do, so it has more of them until one is found.
+        // A bound that is far too large would be safe but slow, so some pair must have a slope close to 1. A periodic
+        // sheet has the slope 1 only at single points, which have separate tests (fractal_noise.cpp), and Voronoi
+        // phases only between two sites. Nodes that displace space by noise are steep only where the displacement is
+        // small. Not every set of fifty trees contains such a place, so more trees are drawn until one is found.
         const bool sheet =
             kind.name == "gyroid" || kind.name == "schwarz_p" || kind.name == "schwarz_d" || kind.name == "voronoi";
         const double wanted = sheet ? 0.8 : 0.99;
@@ -85,8 +86,8 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
             REQUIRE(s.too_steep == 0);
             REQUIRE(s.overlapping == 0);
             REQUIRE(s.not_one == 0);
-            // In double there is no rounding to hide behind, but for parameters that are floats themselves: a plane's
-            // normal and a scale's factor are of unit length and inverse to 10⁻⁷, a tree's depth times.
+            // In double, rounding is no excuse, except for parameters that are floats themselves: the length of a
+            // plane's normal and the inverse of a scale's factor are accurate to 10⁻⁷, times the depth of the tree.
             REQUIRE(s.steepest <= 1 + 2e-6);
         }
         total += s.pairs;
@@ -130,7 +131,7 @@ double steepest_instruction(const Program& program, const Bounds& region, Random
     std::vector<BatchOfFloats> out(all.outputs.size());
     double worst = 0;
     for (int n = 0; n < pairs; n += static_cast<int>(batch_size) - 1) {
-        // Points of which every one is paired with lane 0.
+        // Points that are each paired with the point in lane 0.
         BatchOfFloats x, y, z;
         for (std::size_t i = 0; i < batch_size; ++i) {
             const glm::vec3 p = rng.in(region);

@@ -110,7 +110,7 @@ Known random_solid(Random& rng, int kind) {
     }
 }
 
-// By what fraction 32-bit parameters may change a volume.
+// The fraction by which rounding of parameters to 32 bits may change a volume.
 constexpr double rounding = 2e-6;
 
 bool is_near(const Measured& m, double v, double error) {

@@ -1,4 +1,4 @@
-// Estimates of areas from lines through a ball whose crossings are known: when they end, and what they then say.
+// Estimates of areas from lines through a ball with known crossings: when they stop, and what they report.
 #include <doctest/doctest.h>
 
 #include <atomic>

@@ -24,7 +24,7 @@ struct Sampled {
     glm::dvec3 sum{0}, squares{0}, low{1e30}, high{-1e30};
 };
 
-// How far a number is outside of an interval.
+// The distance of a number from an interval; 0 inside.
 double outside(const Measured& m, double v) {
     return std::max({0.0, m.low - v, v - m.high});
 }

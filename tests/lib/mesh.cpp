@@ -1,4 +1,5 @@
-// Fields of meshes, against all their triangles one by one. Meshes that need repair: lib/mesh_repair.
+// Compares fields of meshes with evaluating their triangles one by one. Meshes that need repair are tested in
+// lib/mesh_repair.
 #include "phasetree/nodes/fields/mesh.hpp"
 
 #include <doctest/doctest.h>
@@ -44,7 +45,7 @@ glm::vec3 point_about(const TriangleMesh& mesh, Random& rng) {
     return on + rng.uniform(-0.3f, 0.3f) * (rng.chance(0.5) ? 0.01f : 1.f) * away;
 }
 
-/// What is said of a mesh; "a solid" if it is one.
+/// The error message for a mesh; "a solid" if it is accepted.
 std::string said_of(TriangleMesh mesh) {
     try {
         const Field field = Mesh{.file = held(std::move(mesh))};

@@ -1,4 +1,4 @@
-// Meshes with every defect that files have, against the winding number of the surface that was meant.
+// Compares meshes with every defect that occurs in files with the winding number of the intended surface.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -121,7 +121,7 @@ TriangleMesh latitudes_and_longitudes(int n) {
     return mesh;
 }
 
-/// What is said of a mesh; "a solid" if it is one.
+/// The error message for a mesh; "a solid" if it is accepted.
 std::string said_of(TriangleMesh mesh, const char* rule = "") {
     try {
         const Prepared prepared(std::move(mesh), rule);
@@ -145,8 +145,8 @@ TEST_CASE("meshes with several defects at once are the solid that was meant") {
             add(mesh, shape, offset);
         }
         const auto last = [&] { return static_cast<int>(mesh.triangles.size()); };
-        // Of some triangles there is another copy, others become three with a vertex on one side (a T-junction), some
-        // turn over, and some are missing: their place is flat.
+        // Some triangles are duplicated, others are divided into three with a vertex on one side (a T-junction), some
+        // are turned over, and some, in flat places, are missing.
         for (int k = 0; k < 6; ++k) {
             const auto i = static_cast<std::size_t>(rng.below(last()));
             const glm::uvec3 t = mesh.triangles[i];

@@ -1,5 +1,5 @@
-// Meshes of phases: closed manifolds, sharp edges, places and volumes as they are, and the same triangles where phases
-// touch.
+// Meshes of phases: they are closed manifolds with sharp edges, right positions and volumes, and shared triangles where
+// phases touch.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -42,7 +42,7 @@ PhaseMesh meshed(const Phased& object, float spacing) {
     return mesh_of(tracer.bounds(), line_tracer(tracer), {.spacing = spacing});
 }
 
-// Formats that know vertices by their places alone join those that are in one place.
+// Formats that identify vertices by their positions alone join vertices at equal positions.
 std::size_t vertices_in_one_place(std::vector<glm::vec3> vertices) {
     std::ranges::sort(vertices, {}, [](const glm::vec3& v) { return std::tuple(v.x, v.y, v.z); });
     return static_cast<std::size_t>(vertices.end() - std::unique(vertices.begin(), vertices.end()));
@@ -53,7 +53,7 @@ std::size_t faults_of(const PhaseMesh& mesh, PhaseSet phases) {
     return manifold_faults(closed.triangles, closed.vertices.size()).all() + vertices_in_one_place(closed.vertices);
 }
 
-// How many triangles face more than 26° elsewhere than the field falls.
+// The number of triangles whose normal deviates by more than 26° from the direction in which the field decreases.
 std::size_t turned_away(const ClosedMesh& mesh, const Field& field) {
     const Evaluator evaluator(record(of(one, field)));
     return static_cast<std::size_t>(std::ranges::count_if(mesh.triangles, [&](const auto& t) {
@@ -110,7 +110,7 @@ TEST_CASE("the mesh of a ball comes nearer with the square of the spacing") {
         }
         CAPTURE(spacing);
         CHECK(farthest < 0.4 * square);
-        // Where faces are distinguished from a bend, vertices are on the surface.
+        // Where faces are recognised as separate instead of one bent face, vertices are on the surface.
         if (spacing <= 0.1f) CHECK(std::abs(mean) < 0.001 * square);
         CHECK(std::abs(volume_of(mesh, one) / (4 * std::numbers::pi / 3) - 1) < 0.5 * square);
     }
@@ -127,7 +127,7 @@ TEST_CASE("phases that touch share their triangles, and where three meet all hav
         CHECK(faults_of(mesh, PhaseSet::of(one) | PhaseSet::of(two)) == 0);
         CHECK(volume_of(mesh, one) == doctest::Approx(2 * std::numbers::pi / 3).epsilon(0.01));
         CHECK(volume_of(mesh, two) == doctest::Approx(27).epsilon(1e-3));
-        // Together they have as much as apart, to rounding: nothing is between them and nothing twice.
+        // Together they have the same volume as separately, up to rounding: there is no gap and no overlap.
         CHECK(surface_of(mesh, PhaseSet::of(one) | PhaseSet::of(two)).volume() ==
               doctest::Approx(volume_of(mesh, one) + volume_of(mesh, two)).epsilon(1e-9));
         // The circle where the three meet.
@@ -179,7 +179,7 @@ TEST_CASE("random objects have meshes of manifolds whose volumes are theirs") {
             CAPTURE(p);
             CHECK(faults_of(mesh, PhaseSet::of(Phase{static_cast<std::uint8_t>(p)})) == 0);
         });
-        // By points of a lattice that is not the mesh's, of which an interface may be within a cube of either.
+        // Counted at points of a lattice other than the mesh's. Interfaces may be off by a cube of either.
         Evaluator::Workspace workspace;
         const glm::dvec3 size(bounds.extent());
         constexpr int n = 40;

@@ -27,8 +27,8 @@ TEST_CASE("a polygon's mirrors leave one sector") {
 }
 
 TEST_CASE("the icosahedron's mirrors leave one of their 120 chambers") {
-    // A chamber is a triangle of the angles π/2, π/3 and π/5: 1/120 of the sphere, and none of its points is missed by
-    // as many as these.
+    // A chamber is a triangle with the angles π/2, π/3 and π/5: 1/120 of the sphere. A missed part of the chamber would
+    // change the number of points within it.
     Random rng(162);
     int within = 0;
     const int points = 200'000;

@@ -73,7 +73,9 @@ TEST_CASE("errors name the node, the parameter and what is wrong") {
     CHECK(error(WarpedField<Rotate>{{Rotate{.axis = {0, 0, 0}, .angle = 1}, ball, {}}}) ==
           "rotate: the axis must not be zero");
     CHECK(error(WarpedField<Scale>{{Scale{.factor = 0}, ball, {}}}) == "scale: \"factor\" must be positive, but is 0");
-    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) == "twist: the child must be bounded");
+    CHECK(error(WarpedField<Twist>{{Twist{.rate = 10}, Plane{}, {}}}) ==
+          "twist: the child is unbounded because of its \"plane\" (at plane); intersect it with a box: "
+          "{\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}");
     CHECK(error(WarpedField<Twist>{{Twist{.rate = 1e6f}, ball, {}}}) ==
           "twist: more than 800 turns from the origin to an end of the object");
     CHECK(error(WarpedField<Translate>{{Translate{.by = {0, infinity, 0}}, ball, {}}}) ==
@@ -227,12 +229,12 @@ auto chain(std::size_t depth) {
             node.phase_b = Phase{2};
         }
         if constexpr (std::is_same_v<Node, CloseGaps>) node.of_phases = {Phase{1}, Phase{2}};
-        // A blob looks at its skeletons from thousands of places while it is made.
+        // A blob evaluates its skeletons at thousands of points while it is prepared.
         if constexpr (std::is_same_v<Node, Blob>) {
             if (current.node()->depth == 20) break;
         }
         if constexpr (requires { node.surface; }) node.surface = Sphere{};
-        // What stands beside the chain must not be the chain again, or the tree has 2⁴⁰⁰ branches.
+        // The other children must not be the chain again, or the tree has 2⁴⁰⁰ branches.
         if constexpr (requires { node.volume; }) node.volume = Sphere{};
         if constexpr (requires { node.proxy; }) node.proxy = Sphere{};
         if constexpr (IsEndlessGrid<Node>) {
@@ -296,6 +298,27 @@ TEST_CASE("a deeper tree is rejected") {
                          fmt::format("the tree is deeper than {} nodes", max_tree_depth).c_str(), ModelError);
 }
 
+TEST_CASE("a node that needs a bounded child names what makes the child unbounded") {
+    const Field halves = Union{.of = {ball, Plane{}}};
+    const Phased solid = Set{.phase = Phase{1}, .of = halves};
+    const std::string intersect =
+        "; intersect it with a box: {\"intersection\": {\"of\": [{\"plane\": …}, {\"box\": …}]}}";
+    CHECK(error(WarpedField<Bend>{{Bend{.rate = 10}, halves, {}}}) ==
+          "bend: the child is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
+    CHECK(error(FieldEndlessGrid{{.of = halves, .spacing = {1, 0, 0}}}) ==
+          "endless_grid: the child is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
+    CHECK(error(PhasedEndlessGrid{{.of = solid, .spacing = {1, 0, 0}}}) ==
+          "endless_grid: the child is unbounded because of its \"plane\" (at set.of.union.of[1].plane)" + intersect);
+    CHECK(error(FieldBoundingVolume{{.of = halves, .volume = {}}}) ==
+          "bounding_volume: the child is unbounded because of its \"plane\" (at union.of[1].plane), so it has no "
+          "bounding box; give a \"volume\"");
+    FieldScatter scatter;
+    scatter.of = ball;
+    scatter.surface = halves;
+    CHECK(error(scatter) ==
+          "scatter: the surface is unbounded because of its \"plane\" (at union.of[1].plane)" + intersect);
+}
+
 TEST_CASE("an object that cannot be traced says so") {
     const auto why = [](const Phased& a) -> std::string {
         try {
@@ -322,7 +345,7 @@ TEST_CASE("the nodes that make an object unbounded are found") {
     CHECK(paths(ball) == "");
     CHECK(paths(plane) == "plane");
     CHECK(paths(Field(Union{.of = {ball, plane}})) == "union.of[1].plane");
-    // What is subtracted from a ball may be unbounded; what a ball is subtracted from may not.
+    // The shape subtracted from a ball may be unbounded, but not the shape from which a ball is subtracted.
     CHECK(paths(Field(Difference{.from = ball, .subtract = {plane}})) == "");
     CHECK(paths(Field(Difference{.from = plane, .subtract = {ball, side}})) == "difference.from.plane");
     // A node whose children are bounded, or are each needed, is itself the reason.

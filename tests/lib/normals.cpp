@@ -1,5 +1,5 @@
-// Normals of crossings, against differences of the oracle in double: on points where coordinates tie, and along rays of
-// which many graze.
+// Compares normals of crossings with differences of the oracle in double: at points where coordinates tie, and along
+// rays, many of which graze.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -27,8 +27,8 @@ struct Solid {
     Field field;
 };
 
-/// Solids of every primitive, about the origin and of representable sizes; a profile extruded and revolved, what fills
-/// space as much of it as is in a box.
+/// Solids of every primitive, around the origin and with sizes that floats represent exactly. Profiles are extruded and
+/// revolved; space-filling primitives are cut to a box.
 class Solids {
   public:
     template <class N>
@@ -139,7 +139,7 @@ Solids every_primitive() {
     return s;
 }
 
-/// And of what chooses, blends, folds and bends.
+/// Solids of operators that select, blend, fold and bend.
 void add_operators(Solids& s) {
     const auto at = [](float x, float y, float z, Field f) {
         return Field(warped(Translate{.by = {x, y, z}}, std::move(f)));

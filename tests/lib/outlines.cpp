@@ -16,8 +16,8 @@ using namespace phasetree::tests;
 
 namespace {
 
-/// On a raster of quarters as often as not: level edges, equal heights, repeated points. Some coordinates are such as
-/// r cos(π/2) leaves instead of zero.
+/// Half of the points are on a grid of quarters: level edges, equal heights, repeated points. Some coordinates are as
+/// small as what r cos(π/2) gives instead of zero.
 glm::vec2 random_corner(Random& rng) {
     glm::vec2 v(rng.uniform(-1, 1), rng.uniform(-1, 1));
     if (rng.chance(0.4)) v = glm::round(v * 4.f) / 4.f;
@@ -135,7 +135,7 @@ TEST_CASE("a text's distance is that to its strokes, each without its holes") {
     CHECK(outside_of_bounds == 0);
 }
 
-// Halves and thirds of boxes: the pieces of one are sought among those of the one around it.
+// Halves and thirds of boxes: the pieces in a box are searched for among those of the surrounding box.
 template <class Primitive>
 void compare_in_boxes(const Primitive& primitive, const Bounds& whole, Random& rng, BoxComparison& c) {
     const float* const data = primitive.data().data();

@@ -1,5 +1,5 @@
-// Phase and hybrid operators against what they are defined from: the table's equations, the same thing said with other
-// nodes, and their limits. That they mean what set algebra says is tested with all nodes in labels.cpp.
+// Compares phase and hybrid operators with their definitions: the table's equations, equivalent trees of other nodes,
+// and limits. labels.cpp compares them, like all nodes, with set algebra.
 #include <doctest/doctest.h>
 
 #include "phasetree/model/handle.hpp"
@@ -149,7 +149,7 @@ TEST_CASE("a contact of equals lies in the middle, and other phases keep their p
     const Phased pushed = Contact{.a = a, .phase_a = one, .b = large, .phase_b = two, .alpha = 0.5f};
     CHECK(at(pushed, 0.89f) == one);
     CHECK(at(pushed, 0.91f) == four);
-    // Between the objects as wholes it stays in the middle, and the core keeps its place.
+    // Between whole objects, the contact stays in the middle, and the core keeps its place.
     const Phased whole = Contacts{.a = a, .phases_a = {}, .b = large, .phases_b = {}, .alpha = 0.5f};
     CHECK(at(whole, 0.74f) == one);
     CHECK(at(whole, 0.76f) == two);

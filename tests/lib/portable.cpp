@@ -35,8 +35,8 @@ std::uint64_t bits_of(const Function& f) {
     return hash;
 }
 
-// A name of a mathematical function that is not the same everywhere, called or otherwise used. Exactly rounded
-// functions are missing here, and the five of which portable.hpp says that they agree.
+// The names of mathematical functions whose results differ between processors, called or otherwise used. The list omits
+// exactly rounded functions, and the five that agree according to portable.hpp.
 const std::regex& not_portable() {
     static const std::string names =
         "(tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp2|exp10|expm1|log2|log10|log1p|cbrt|hypot|erf|"

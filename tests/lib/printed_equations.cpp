@@ -1,6 +1,6 @@
-// The paper's printed equations that are wrong, put through the comparison of labels that every node goes through.
-// Each is caught; the corrected equation, written here a second time by hand, passes. Both keep every component
-// 1-Lipschitz and at most one negative, so nothing but the labels could have told them apart.
+// Applies the comparison of labels that every node must pass to the equations that are wrong in the printed paper. Each
+// is caught; the corrected equation, written here a second time by hand, passes. Both keep every component 1-Lipschitz
+// and at most one negative, so nothing but the labels could have told them apart.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -61,7 +61,7 @@ struct Outcome {
 
 using Equation = std::function<Phi(const glm::vec3&)>;
 
-/// One random operator: the node whose meaning, by set algebra, is compared against, and an equation for it.
+/// One random operator: the node whose meaning, by set algebra, is the reference, and an equation for it.
 struct Case {
     Phased node;
     Equation equation;
@@ -139,7 +139,7 @@ Case phase_intersection(Random& rng) {
                 return r;
             }};
 }
-/// The same printed equation, of the sum of sets printed above it: the union below the other phases.
+/// The same printed equation, for the sum of sets printed above it: the union below the other phases.
 Case union_below(Random& rng) {
     const Phased a = rows(rng);
     const Field shape = random_field(rng, 2);

@@ -1,4 +1,4 @@
-// What a recorded program holds, and how large it gets.
+// The content and the size of recorded programs.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -73,7 +73,7 @@ TEST_CASE("no two instructions of a program are the same") {
             std::vector<std::uint32_t> data;
             for (std::size_t k = in.data; k < end; ++k) data.push_back(std::bit_cast<std::uint32_t>(p.constants[k]));
             REQUIRE(seen.emplace(static_cast<int>(in.op), in.a, in.b, data).second);
-            // An instruction uses what is defined before it.
+            // Instructions use only earlier results.
             REQUIRE((i == 0 || (in.a < i && in.b < i)));
         }
     }
@@ -110,7 +110,7 @@ TEST_CASE("objects put one under the other cost linearly many instructions") {
 }
 
 TEST_CASE("every instruction serves an output") {
-    // Sixty-four phases of which one is kept: what the others take alone must not be run.
+    // Of sixty-four phases, one is kept: instructions that only the others need must not be run.
     std::vector<Phased> all;
     for (int i = 1; i < Phase::capacity; ++i) all.push_back(filled(i, ball_at(static_cast<float>(i))));
     const Phased many = Under{.of = all};
@@ -139,7 +139,7 @@ TEST_CASE("registers are used again") {
     const Evaluator evaluator(record(Field(Union{.of = balls})));
     Evaluator::Workspace w;
     (void)evaluator.label({0, 0, 0}, w);
-    // What the workspace grew to: registers() keeps the larger, so ask for growing sizes until it moves.
+    // The size of the workspace: registers() never shrinks it, so request growing sizes until its memory moves.
     const float* base = w.registers(0);
     std::size_t slots = 0;
     while (w.registers(slots + 1) == base && slots < 4096) ++slots;
@@ -152,9 +152,11 @@ TEST_CASE("a tree that unfolds exponentially is rejected early") {
     Field f = Sphere{};
     for (int i = 0; i < 30; ++i) f = Union{.of = {warped(Translate{.by = {std::ldexp(0.001f, i), 0, 0}}, f), f}};
     const auto start = std::chrono::steady_clock::now();
-    CHECK_THROWS_WITH_AS(record(f, 100'000),
-                         "the object needs more than 100000 instructions, because every use of a shape repeats it",
-                         ModelError);
+    CHECK_THROWS_WITH_AS(
+        record(f, 100'000),
+        "the object needs more than 100000 instructions, because every use of a shape repeats it; use fewer "
+        "copies in the tree, or place copies of the whole object with \"instances\" of the scene",
+        ModelError);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
     CHECK(statistics(f).nodes == 61);
     // Without transforms between, shared subtrees stay shared.

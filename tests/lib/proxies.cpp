@@ -72,7 +72,7 @@ TEST_CASE("a bounding volume stands in from its margin on, and nothing jumps the
     CHECK(far > 5000);
     CHECK(near > 500);
     CHECK(steepest([&](const glm::vec3& p) { return distance(bounded, p); }) < 1.001);
-    // What it must not be: a switch between both jumps, and is seen to.
+    // The test can fail: a plain switch between both has a jump, which is detected.
     CHECK(steepest([&](const glm::vec3& p) {
               const float volume = glm::length(p) - 1.15f;
               return volume >= 0.2f ? volume : distance(ball, p);
@@ -139,7 +139,7 @@ TEST_CASE("each level of detail stands between its distances, without a wall whe
         const Field& there = glm::distance(p, glm::vec3(3, 0, 0)) < 3 ? fine : coarse;
         CHECK((distance(both, p) < 0) == (distance(there, p) < 0));
     }
-    // In the middle of both, on the sphere where one gives way to the other, there is no zero.
+    // Midway between both, on the sphere where one replaces the other, there is no zero.
     CHECK(distance(both, glm::vec3(0)) < -0.8f);
     CHECK(steepest([&](const glm::vec3& p) { return distance(both, p); }) < 1.001);
     CHECK_THROWS_AS(
@@ -151,12 +151,12 @@ TEST_CASE("each level of detail stands between its distances, without a wall whe
 }
 
 TEST_CASE("a view chooses the levels by how large their errors look, through what moves, turns and scales") {
-    const float error = 0.02f, angle = 0.01f;  // the coarse level stands from 2 on, seen at the object's own scale
+    const float error = 0.02f, angle = 0.01f;  // the coarse level is used from distance 2 on, in the object's scale
     const Field fine = Sphere{.radius = 1}, coarse = Box{.size = glm::vec3(0.5f)};
     const Field levels =
         FieldLevelOfDetail{{.of = {fine, coarse}, .viewpoint = {}, .distances = {}, .errors = {error}}};
     const auto object = [&](Field of) { return Phased(Set{stone, std::move(of)}); };
-    // Without a view the finest stands.
+    // Without a view, the finest level is used.
     CHECK(label(distances(object(levels), {0, 0, 0.9f})) == stone);
 
     const auto is_coarse = [&](const Phased& a, const glm::vec3& at, float scale) {
@@ -175,7 +175,7 @@ TEST_CASE("a view chooses the levels by how large their errors look, through wha
             CHECK(is_coarse(seen, at, scale) == (there > 2 * scale));
         }
     }
-    // Where a node stands in several places or is bent, the finest stays: the tree is as it was.
+    // If a node occurs in several places or is bent, the finest level stays, and the tree is unchanged.
     for (const Phased& kept : {object(FieldGrid{{{.of = levels}, glm::vec3(3), 2, 1, 1}}),
                                object(warped(Twist{.rate = 20}, levels)), object(fine)}) {
         CHECK(with_levels_of_detail(kept, {{0, 9, 0}, angle}) == kept);

@@ -1,5 +1,5 @@
-// Resolutions that cannot be, and objects so far from the origin that few digits are left: what is used instead, what
-// is said of it, and that no ray takes forever.
+// Impossible resolutions, and objects so far from the origin that few digits remain: the resolution used instead, the
+// warning, and that rays still end.
 #include <doctest/doctest.h>
 
 #include <limits>

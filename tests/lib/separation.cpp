@@ -1,4 +1,4 @@
-// Triangles of meshes: they cross and touch each other nowhere, whatever the object and the spacing.
+// Triangles of meshes never cross or touch each other, whatever the object and the spacing.
 #include <doctest/doctest.h>
 
 #include <array>

@@ -26,7 +26,7 @@ struct Shapes {
     explicit Shapes(Phased o) : field(Merge{.of = o}), object(o) {}
 };
 
-/// Each time that it is asked for, the shapes are a little further on, or else always in one place.
+/// Each time that a shape is requested, it is a little further along, or else always in one place.
 class Moved {
   public:
     Moved(const Shapes& shapes, bool moves) : shapes_(shapes), moves_(moves) {}
@@ -41,7 +41,7 @@ class Moved {
     int count_ = 0;
 };
 
-/// All that a node is made of becomes `below`. False if it is made of nothing.
+/// Replaces all children of a node by `below`. Returns false if it has none.
 template <class Node>
 bool stand_on(Node& node, const Shapes& below, bool moves) {
     bool has_children = false;

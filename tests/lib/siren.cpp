@@ -76,7 +76,7 @@ TEST_CASE("the bunny is what its training said") {
     CHECK(sampled > 1.1);
     CHECK(sampled < 1.3);
     const Field field = bunny;
-    // The middle of the body, and the places about it that are air: above the back, before the feet, between the ears
+    // The middle of the body, and points of the air around it: above the back, in front of the feet, between the ears
     // and the back.
     CHECK(distance(field, {0.1f, 0, -0.3f}) < 0);
     CHECK(distance(field, {0.5f, 0, 0.4f}) > 0);

@@ -1,5 +1,5 @@
-// Slices: outlines of random objects are where labels say, without gaps or overlaps, whatever the axis, the number of
-// phases and the number of threads; bad input is rejected in words.
+// Slices: outlines of random objects agree with labels, without gaps or overlaps, for any axis, number of phases and
+// number of threads. Bad input is rejected with a message.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -46,7 +46,7 @@ Phased random_object(Uniform& rng, int parts) {
     return all;
 }
 
-// What the outlines say of a point.
+// What the outlines say about a point.
 struct Drawn {
     Phase phase = vacuum;
     double distance = 1e30;  // to the closest outline

@@ -36,7 +36,7 @@ Phased filled(double level) {
                        Phased(IntersectShape{.of = box, .shape = Plane{.offset = static_cast<float>(level)}})}};
 }
 
-// Checks what is certain of a bracket.
+// Checks what is certain about a bracket.
 void check_bracket(const SolveResult& r, double solution, double target, double width) {
     REQUIRE(r.has_bracket());
     REQUIRE(r.best);

@@ -54,7 +54,7 @@ using glm::dvec3;
 
 namespace {
 
-/// Points of an object, which no box around it may leave out, and which span most of it.
+/// Points of an object that span most of it. Every box around the object must contain them.
 struct Cloud {
     std::vector<dvec3> points;
 
@@ -175,8 +175,8 @@ void check_bounds(const Field& f, const Cloud& cloud) {
     for (int i = 0; i < 3; ++i) CHECK(static_cast<double>(b.extent()[i]) <= 2 * extent[i]);
 }
 
-/// Rays to points of the object hit it where doubles have its surface, of the whole object and, on demand, of cells:
-/// those of a long chain take seconds to build, wherever it lies.
+/// Rays to points of the object hit it where doubles place its surface. Tests the whole object and, on request, its
+/// cells, because those of a long chain take seconds to build.
 void check_hits(const Field& f, const Cloud& cloud, Random& rng, bool with_cells) {
     const Phased object = Set{.phase = Phase{1}, .of = f};
     const InterfaceTracer tracer(object);
@@ -200,9 +200,10 @@ void check_hits(const Field& f, const Cloud& cloud, Random& rng, bool with_cells
         }
         if (high == 0) continue;  // the point is near the surface, and the ray is in it for less than a step
         while (high - low > 0.1 * resolution) (is_inside(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
-        // Coordinates are rounded at each of the maps, and at an angle the ray is moved more along itself.
+        // Coordinates are rounded at each of the maps, and at a grazing angle, this moves the hit farther along the
+        // ray.
         const double tolerance = 40 * resolution;
-        // The first step may have passed what is thin: an earlier hit must be where doubles have a surface.
+        // The first step may have passed something thin: an earlier hit must be where doubles have a surface.
         const auto is_surface = [&](double t) {
             int inner = 0;
             for (int i = -20; i <= 20; ++i) inner += is_inside(t + tolerance * i / 20);

@@ -1,4 +1,4 @@
-// What the Voronoi nodes rest on: that the sites looked at are enough.
+// The assumption of the Voronoi nodes: that the sites they consider are sufficient.
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// In a small box a Voronoi pattern is given by few sites, to the last bit.
+// In a small box, a few sites determine a Voronoi pattern, to the last bit.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -47,7 +47,7 @@ void look(const P& primitive, float size, float far, Random& rng, Found& found) 
         ++found.refused;
         return;
     }
-    // The same of a part of it, from all sites and from those.
+    // The same for a part of the box, from all sites and from those of the box.
     PointRange part = box;
     for (std::size_t i = 0; i < 3; ++i) {
         part.half_extents[i] *= static_cast<double>(rng.uniform(0.1f, 0.9f));

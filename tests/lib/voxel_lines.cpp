@@ -42,8 +42,8 @@ std::array<int, 3> moved(std::array<int, 3> voxel, std::size_t axis, int by) {
     return voxel;
 }
 
-// Multiples of the 16 lines of a bundle and of the 8 voxels of a block's side, and not; and lines that are shorter than
-// the blur reaches.
+// Sizes that are multiples of the 16 lines of a bundle and of the 8 voxels of a block's side, and sizes that are not;
+// and lines shorter than the reach of the blur.
 const Size sizes[] = {{19, 5, 37}, {3, 33, 2}, {17, 16, 8}};
 
 }  // namespace

@@ -140,7 +140,7 @@ class FilesOfScenes(unittest.TestCase):
         tile = picture(self.asset("tile.png"))
         self.assertEqual(pt.textures.image(os.fsencode(tile)), pt.textures.image(tile))
         for make in (pt.textures.image, pt.siren):
-            with self.assertRaisesRegex(pt.Error, "scenes are UTF-8"):
+            with self.assertRaisesRegex(pt.Error, "scene files are UTF-8"):
                 make(os.fsencode(self.folder) + b"/tile\xff.png")
 
     def test_objects_of_a_scene_of_several(self):

@@ -57,7 +57,7 @@ class Formulas(unittest.TestCase):
         self.assertEqual(ball.translate((1, 0, 0)), pt.translate(ball.field(), (1, 0, 0)))
         self.assertEqual(pt.formula(ball), ball.field())
         self.assertEqual(pt.formula("length(x, y, z) - 1"), ball.field())
-        with self.assertRaisesRegex(TypeError, "a formula less a field"):
+        with self.assertRaisesRegex(TypeError, "formula - field is ambiguous"):
             ball - pt.sphere(1)
         with self.assertRaises(TypeError):
             bool(ball)
@@ -84,7 +84,7 @@ class Formulas(unittest.TestCase):
             ("whole number from -64 to 64", lambda: (x**0.3).within(0.1, 1).field()),
             ("must be finite", lambda: x * float("nan")),
             ("two corners", lambda: pt.formula("x", [(0, 0, 0)])),
-            ("sin is of numbers", lambda: pt.sin("x")),
+            ("sin takes numbers", lambda: pt.sin("x")),
         ):
             with self.subTest(expected), self.assertRaisesRegex(pt.Error, re.escape(expected)):
                 call()

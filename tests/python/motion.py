@@ -34,7 +34,7 @@ class Motion(unittest.TestCase):
             with self.subTest(name):
                 with self.assertRaises(pt.Error) as caught:
                     call()
-                self.assertIn(f"{name} has keys, and what is made in Python stands still", str(caught.exception))
+                self.assertIn(f"{name} has keys, but trees and transforms made in Python do not move", str(caught.exception))
                 self.assertIn("write the scene file by hand", str(caught.exception))
 
     def test_all_else_keeps_them(self):
@@ -61,7 +61,7 @@ class Motion(unittest.TestCase):
         self.assertNotEqual(before.read_bytes(), after.read_bytes())
 
     def test_files_whose_trees_move_are_read_with_a_warning(self):
-        with self.assertWarnsRegex(UserWarning, "hourglass.json: trees, .* move with time, and are as at the time 0"):
+        with self.assertWarnsRegex(UserWarning, "hourglass.json: its trees or transforms change with time; they are read at time 0"):
             pt.load(SCENES / "film" / "hourglass.json")
         for moving in (
             '"tree": {"set": {"phase": "a", "of": {"sphere": {"radius": {"keys": [[0, 1], [1, 2]]}}}}}',
@@ -72,7 +72,7 @@ class Motion(unittest.TestCase):
             path = self.folder / "moves.json"
             path.write_text('{"version": 1, "phases": {"a": {"diffuse": {"color": [1, 1, 1]}}}, ' + moving + "}")
             with self.subTest(moving):
-                with self.assertWarnsRegex(UserWarning, "move with time"):
+                with self.assertWarnsRegex(UserWarning, "change with time"):
                     scene = pt.load(path)
                 if scene.object:
                     self.assertEqual(scene.object, pt.phase("a", pt.diffuse((1, 1, 1)))(pt.sphere(1)))
@@ -80,7 +80,7 @@ class Motion(unittest.TestCase):
             "of": {"sphere": {"radius": {"keys": [[0, 1], [1, 2]]}}}, "ramp": [[0, [1, 1, 1]]]}}}}},
             "tree": {"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}}}"""
         (self.folder / "texture.json").write_text(of_texture)
-        with self.assertWarnsRegex(UserWarning, "move with time"):
+        with self.assertWarnsRegex(UserWarning, "change with time"):
             pt.load(self.folder / "texture.json")
 
     def test_names_that_are_keys(self):

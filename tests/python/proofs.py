@@ -31,7 +31,7 @@ class Proofs(unittest.TestCase):
     def test_mistakes(self):
         with self.assertRaisesRegex(pt.Error, "unknown phase"):
             self.object.prove({"present": {"phase": "glas"}})
-        with self.assertRaisesRegex(pt.Error, "but no set"):
+        with self.assertRaisesRegex(pt.Error, "not set"):
             self.object.prove({"present": {"phase": {"glass"}}})
         with self.assertRaisesRegex(pt.Error, "the unit must be"):
             self.object.prove({"present": {"phase": "glass"}}, unit="ell")

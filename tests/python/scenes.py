@@ -100,16 +100,16 @@ class ManyObjects(unittest.TestCase):
         ball = pt.phase("glass", pt.clear(ior=1.5))(pt.sphere(1))
         other = pt.phase("glass", pt.clear(ior=1.4))(pt.sphere(1))
         for make, said in (
-            (lambda: pt.Scene(), "either an object or objects"),
-            (lambda: pt.Scene(ball, objects={"a": ball}), "either an object or objects"),
-            (lambda: pt.Scene(ball, instances=pt.places("a", (0, 0, 0))), "of objects, which have names"),
+            (lambda: pt.Scene(), "an object, named objects, or only meshes"),
+            (lambda: pt.Scene(ball, objects={"a": ball}), "an object, named objects, or only meshes"),
+            (lambda: pt.Scene(ball, instances=pt.places("a", (0, 0, 0))), "place named objects"),
             (lambda: pt.Scene(objects={"a": pt.sphere(1)}), "must be an object of phases"),
             (lambda: pt.Scene(objects={"a": ball, "b": other}), 'a phase "glass", of different materials'),
             (lambda: pt.Scene(objects={"a": (ball, np.zeros((2, 3)))}), "2 maps of its own"),
             (lambda: pt.places("a", np.zeros((2, 2))), r"the shape is \(2, 2\)"),
             (lambda: pt.places("a", (0, np.nan, 0)), "finite"),
             (lambda: pt.places("a", np.ones((4, 4))), "the last row"),
-            (lambda: pt.places(ball, (0, 0, 0)), "by its name"),
+            (lambda: pt.places(ball, (0, 0, 0)), "need the name"),
         ):
             with self.assertRaisesRegex(pt.Error, said):
                 make()
@@ -321,7 +321,7 @@ class Pictures(unittest.TestCase):
             ("must lie within", lambda: scene.render(crop=(0, 0, 100, 10))),
             ('"samples" must be', lambda: scene.render(samples=0)),
             ("a light cannot be", lambda: scene.with_(lights=[pt.diffuse("#ffffff")])),
-            ("shows an object of phases", lambda: pt.Scene(pt.sphere(1))),
+            ("needs an object of phases", lambda: pt.Scene(pt.sphere(1))),
             ("is inside", lambda: scene.with_(object=pt.phase("b", pt.diffuse("#808080"))(pt.sphere(9))).render()),
         ):
             with self.subTest(expected):

@@ -76,7 +76,7 @@ class Viewing(unittest.TestCase):
     def test_what_cannot_be_viewed_is_refused(self):
         with self.assertRaisesRegex(pt.Error, "an object of phases or a scene"):
             pt.view(pt.sphere(1), open=False)
-        with self.assertRaisesRegex(pt.Error, "no bounds"):
+        with self.assertRaisesRegex(pt.Error, "unbounded, so the view cannot place a camera"):
             pt.view(pt.phase("a")(pt.plane()), open=False)
         # What only the reader of scenes finds: the camera is inside wood.
         wood = pt.phase("wood", pt.diffuse((0.5, 0.3, 0.1)))

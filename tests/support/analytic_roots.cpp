@@ -16,7 +16,7 @@ struct Root {
     dvec3 normal;  ///< of the surface, in world space, either way
 };
 
-// A ray in a node's space, and how its directions turn back to world space.
+// A ray in a node's space, and the rotation of directions back to world space.
 struct Ray {
     dvec3 o, d;
     dvec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< the node's axes in world space
@@ -70,7 +70,7 @@ Ray through(const Scale& w, Ray r) {
     return r;
 }
 
-// Surfaces of a node's own. Nodes with children: the children's. Others are not in these scenes.
+// The node's own surfaces. For a node with children, those of the children. Other nodes do not occur in these scenes.
 template <class Node>
 void own_roots(const Node& n, const Ray& r, Roots& out) {
     if constexpr (std::is_same_v<Node, Sphere>) {

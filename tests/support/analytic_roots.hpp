@@ -1,7 +1,8 @@
 #pragma once
 
-/// The exact sequence of phases along a ray, for CSG of spheres, boxes, cylinders, cones and planes: the roots with
-/// every primitive's quadrics and planes in double, sorted, and the midpoints between them labelled by set algebra.
+/// The exact sequence of phases along a ray, for CSG of spheres, boxes, cylinders, cones and planes. It computes the
+/// roots with every primitive's quadrics and planes in double, sorts them, and labels the midpoints between them by set
+/// algebra.
 
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -27,14 +28,14 @@ void solve(double a, double b, double c, Use&& use) {
     use(q / a);
 }
 
-/// A phase from `start` to the next piece's start.
+/// A piece of the ray in one phase, from `start` to the start of the next piece.
 struct Piece {
     double start;
     Phase phase;
     dvec3 normal{0};  ///< of the surface at the start
 };
 
-/// Throws std::logic_error for an object of other nodes.
+/// Throws std::logic_error for an object with other nodes.
 std::vector<Piece> exact_pieces(const Phased& object, const dvec3& o, const dvec3& d, double length);
 
 }  // namespace phasetree::tests::analytic

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The nearest crossing over all cells of an object against that of the whole object, along rays.
+/// Compares the nearest crossing over all cells of an object with that of the whole object, along rays.
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,9 @@
 
 namespace phasetree::tests {
 
-/// Whether two crossings at one place differ only by a phase thinner along the ray than a bracket may be, one and a
-/// half resolutions more than one, which one of them saw and the other passed: the crossing that follows the shorter
-/// one at once leads to where the other is.
+/// Whether two crossings at one place differ only by a sliver of a phase that one of them saw and the other passed. The
+/// sliver must be thinner along the ray than a bracket may be, two and a half resolutions. The crossing that directly
+/// follows the shorter one then leads to where the other is.
 inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Crossing& b, const glm::vec3& d,
                       Evaluator::Workspace& w) {
     if (a.from != b.from) return false;
@@ -32,9 +32,9 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
     return leads_to(a, b) || leads_to(b, a);
 }
 
-/// Whether all along a ray from `a` to `b` a phase's distance is no more than rounding: than a sixteenth of a
-/// resolution, which tracing takes for that, and by how much floats round it there and the places that they are asked
-/// at, up to half a resolution. Labels mean little then.
+/// Whether a phase's distance is no more than a rounding error all along a ray from `a` to `b`. That is a sixteenth of
+/// a resolution, which tracing treats as rounding, plus the rounding errors of the distance and of the points where it
+/// is evaluated, up to half a resolution. Labels mean little there.
 inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec3& b, const glm::vec3& d, Phase phase,
                         float resolution) {
     const auto places = [&](int count, float beyond, auto&& f) {
@@ -56,8 +56,9 @@ inline bool is_rounding(const Phased& object, const glm::vec3& a, const glm::vec
     return deepest <= std::min(known + rounding + place, most);
 }
 
-/// Whether what a ray crosses between `a` and `b`, each within a bracket of where it begins or ends, may be passed
-/// though it is longer than a resolution (lib/README.md): no longer than 2.75, and deeper than rounding for one.
+/// Whether tracing may pass what a ray crosses between `a` and `b`, although it is longer than a resolution
+/// (lib/README.md). `a` and `b` are within a bracket of where it begins and ends. It may be passed if it is at most
+/// 2.75 resolutions long, and deeper than rounding errors for at most one.
 inline bool is_undecided(const Phased& object, const glm::vec3& a, const glm::vec3& b, const glm::vec3& d, Phase phase,
                          float resolution) {
     const double size = static_cast<double>(resolution), step = size / 32, length = glm::distance(a, b);
@@ -71,16 +72,16 @@ inline bool is_undecided(const Phased& object, const glm::vec3& a, const glm::ve
     return outside <= 2.75 * size && deep <= size;
 }
 
-/// The crossing of a ray from `origin`, or the next one that is followed by more than a hair of another phase: what is
-/// thinner than the resolution may be passed, and what is nowhere deeper than rounding, or for less than may be
-/// decided.
+/// The crossing `c` of a ray from `origin`, or the next one that leads to more than a hair of another phase. A hair is
+/// what tracing may pass: something thinner than the resolution, or something that is nowhere deeper than rounding
+/// errors, or deeper only for a length too short to be decided.
 template <class Next>
 std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& origin, const glm::vec3& d,
                                      std::optional<Crossing> c, float resolution, const Next& next) {
-    // Each from where it is on the ray, not from where the one before was found: a thousand hairs along a face would
-    // each round that, and never leave the face.
+    // Measure each hair from the ray's origin, not from the previous hair. A thousand hairs along a face would
+    // otherwise each add a rounding error, and never leave the face.
     double passed = 0;
-    // Between cells that contradict each other a ray does not get on.
+    // Limited, because a ray makes no progress between cells that contradict each other.
     for (int hairs = 0; c && hairs < 1000; ++hairs) {
         const std::optional<Crossing> after = next(c->p_out, c->to);
         if (!after || after->to != c->from) break;
@@ -119,8 +120,9 @@ struct ComparedRay {
     glm::vec3 origin, direction;
 };
 
-/// Through the object's box; or along its surface, where a ray first meets that: less than a sixteenth of the box above
-/// it or below. What bends is then met or missed by little, and a bound that is too small for how it bends tells.
+/// A ray through the object's box, or along the surface at the point where a first ray meets it, less than a sixteenth
+/// of the box above or below. Such a ray barely meets or misses a curved surface, which reveals a bound that is too
+/// small for the curvature.
 inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Random& rng, Evaluator::Workspace& w) {
     const Bounds box = tracer.bounds();
     const glm::vec3 from = rng.in(box.inflated(0.5f)), to = rng.in(box);
@@ -136,7 +138,7 @@ inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Rand
     return {met->p_out + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
 }
 
-/// Cells of every quality of build must find the same; most are of medium quality.
+/// Cells must find the same crossings at every build quality; most are built at medium quality.
 inline BuildQuality any_quality(Random& rng) {
     return rng.below(4) == 0 ? BuildQuality::low : BuildQuality::medium;
 }
@@ -167,7 +169,7 @@ inline void compare_ray(const Phased& object, const CellsAlongRay& cells, const 
         if (!is_there(expected, nearest)) {
             const auto e = beyond_hairs(object, p, d, expected, tracer.resolution(), by_whole);
             const auto c = beyond_hairs(object, p, d, nearest, tracer.resolution(), by_cells);
-            // What is a hair to one of them may just not be to the other.
+            // What one of them treats as a hair, the other may just not.
             if (!is_there(expected, c)) expected = e;
             if (!is_there(expected, nearest)) nearest = c;
         }
@@ -185,7 +187,7 @@ inline void compare_ray(const Phased& object, const CellsAlongRay& cells, const 
     }
 }
 
-/// Along this many rays.
+/// Compares along this many rays.
 inline void compare_crossings(const Phased& object, PhaseSet opaque, int rays, Random& rng, Compared& result,
                               BuildQuality quality = BuildQuality::medium) {
     Evaluator::Workspace w;

@@ -14,16 +14,16 @@ struct Disagreements {
     std::size_t points = 0, wrong = 0;
 };
 
-/// Labels in every cell at random points of it, a third of them on its faces, but for points within the resolution of
-/// an interface.
+/// Compares labels in every cell at random points, a third of them on its faces. Points within the resolution of an
+/// interface are skipped.
 inline Disagreements compare_labels(const InterfaceCells& cells, std::size_t points_a_cell) {
-    Random rng(6);  // its own: which objects come next is not for the number of cells to say
+    Random rng(6);  // a generator of its own, so that later objects do not depend on the number of cells
     Evaluator::Workspace w;
     Disagreements result;
     const float rounding = cells.resolution();
     const std::vector<Output>& outputs = cells.whole().program().outputs;
     std::vector<BatchOfFloats> phi(outputs.size());
-    // More in each of a few cells; of very many, some.
+    // Few cells get more points each. If there are very many, only some are tested.
     const std::size_t each = std::max(points_a_cell, 500 / std::max<std::size_t>(1, cells.size()));
     const std::size_t stride = 1 + cells.size() / (long_tests() ? 100'000 : 10'000);
     for (std::size_t i = 0; i < cells.size(); i += stride) {
@@ -50,7 +50,8 @@ inline Disagreements compare_labels(const InterfaceCells& cells, std::size_t poi
                     if (v < lowest) label = outputs[k].phase;
                     lowest = std::min(lowest, v);
                 }
-                // Nor where a phase meets itself: its component is zero there, and the label a matter of rounding.
+                // Also skip points where a phase meets itself: its component is zero there, so rounding decides the
+                // label.
                 if (second < rounding || lowest > -rounding) continue;
                 ++result.points;
                 if (cells.label(i, {x[lane], y[lane], z[lane]}, w) != label) ++result.wrong;

@@ -1,12 +1,12 @@
 #pragma once
 
-/// Rays that creep: along faces, edges, seams and straight lines of solids of every kind, with balls and thin shells on
-/// their way, most of them behind where they have left the solid. What a ray meets of balls is known by their roots,
-/// and none may be missed however long the ray has crept before.
+/// Rays that creep along faces, edges, seams and straight lines of solids of every kind, with balls and thin shells in
+/// their way, most of them behind the point where the ray leaves the solid. The crossings of balls are known from their
+/// roots, and none may be missed, however long the ray has crept before.
 ///
-/// Lines in surfaces are searched for with the oracle's distances, in double: at a place of the surface the direction
-/// that keeps to it longest, of those in which the distance changes sign or is smallest nearby; and where the surface
-/// is flat at two places, the edge that their planes have in common.
+/// Lines in surfaces are found with the oracle's distances, in double. At a point of the surface, candidates are the
+/// directions in which the distance nearby changes sign or is smallest; the direction that stays on the surface longest
+/// is chosen. If the surface is flat at two points, the line is the common edge of their planes.
 
 #include <doctest/doctest.h>
 
@@ -40,13 +40,13 @@ namespace phasetree::tests::creeping {
 
 using glm::dvec3;
 
-/// A straight line that keeps to a surface.
+/// A straight line that stays on a surface.
 struct Line {
     dvec3 at, along;
     double length = 0;  ///< about how far, both ways
 };
 
-/// A ball or a shell of one, in the phase 1 of the solid or another.
+/// A ball or a spherical shell, in the solid's phase 1 or in another.
 struct Target {
     glm::vec3 centre{0};
     float radius = 0, half_thickness = 0;  ///< of a shell's wall; 0: a ball
@@ -74,7 +74,7 @@ struct Totals {
     std::vector<std::string> complaints;
 };
 
-/// How far from a place along a direction a field stays within `near` of zero, up to `far`.
+/// The distance from a point along a direction for which a field stays within `near` of zero, at most `far`.
 inline double kept_to(const Field& f, const dvec3& p, const dvec3& d, double near, double far) {
     double reached = 0;
     for (double step = far / 1024; step <= far; step *= 2)
@@ -88,7 +88,7 @@ inline Line measured(const Field& f, const dvec3& p, const dvec3& d, double near
     return {p, d, kept_to(f, p, d, near, far) + kept_to(f, p, -d, near, far)};
 }
 
-/// The direction in the surface at p that keeps to it longest.
+/// The direction in the surface at p that stays on it longest.
 inline Line line_through(const Field& f, const dvec3& p, const dvec3& normal, double near, double size) {
     const dvec3 u = glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
     const dvec3 v = glm::cross(normal, u);
@@ -114,7 +114,7 @@ inline Line line_through(const Field& f, const dvec3& p, const dvec3& normal, do
         }
         before = after;
     }
-    // Where it only touches zero: the least of its magnitude (golden section).
+    // Where the field only touches zero: the minimum of its magnitude (golden section).
     double low = best - 1, high = best + 1;
     for (int k = 0; k < 40; ++k) {
         const double a = low + 0.381966 * (high - low), b = high - 0.381966 * (high - low);
@@ -129,7 +129,7 @@ inline Line line_through(const Field& f, const dvec3& p, const dvec3& normal, do
     return line;
 }
 
-/// The edge of the two planes that touch a surface at two places, nearest to those.
+/// The intersection line of the tangent planes at two points of a surface, through its point nearest to their middle.
 inline Line edge_between(const Field& f, const dvec3& p, const dvec3& m, const dvec3& q, const dvec3& n, double near,
                          double size) {
     const dvec3 along = glm::cross(m, n);
@@ -163,7 +163,7 @@ inline std::optional<OnSurface> on_surface(Random& rng, const InterfaceTracer& t
     return std::nullopt;
 }
 
-/// The longest of some lines in a solid's surface.
+/// The longest of several lines in a solid's surface.
 inline std::optional<Line> random_line(Random& rng, const Field& f) {
     const InterfaceTracer tracer(Set{.phase = Phase{1}, .of = f});
     const double size = static_cast<double>(tracer.bounds().diagonal());
@@ -173,7 +173,7 @@ inline std::optional<Line> random_line(Random& rng, const Field& f) {
     for (int tries = 0; tries < (is_edge ? 6 : 2); ++tries) {
         auto a = on_surface(rng, tracer);
         if (!a) return std::nullopt;
-        // To the surface itself, from within a resolution of it.
+        // Moves a point that is within a resolution of the surface onto it.
         const double off = value(f, a->at);
         a->at -= off * a->normal;
         if (std::abs(value(f, a->at)) > near) a->at += 2 * off * a->normal;
@@ -189,7 +189,7 @@ inline std::optional<Line> random_line(Random& rng, const Field& f) {
     return line.length > 0 ? std::optional(line) : std::nullopt;
 }
 
-/// A ray along a line of the solid, and what it meets behind it, or on it.
+/// A ray along a line of the solid, and its targets, behind the line or on it.
 inline std::optional<Scene> scene_along(Random& rng, std::string kind, const Field& solid) {
     const std::optional<Line> line = random_line(rng, solid);
     if (!line) return std::nullopt;
@@ -205,7 +205,7 @@ inline std::optional<Scene> scene_along(Random& rng, std::string kind, const Fie
     const double back = rng.chance(0.2) ? 0.1 * rng.unit() : rng.unit() + 0.5;
     scene.o = glm::vec3(at - back * size * along);
     scene.crept = line->length;
-    // Behind it, where there is room; some on the line itself.
+    // Behind the line, where there is room; some on the line itself.
     std::vector<Field> same{solid};
     std::vector<Phased> others;
     const int count = 1 + rng.below(3);
@@ -219,7 +219,7 @@ inline std::optional<Scene> scene_along(Random& rng, std::string kind, const Fie
         t.phase = Phase{static_cast<std::uint8_t>(is_on_line || rng.chance(0.5) ? 2 : 1)};
         if (rng.chance(0.5)) t.half_thickness = t.radius * 0.5f * std::exp2(-rng.uniform(0, 8));
         if (static_cast<double>(t.half_thickness) * 2 < 3e-5 * size) t.half_thickness = 0;
-        // One of the solid's phase lies where the oracle says that there is room.
+        // A target in the solid's own phase is placed where the oracle says that there is room.
         const double reach = 1.05 * static_cast<double>(t.radius + t.half_thickness) + 1e-4 * size;
         const dvec3 centre(t.centre);
         if (t.phase == Phase{1} && !(value(solid, centre) > reach)) continue;
@@ -241,7 +241,7 @@ inline std::optional<Scene> scene_along(Random& rng, std::string kind, const Fie
     return scene;
 }
 
-/// Where a ray enters and leaves a target's substance.
+/// The distances at which a ray enters and leaves a target's substance.
 struct Chord {
     double enters, leaves;
     double enters_at, leaves_at;  ///< the cosine there
@@ -324,8 +324,8 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
     }
     totals.flickering += is_flickering;
     const double end = is_flickering ? changes.back().in : 1e30;
-    // A root is found if the phase changes there, as it should; a ray that has been moved aside by rounding, or that
-    // grazes, finds it as much earlier or later.
+    // A root is found if the phase changes there as expected. A ray that was displaced by rounding, or that grazes, may
+    // find it correspondingly earlier or later.
     for (const Chord& s : chords(scene)) {
         if (s.enters < 4 * resolution || s.leaves - s.enters < 4 * resolution || s.leaves > end) continue;
         const auto found = [&](double root, double cosine, auto&& is_meant) {
@@ -336,7 +336,7 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
         };
         if (s.enters_at < 0.05 || s.leaves_at < 0.05) continue;
         totals.roots += 2;
-        // What meets a ball on the line may be of its phase before.
+        // What touches a ball on the line may already be in its phase.
         const bool enters = found(s.enters, s.enters_at, [&](const Change& c) { return c.to == s.phase; });
         const bool leaves = found(s.leaves, s.leaves_at, [&](const Change& c) { return c.from == s.phase; });
         totals.missed += !enters + !leaves;
@@ -351,8 +351,8 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
     }
 }
 
-/// A solid of every kind of field, and a pair of two: above each other, cut or bitten out; some of them warped, turned,
-/// moved by round numbers.
+/// A solid of every kind of field, and combinations of two: one above the other, intersected or subtracted. Some are
+/// warped, rotated, or moved by round numbers.
 inline Field random_solid(Random& rng, const NodeKind& kind) {
     const auto placed = [&](Field f) {
         if (!bounds(f).finite()) f = Intersection{.of = {f, Box{.size = glm::vec3(2)}}};
@@ -381,7 +381,7 @@ inline Field random_solid(Random& rng, const NodeKind& kind) {
     return f;
 }
 
-/// `make(object)` gives a tracer.
+/// `make(object)` returns a tracer.
 template <class Make>
 void trace_along_lines(std::uint64_t seed, int rounds, Make&& make, Totals& totals) {
     Random rng(seed);

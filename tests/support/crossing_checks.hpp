@@ -1,18 +1,18 @@
 #pragma once
 
-/// Tracing against analytic roots: no interface missed, none invented, each where it is.
+/// Compares tracing with analytic roots: no interface may be missed or invented, and each must be in the right place.
 ///
-/// The exact sequence of phases along a ray is support/analytic_roots.hpp's. The tracer's comes from first_crossing()
-/// again and again, each ray starting at p_out of the last with the phase entered.
+/// The exact sequence of phases along a ray comes from support/analytic_roots.hpp. The tracer's sequence comes from
+/// repeated calls of first_crossing(): each ray starts at p_out of the previous crossing, in the phase entered there.
 ///
-/// Both are step functions of t. Where they differ over a stretch of the ray, the tracer is wrong, but for two cases:
-/// the stretch is shorter than four resolutions, which is all that tracing promises; or it lies within one resolution
-/// of an interface throughout (a grazing ray, a ray within a face), where a label in float is rounding's. Rays that
-/// creep along an interface for long are held to the same.
+/// Both are step functions of t. Where they differ over a stretch of the ray, the tracer is wrong, with two exceptions.
+/// The stretch may be shorter than four resolutions, because this is all that tracing promises. Or all of it may be
+/// within one resolution of an interface (a grazing ray, a ray within a face), where rounding decides labels. The same
+/// rules apply to rays that creep along an interface for long.
 ///
-/// Each ray's origin is the last one's p_out, rounded to floats. A ray that flickers along a face a thousand times is
-/// moved aside by that, all of it one way when its steps are shorter than an ulp of a coordinate. What is traced from
-/// there on is the ray beside, and is held to the exact one as far as they are apart.
+/// Each ray's origin is the last one's p_out, rounded to floats. This displaces a ray that flickers along a face a
+/// thousand times, always in one direction if its steps are shorter than an ulp of a coordinate. From there on, a
+/// parallel ray is traced. It is compared with the exact ray with a tolerance of the distance between them.
 
 #include <doctest/doctest.h>
 
@@ -52,7 +52,7 @@ inline std::string report(const char* what, const Scene& scene, const Probe& pro
     return s.str();
 }
 
-/// The direction in which a component grows, by differences in double over a hundredth of a resolution.
+/// The direction in which a component increases, from differences in double over a hundredth of a resolution.
 inline dvec3 growth(const Phased& object, const dvec3& p, Phase phase, double resolution) {
     const double step = 0.01 * resolution;
     dvec3 g;
@@ -64,8 +64,8 @@ inline dvec3 growth(const Phased& object, const dvec3& p, Phase phase, double re
     return glm::length(g) > 0 ? glm::normalize(g) : g;
 }
 
-/// Whether an interface in the plane with this normal passes here without an edge near; nor a seam, where solids of one
-/// phase meet beneath the surface: there the nearest zero of φ is the seam's.
+/// Whether an interface in the plane with this normal passes here, without an edge nearby, and without a seam, where
+/// solids of one phase meet beneath the surface. At a seam, the nearest zero of φ may be that of the seam.
 inline bool is_smooth(const Phased& object, const dvec3& p, const dvec3& n, Phase from, Phase to, double resolution) {
     const dvec3 u = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, dvec3(1, 0, 0)) : glm::cross(n, dvec3(0, 1, 0)));
     const dvec3 v = glm::cross(n, u);
@@ -112,7 +112,7 @@ class RayCheck {
     struct Step {
         double t_in, t_out;
         Hit crossing;
-        double aside;  ///< how far beside the exact ray it was looked for
+        double aside;  ///< distance from the exact ray at which it was searched for
         bool is_rounded;
     };
 
@@ -120,7 +120,7 @@ class RayCheck {
         if (complaints_.size() < 10) complaints_.push_back(report(what, scene_, probe_, number_));
     }
 
-    /// The tracer's crossings: each leads from the phase that is carried to another, and is as short as it should be.
+    /// Checks the tracer's crossings: each leads from the carried phase to another, and is as short as required.
     void trace() {
         Phase carried = first_;
         glm::vec3 origin = probe_.o;
@@ -138,7 +138,7 @@ class RayCheck {
             const bool certified = hit->from == carried && hit->from != hit->to &&
                                    tracer_.label(hit->p_out) == hit->to &&
                                    (tracer_.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
-            // Along a face at an angle of 10⁻⁵ the label at a point depends on how it was rounded, for long.
+            // Along a face at an angle of 10⁻⁵, labels depend on rounding over a long distance.
             const bool is_rounded = !certified && hit->from == carried && hit->from != hit->to &&
                                     is_within_rounding(tracer_, hit->p_in, hit->from) &&
                                     is_within_rounding(tracer_, hit->p_out, hit->to);
@@ -146,8 +146,8 @@ class RayCheck {
             steps_.back().is_rounded = is_rounded;
             if (!certified && !is_rounded && totals_.uncertified++ < 3) complain("not certified");
             const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
-            // The bracket is cut down to a resolution, and its ends are rounded to float coordinates. One that passes
-            // a sliver of a third phase, undecided for up to 1.5 resolutions, is that much longer.
+            // A bracket is at most a resolution long, apart from rounding its ends to float coordinates. A bracket
+            // across a sliver of a third phase, which may stay undecided for 1.5 resolutions, is that much longer.
             totals_.over_sliver += width > 1.01 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in));
             if (width > 2.75 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in)) && totals_.wide++ < 3)
                 complain("wide bracket");
@@ -160,7 +160,7 @@ class RayCheck {
         totals_.flickering += steps_.size() > 100;
     }
 
-    /// Where the two step functions differ, the exact one and the tracer's.
+    /// Checks where the exact step function and the tracer's differ.
     void compare_labels() {
         std::vector<double> breaks{0, length_};
         for (const Piece& p : exact_) breaks.push_back(p.start);
@@ -206,7 +206,7 @@ class RayCheck {
         }
     }
 
-    /// Crossings far from others: where they are, their normals, and what is reflected there.
+    /// Checks crossings far from others: their positions, their normals, and rays reflected there.
     void check_isolated_crossings() {
         for (std::size_t i = 1; i + 1 <= exact_.size(); ++i) {
             const double t = exact_[i].start, last = i + 1 < exact_.size() ? exact_[i + 1].start : length_;
@@ -226,17 +226,17 @@ class RayCheck {
                 continue;
             }
             check_normal(*nearest, n);
-            // Who knows nothing else may take a label there that is another by rounding for a change.
+            // A tracer that knows only the label may take a label changed by rounding for a crossing.
             if (!nearest->is_rounded) check_leaving_rays(nearest->crossing);
         }
     }
 
-    /// The normal of a crossing, which is exactly n, and the ray that is reflected there.
+    /// Checks the normal of a crossing, which is exactly n, and the ray reflected there.
     void check_normal(const Step& step, const dvec3& n) {
         const Hit& hit = step.crossing;
         const glm::vec3 normal = tracer_.normal(hit, probe_.d);
         ++totals_.normals;
-        // It is taken at an end of the bracket, and on the way there a small ball's normal turns.
+        // The normal is evaluated at an end of the bracket, and the normal of a small ball changes on the way there.
         const auto is_off = [&](const dvec3& m) { return glm::length(glm::cross(dvec3(normal), m)) > 1e-3; };
         if (glm::dot(dvec3(normal), n) < 0 ||
             (is_off(n) && is_off(growth(scene_.object, dvec3(hit.p_in), hit.from, resolution_)) &&
@@ -252,7 +252,7 @@ class RayCheck {
         }
     }
 
-    /// What is known of a ray's start changes nothing of what it meets, on whichever side it leaves.
+    /// Checks that hints about a ray's start do not change its crossings, on whichever side it leaves.
     void check_leaving_rays(const Hit& hit) {
         const glm::vec3 normal = tracer_.normal(hit, probe_.d);
         Random rng(static_cast<std::uint64_t>(number_) + 1);
@@ -288,7 +288,7 @@ class RayCheck {
     const std::vector<Piece> exact_ = exact_pieces(scene_.object, o_, d_, length_);
     std::vector<Step> steps_;
     bool creeps_ = false;
-    double aside_ = 0;  ///< how far the last crossings lie beside the exact ray, at most
+    double aside_ = 0;  ///< maximum distance of the last crossings from the exact ray
 };
 
 template <class Tracer>
@@ -297,8 +297,8 @@ void check_ray(const Scene& scene, const Tracer& tracer, const Probe& probe, int
     RayCheck<Tracer>(scene, tracer, probe, number, totals, complaints)();
 }
 
-/// `make(object, whole)` gives a tracer of the object, whose whole program's is given; `probe(rng, scene, whole,
-/// tracer)` a ray.
+/// `make(object, whole)` returns a tracer of the object; `whole` is the tracer of its whole program. `probe(rng, scene,
+/// whole, tracer)` returns a ray.
 template <class Make, class ProbeOf>
 void trace_scenes(std::uint64_t seed, int scenes, int rays_each, Make&& make, ProbeOf&& probe, Totals& totals,
                   std::vector<std::string>& complaints) {

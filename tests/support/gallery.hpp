@@ -12,7 +12,7 @@
 
 namespace phasetree::tests {
 
-// Those whose trees the library reads by itself: images and fonts are read by the path tracer.
+// The scenes whose trees the library can read by itself, because only the path tracer reads images and fonts.
 inline std::vector<std::filesystem::path> gallery_of_the_library() {
     constexpr std::array<std::string_view, 3> read_by_the_tracer{"\"height_map\"", "\"labels\"", "\"text\""};
     std::vector<std::filesystem::path> all;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A glass of water whose water is modelled exactly, or too large, or too small.
+/// A glass of water, in which the water is modelled exactly, too large, or too small.
 
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/cylinder.hpp"
@@ -17,7 +17,7 @@ namespace phasetree::tests::glass_of_water {
 inline constexpr Phase glass{1}, water{2};
 /// The cavity of the glass is a cylinder about the z axis that begins at z = 0.
 inline constexpr float radius = 0.3f, wall = 0.06f, rim = 0.8f, level = 0.5f;
-/// How much the water is too large or too small, and the gap that is closed.
+/// The excess or deficit of the water, and the gap that is closed.
 inline constexpr float excess = 0.008f, gap = 0.02f;
 
 inline Field cylinder(float r, float low, float high) {
@@ -26,7 +26,7 @@ inline Field cylinder(float r, float low, float high) {
 inline Field hollow() {
     return Difference{.from = cylinder(radius + wall, -wall, rim), .subtract = {cylinder(radius, 0, rim + 1)}};
 }
-/// The glass, and in front of nothing but the vacuum, the water.
+/// The glass, and the water, which replaces only the vacuum.
 inline Phased filled(const Field& vessel, const Field& liquid) {
     return Over{.of = {Set{.phase = glass, .of = vessel}, Set{.phase = water, .of = liquid}}};
 }
@@ -34,15 +34,15 @@ inline Phased filled(const Field& vessel, const Field& liquid) {
 inline Phased exact() {
     return filled(hollow(), cylinder(radius, 0, level));
 }
-/// Water that is larger than the cavity on all sides but its surface, by a positive or negative length. It is turned,
-/// so that its walls have other roundings than those of the glass.
+/// Water that exceeds the cavity by a positive or negative length on all sides except its surface. It is rotated, so
+/// that its walls are rounded differently from those of the glass.
 inline Field water_larger_by(float length) {
     return warped(Rotate{.axis = {0, 0, 1}, .angle = 33}, cylinder(radius + length, -length, level));
 }
 inline Phased closed(Phased object) {
     return CloseGaps{.of = std::move(object), .of_phases = {water, glass}, .gap = gap};
 }
-/// How far a point is from the circle where glass, water and vacuum meet.
+/// The distance of a point from the circle where glass, water and vacuum meet.
 inline float distance_to_rim_of_water(const glm::vec3& p) {
     return std::hypot(std::hypot(p.x, p.y) - radius, p.z - level);
 }

@@ -1,4 +1,4 @@
-// Whether a value is as a JSON Schema (draft 7) says, of which it knows what the schema of scene files is made of.
+// Validates a value against a JSON Schema (draft 7). Supports only what the schema of scene files uses.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ class JsonSchema {
     Value root() const { return document_.root(); }
     Value definition(std::string_view name) const { return *definitions().find(name); }
 
-    /// Empty if the value is as the schema says; else what is wrong, and of which key.
+    /// Returns an empty string if the value is valid, otherwise what is wrong, and with which key.
     std::string mistake(Value value) const { return mistake(root(), value); }
     std::string mistake(Value schema, Value value) const {
         for (const Value rule : schema)
@@ -27,7 +27,7 @@ class JsonSchema {
 
   private:
     Value definitions() const { return *root().find("definitions"); }
-    // What is at a path such as "material/properties/clear".
+    // The value at a path such as "material/properties/clear".
     static Value at_path(Value value, std::string_view path) {
         const std::size_t end = path.find('/');
         const Value inner = *value.find(path.substr(0, end));

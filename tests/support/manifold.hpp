@@ -12,7 +12,7 @@
 
 namespace phasetree::tests {
 
-/// What keeps triangles from being a closed, oriented manifold.
+/// The defects that keep triangles from being a closed, oriented manifold.
 struct ManifoldFaults {
     std::size_t edges = 0;      ///< that do not have one triangle on each side
     std::size_t vertices = 0;   ///< around which the triangles are not one fan, or there are none
@@ -24,7 +24,7 @@ struct ManifoldFaults {
 inline ManifoldFaults manifold_faults(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices) {
     ManifoldFaults faults;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // of each edge from one vertex to another
-    // Around each vertex: from which neighbour to which the triangles lead.
+    // For each vertex, the pairs of neighbours that its triangles connect.
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> around(vertices);
     for (const auto& t : triangles) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) ++faults.triangles;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a crossing's normal must be, by differences of the oracle's components in double (set_algebra.hpp).
+/// Checks the normals of crossings against differences of the oracle's components in double (set_algebra.hpp).
 
 #include <algorithm>
 #include <vector>
@@ -22,7 +22,7 @@
 
 namespace phasetree::tests {
 
-/// The direction in which a component grows; zero where it does not.
+/// The direction in which a component increases; zero if there is none.
 inline glm::dvec3 direction_of_growth(const Phased& object, const glm::dvec3& p, Phase phase, double step) {
     glm::dvec3 g;
     for (int i = 0; i < 3; ++i) {
@@ -52,7 +52,7 @@ struct NormalCheck {
         return glm::length(expected) > 0 && is_smooth(expected) ? Verdict::wrong : Verdict::by_an_edge;
     }
 
-    /// The same where an edge may pass: a normal is right that lies between those of the faces around.
+    /// As above where an edge may be near: a normal between those of the surrounding faces is right.
     Verdict verdict_among_faces() const {
         if (verdict() == Verdict::right) return Verdict::right;
         const std::vector<glm::dvec3> around = normals_around();
@@ -78,7 +78,7 @@ struct NormalCheck {
         return cosine > -0.1 ? glm::normalize(n - cosine * direction) : -n;
     }
 
-    /// Whether the interface is one between these phases, with this normal, up to forty resolutions around.
+    /// Whether within forty resolutions, the only interface is one between these phases with this normal.
     bool is_smooth(const glm::dvec3& n) const {
         const glm::dvec3 u =
             glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -97,7 +97,7 @@ struct NormalCheck {
         return true;
     }
 
-    /// Towards which `from` grows and `to` falls, a few resolutions around.
+    /// The direction in which `from` increases and `to` decreases, within a few resolutions.
     std::vector<glm::dvec3> normals_around() const {
         std::vector<glm::dvec3> result;
         Random rng(5);
@@ -112,7 +112,7 @@ struct NormalCheck {
     }
 };
 
-/// How many normals there were of each verdict, and what was wrong.
+/// The number of normals with each verdict, and descriptions of what was wrong.
 struct NormalTotals {
     std::size_t right = 0, by_an_edge = 0, wrong = 0;
     std::string complaints;
@@ -126,7 +126,7 @@ struct NormalTotals {
     }
 };
 
-/// The object, or a part of it that is bounded; nothing if that is empty.
+/// The object, or a bounded part of it; nullopt if that is empty.
 inline std::optional<Phased> traceable(Phased object) {
     try {
         if (!bounds(object).finite())
@@ -138,7 +138,7 @@ inline std::optional<Phased> traceable(Phased object) {
     }
 }
 
-/// Calls hit(crossing, direction) for what a ray meets.
+/// Calls hit(crossing, direction) for each crossing of a ray.
 template <class Hit>
 void each_crossing(const InterfaceTracer& tracer, const glm::vec3& origin, const glm::vec3& direction, Hit&& hit) {
     Evaluator::Workspace& w = Evaluator::thread_workspace();
@@ -153,8 +153,8 @@ void each_crossing(const InterfaceTracer& tracer, const glm::vec3& origin, const
     }
 }
 
-/// Calls ray(origin, direction) for rays at an object and, for each that hits, for some that graze it there, a few of
-/// them at less than rounding, all jittered.
+/// Calls ray(origin, direction) for rays at an object. For each ray that hits, also calls it for some jittered rays
+/// that graze the object there, a few of them within rounding errors.
 template <class Ray>
 void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& rng, int count, int grazing, Ray&& ray) {
     const Bounds b = tracer.bounds();
@@ -179,8 +179,8 @@ void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& r
     }
 }
 
-/// A cone that leans and is sheared, and rays that graze its side where the field is zero to rounding: of two hundred
-/// gradients there one is of nothing.
+/// An oblique, sheared cone, and rays that graze its side where the field is zero within rounding. One in two hundred
+/// gradients there is meaningless.
 inline Phased leaning_cone() {
     Field cone = CappedCone{.radius_bottom = 0.5f, .radius_top = 0.25f, .height = 1};
     cone = warped(Translate{.by = {-1, -0.75f, 0}}, Field(warped(Rotate{.angle = 33}, cone)));

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a node of a given type is drawn, and what the tests over all nodes ask of its type. The drawing itself is
-/// compiled once, in random_tree.cpp.
+/// Draws a random node of a given type, and provides what the tests over all nodes need to know about the type. The
+/// drawing itself is compiled once, in random_tree.cpp.
 
 #include "support/random_tree.hpp"
 #include "support/random_value.hpp"
@@ -17,7 +17,7 @@ template <class Node>
 concept IsEndlessGrid = requires(Node n) {
     n.boxes.fold;
 };
-/// Nodes that refuse an unbounded child.
+/// Nodes that reject an unbounded child.
 template <class Node>
 concept NeedsBoundedChild = IsEndlessGrid<Node> || requires(Node n) {
     n.surface;
@@ -35,7 +35,7 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth) {
     detail::fill(rng, value, p, depth, NeedsBoundedChild<Node>);
 }
 
-/// One random instance with this node at its root: its kind's.
+/// One random tree with a node of this kind at its root.
 template <class Node>
 auto random_rooted(Random& rng, int depth) {
     if constexpr (IsFieldNode<Node>)

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the number of a node's parameter is drawn.
+/// Draws a number for a node's parameter.
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,13 @@ inline float allowed(float v, const Limits& l, Random& rng) {
     return rng.uniform(low + 0.01f * (high - low), high - 0.01f * (high - low));
 }
 
-/// A number that suits its unit and limits; mostly small sizes, a few large ones.
+/// A number that suits the parameter's unit and limits; sizes are mostly small, a few are large.
 inline float random_number(Random& rng, const Parameter& p) {
     const bool negative = p.limits.contains(-0.01f), round = rng.chance(0.3);
     const auto rounded = [&](float v, float unit) { return round ? std::round(v / unit) * unit : v; };
     if (p.unit == "degrees") return allowed(rounded(rng.uniform(-180, 180), 45), p.limits, rng);
     if (p.unit == "degrees/m") return allowed(rounded(rng.uniform(-150, 150), 45), p.limits, rng);
-    // Counts; and waves long enough that an object has not thousands of them.
+    // Counts, and waves that are long enough not to occur thousands of times in an object.
     if (p.unit.empty() && p.limits.low > 2) return std::floor(rng.uniform(p.limits.low, p.limits.low + 6));
     if (p.name == "period" || p.name == "scale") return rounded(rng.uniform(0.4f, 1.5f), 0.25f);
     if (p.unit == "m" && !negative) {

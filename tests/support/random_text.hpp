@@ -1,6 +1,6 @@
 #pragma once
 
-/// Texts for tests, as no font has them: blobs, with and without holes, that may overlap.
+/// Texts for tests, with letters that occur in no font: blobs, with and without holes, that may overlap.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ inline TextOutlines random_text(Random& rng) {
     TextOutlines text;
     const bool is_reversed = rng.chance(0.5);
     const auto reversed = [](TextOutlines::Contour c) {
-        // The first point stays the first: one on the curve.
+        // The first point, which is on the curve, stays the first.
         std::reverse(c.begin() + 1, c.end());
         return c;
     };
@@ -43,7 +43,7 @@ inline TextOutlines random_text(Random& rng) {
         TextOutlines::Line& line = text.lines.emplace_back();
         for (int letters = 1 + rng.below(3); letters > 0; --letters) {
             TextOutlines::Letter letter{line.width, line.places++, {}};
-            // Of strokes that may overlap no hole is to be in two.
+            // If strokes may overlap, no hole may be in two of them.
             const bool may_overlap = rng.chance(0.5);
             const int strokes = 1 + rng.below(2);
             for (int i = 0; i < strokes; ++i) {

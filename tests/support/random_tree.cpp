@@ -17,7 +17,7 @@ std::uint64_t mixed(std::string_view name, std::uint64_t number) {
     return number;
 }
 
-// Each name has a hash with one random number, and the greatest is chosen (rendezvous hashing).
+// Each name is hashed with one random number, and the name with the greatest hash is chosen (rendezvous hashing).
 template <class... Nodes, class F>
 void with_random_type(Random& rng, TypeList<Nodes...>, F&& f) {
     const std::uint64_t number = rng.bits();
@@ -33,11 +33,11 @@ auto drawn(Random& of_parent, int depth) {
     using Handle = std::conditional_t<IsFieldNode<Node>, Field, Phased>;
     for (int attempt = 0;; ++attempt) {
         Node node;
-        // What a shallow tree never has, such as two phases, a deeper one has.
+        // If shallow trees never have a property, such as two phases, deeper trees are tried.
         const int below = depth - 1 + attempt / 20;
         for_each_parameter(node, [&](auto& value, const Parameter& p) { fill<Node>(rng, value, p, below); });
         if constexpr (IsEndlessGrid<Node>) {
-            // Copies must not touch. Small ones, so that several are near the origin.
+            // Copies must not touch. They are small, so that several are near the origin.
             const glm::vec3 extent = bounds(node.of).extent();
             for (int i = 0; i < 3; ++i)
                 node.spacing[i] = i < 2 && rng.chance(0.3) ? 0.f : (extent[i] + 0.01f) * rng.uniform(1.02f, 1.8f);

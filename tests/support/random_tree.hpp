@@ -1,9 +1,10 @@
 #pragma once
 
 /// Random trees for the tests over all nodes. They come from the node lists and the nodes' own lists of parameters, so
-/// a new node is drawn, as a root and as a child, without a line here. What a node's prepare() refuses is drawn again.
-/// A tree is made of one number of the generator, each child of one of its parent's, and which node that is depends on
-/// names and not on places in lists. So a new node takes the place of others in some trees and leaves all else alone.
+/// a new node is drawn, as a root and as a child, without a line here. Parameters that a node's prepare() rejects are
+/// drawn again. A tree depends on a single number of the generator, and each child on a single number of its parent.
+/// The choice of a node depends on names instead of positions in lists. So a new node replaces others in some trees,
+/// and changes nothing else.
 ///
 /// The values keep an object about a metre large. A third of them are multiples of a quarter: coincident faces, equal
 /// radii, zero angles and exact ties are where sign errors and missing cases hide.
@@ -57,17 +58,17 @@ inline constexpr int random_phases = 4;
 struct NodeKind {
     std::string_view name;
     bool is_field;
-    /// One random instance with this node at its root; of a field's kind, the field with phase 1 above it.
+    /// One random tree with a node of this kind at its root. For the kind of a field, a `set` with phase 1 is above it.
     Phased (*object)(Random&, int depth);
     Field (*field)(Random&, int depth);  ///< null for objects' kinds
 };
 std::span<const NodeKind> node_kinds();
-/// Random numbers to draw trees of one kind with, which do not depend on the kinds before it.
+/// Random numbers for drawing trees of one kind; they do not depend on the kinds before it.
 Random random_for(std::uint64_t seed, const NodeKind&);
 /// The kind of objects with this name.
 const NodeKind& object_kind(std::string_view name);
 
-/// Where to sample an object: its bounds, and some space around; the part about the origin if it is unbounded.
+/// The box in which to sample an object: its bounds, enlarged; if it is unbounded, a part around the origin.
 inline Bounds region_of_interest(const Bounds& b) {
     const Bounds near = intersect(b, Bounds::centred(glm::vec3(3)));
     return near.empty() ? Bounds::centred(glm::vec3(1)) : near.inflated(0.1f + 0.1f * near.diagonal());

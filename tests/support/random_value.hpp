@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the value of a node's parameter is drawn.
+/// Draws a value for a node's parameter.
 
 #include <cmath>
 #include <iterator>
@@ -37,7 +37,7 @@ inline Phased bounded(Random& rng, Phased a) {
     return IntersectShape{.of = std::move(a), .shape = Sphere{.radius = rng.uniform(0.8f, 1.6f)}, .phases_cut = {}};
 }
 
-/// A formula; some of them need bounds, and are rejected without.
+/// A formula. Some formulas need bounds, and are rejected without them.
 inline std::string random_formula(Random& rng) {
     static constexpr const char* formulas[] = {
         "length(x, y, z) - A",
@@ -59,13 +59,13 @@ inline std::string random_formula(Random& rng) {
     return text;
 }
 
-/// A file's content, by the oracle of the node that reads it (set_algebra/all.hpp).
+/// The content of a file, drawn by the oracle of the node that reads it (set_algebra/all.hpp).
 template <class Content>
 FromFile<Content> with_random_content(Random& rng, const FromFile<Content>&) {
     return {.content = std::make_shared<const Content>(random_content(rng, std::type_identity<Content>{}))};
 }
 
-/// A value of a parameter; what is random of a child is bounded if the node needs that.
+/// A value of a parameter. A random child is bounded if the node requires this.
 template <class Value>
 void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_bounded) {
     const auto draw = [&](auto& child) {
@@ -97,14 +97,14 @@ void fill(Random& rng, Value& value, const Parameter& p, int depth, bool needs_b
     } else if constexpr (requires { value.content; }) {
         value = with_random_content(rng, value);
     } else if constexpr (std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<Phase>>) {
-        // A node's lists belong together, one as long as the other, or one shorter, or one for all: it refuses the
-        // rest.
+        // The lists of a node belong together: they are equally long, or one is shorter by one, or has one number for
+        // all. The node rejects any other lengths.
         value.resize(static_cast<std::size_t>(1 + rng.below(3)));
         Parameter each = p;
         each.optional = false;
         for (auto& item : value) fill(rng, item, each, depth, needs_bounded);
     } else {
-        // Mostly two or three, periodically the single child that a fold over the rest must survive.
+        // Mostly two or three children, sometimes a single one, which operators on several children must accept.
         using Entry = typename Value::value_type;
         const bool is_outline = std::is_same_v<Entry, glm::vec2>;
         if constexpr (std::is_same_v<Entry, glm::vec3>) {

@@ -1,4 +1,4 @@
-// Lines through cubes whose phases are random: the worst case for meshes, which no object has.
+// Lines through cubes with random phases: the worst case for meshing, which no real object reaches.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace phasetree::tests {
 
-/// Voxels of a side, each of which has one of some phases by chance, within the box from −1 to 1.
+/// A cube from −1 to 1 of this many voxels per side, each with a random phase.
 struct RandomVoxels {
     double side;
     int phases;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Grids of voxels for tests: random ones, and those of functions.
+/// Voxel grids for tests: random ones, and samples of functions.
 
 #include <bit>
 #include <cmath>
@@ -42,7 +42,8 @@ inline VoxelLattice random_lattice(Random& rng) {
     return lattice;
 }
 
-/// A number from −0.5 to 0.5 that depends on the place alone: blocks ask for the voxels between them more than once.
+/// A number from −0.5 to 0.5 that depends only on the position, because voxels between blocks are requested more than
+/// once.
 inline double hashed_noise(const glm::dvec3& p, std::uint64_t salt) {
     for (int a = 0; a < 3; ++a) salt = Random(salt ^ std::bit_cast<std::uint64_t>(p[a])).bits();
     return static_cast<double>(Random(salt).uniform(-0.5f, 0.5f));
@@ -62,7 +63,7 @@ inline VoxelGrid random_level_set(Random& rng) {
     });
 }
 
-/// Slabs, or a number for each voxel by chance.
+/// Slabs, or a random number for each voxel.
 inline LabelGrid random_labels(Random& rng, int numbers) {
     LabelGrid grid;
     grid.lattice = random_lattice(rng);

@@ -1,5 +1,5 @@
-// Rooms are folders that include each other in one direction, which a README draws: a block ```rooms there names one a
-// line, each before those that are built on it. What tests of that have in common.
+// Support for tests of rooms. Rooms are folders that include each other in one direction only. A README lists them in a
+// block ```rooms, one per line, each before those that are built on it.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -64,12 +64,12 @@ inline std::string first_folder(const std::string& path) {
     return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
-// The order that a README draws, and how many includes it was held against.
+// The order given in a README, and the number of includes that were checked against it.
 class RoomOrder {
   public:
     explicit RoomOrder(const fs::path& readme) : drawn_(words_of_block(readme, "rooms")) {}
 
-    // Every drawn room is there, and every room is drawn once.
+    // Checks that every listed room exists, and that every room is listed once.
     void check_is_of(std::set<std::string> there) const {
         there.erase("");
         for (const std::string& room : drawn_)
@@ -78,7 +78,7 @@ class RoomOrder {
             CHECK_MESSAGE(std::ranges::count(drawn_, room) == 1, room << " is there but is not drawn once");
     }
     bool has(const std::string& room) const { return position(room) < drawn_.size(); }
-    // A file of the first room may include one of the second.
+    // Whether a file of the first room may include one of the second.
     void check_arrow(const std::string& from, const std::string& to) {
         CHECK_MESSAGE(has(to), "it must name a file of a room by its path");
         CHECK_MESSAGE(position(to) <= position(from), "room " << to << " comes after " << from);
@@ -95,8 +95,8 @@ class RoomOrder {
     std::size_t checked_ = 0;
 };
 
-// Checks a folder whose folders are rooms and whose files name their includes by their paths within it. Includes that
-// begin with one of `others` lead out of it.
+// Checks a folder whose subfolders are rooms, and whose files name their includes by their paths in the folder.
+// Includes that begin with one of `others` lead out of it.
 inline std::size_t check_rooms(const fs::path& folder, const fs::path& readme, const std::vector<std::string>& others) {
     RoomOrder order(readme);
     std::set<std::string> there;

@@ -3,8 +3,8 @@
 
 namespace phasetree::tests {
 
-// A sanitizer keeps what was freed, guards what is used, and starts a thread of its own: how much memory or how many
-// threads a run takes then says nothing of the program. Tests of that are skipped.
+// A sanitizer keeps freed memory, surrounds used memory with guards, and starts a thread of its own. So the memory and
+// the number of threads of a run say nothing about the program, and tests of these are skipped.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool under_sanitizer = true;  // GCC's names
 #elif defined(__has_feature)
@@ -17,7 +17,7 @@ inline constexpr bool under_sanitizer = false;
 inline constexpr bool under_sanitizer = false;
 #endif
 
-// About how many times as long the command takes. What is to be interrupted in the middle is given as much longer.
+// About how many times as long the command takes with the sanitizer. Times before an interruption are multiplied by it.
 inline constexpr int sanitizer_slowdown = under_sanitizer ? 10 : 1;
 
 }  // namespace phasetree::tests

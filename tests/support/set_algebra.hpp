@@ -1,6 +1,6 @@
 #pragma once
 
-/// An oracle: what every node means, written a second time, in double, from the definitions of the sets (paper,
+/// An oracle: the meaning of every node, implemented a second time, in double, from the definitions of the sets (paper,
 /// Sections 3 to 6) and textbook inequalities of the primitives. It shares no equation with the library.
 ///
 ///     inside(f, p), label(a, p)   plain Boolean set algebra: &&, ||, !, "the later object replaces", inverse
@@ -30,7 +30,7 @@ struct Components {
     double operator[](std::size_t i) const { return phi.at(i); }
     static constexpr std::size_t size = 16;
 
-    /// Second smallest component: no label changes within that distance.
+    /// The second smallest component: the label does not change within that distance.
     double interface_distance() const {
         double first = absent, second = absent;
         for (const double v : phi) {

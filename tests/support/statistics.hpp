@@ -75,7 +75,7 @@ inline double normal_two_sided(double z) {
     return std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 
-// The significance one of `tests` independent tests may use so that all together keep `significance`.
+// The significance for each of `tests` independent tests, so that all together have `significance`.
 inline double sidak(double significance, std::size_t tests) {
     return -std::expm1(std::log1p(-significance) / static_cast<double>(std::max<std::size_t>(tests, 1)));
 }
@@ -156,9 +156,9 @@ inline ChiSquared chi_squared_test(std::span<const double> observed, std::span<c
     return result;
 }
 
-// How many samples a χ² test needs so that a defect of χ²-distance `distance` = Σ (q−p)²/p is seen: the statistic then
-// has mean N·distance + degrees and standard deviation about √(2·degrees + 4·N·distance). With `deviations` = 4 for a
-// significance near 1e-4 and 4 more for certainty, N·distance ≥ 8·√(2·degrees) + 64 is ample.
+// The number of samples that a χ² test needs to detect a defect of χ²-distance `distance` = Σ (q−p)²/p. The statistic
+// then has mean N·distance + degrees and standard deviation about √(2·degrees + 4·N·distance). With `deviations` = 4
+// for a significance near 1e-4 and 4 more for certainty, N·distance ≥ 8·√(2·degrees) + 64 is ample.
 inline std::size_t samples_to_detect(double distance, double degrees_of_freedom) {
     return static_cast<std::size_t>((8.0 * std::sqrt(2.0 * degrees_of_freedom) + 64.0) / distance) + 1;
 }

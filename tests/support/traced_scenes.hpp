@@ -1,7 +1,7 @@
 #pragma once
 
-/// Scenes that the analytic roots know, and rays through them, of which a third look for trouble: axis-parallel ones,
-/// through junctions and corners, starting on interfaces, grazing them.
+/// Scenes supported by the analytic roots, and rays through them. A third of the rays are difficult: parallel to an
+/// axis, through junctions and corners, starting on interfaces, or grazing them.
 
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
@@ -94,7 +94,7 @@ inline Scene abutting(Random& rng, bool odd_angle) {
     return {"abutting", a, {{0.15f, 0.5f, 0.35f}, {-0.15f, 0, 0.35f}, {0.45f, -0.5f, 0}}};
 }
 
-/// Glass walls of 10⁻⁵ of the object about water, a plate as thin, a slab.
+/// Water in glass walls that are 10⁻⁵ of the object's size thick, an equally thin plate, and a slab.
 inline Scene thin(Random& rng) {
     const Phased glass =
         ThinShell{.of = Sphere{.radius = 0.8f}, .shell = phase(1), .inside = phase(2), .half_thickness = 1e-5f};

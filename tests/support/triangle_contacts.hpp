@@ -1,5 +1,5 @@
-// Where the triangles of a mesh cross or touch each other, other than in common vertices and edges. Pairs are found by
-// a sweep; whether two triangles touch is decided by meshing/triangle_contact.hpp, which has tests of its own.
+// Finds where the triangles of a mesh cross or touch each other outside common vertices and edges. Pairs are found by a
+// sweep; whether two triangles touch is decided by meshing/triangle_contact.hpp, which has tests of its own.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Files that a test writes, to see what a reader makes of them.
+// Files that a test writes, to check how a reader handles them.
 #pragma once
 
 #include <doctest/doctest.h>

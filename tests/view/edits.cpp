@@ -1,5 +1,5 @@
-// What is wished for in the live view, made of a scene. That the picture is that of a file which says the same is
-// tested through the server (server.py).
+// Applies changes requested in the live view to a scene. server.py tests through the server that the picture equals
+// that of a file with the same content.
 #include "view/edits.hpp"
 
 #include <doctest/doctest.h>

@@ -51,7 +51,7 @@ def colours_of_nodes():
 
 
 def solved(rows):
-    """Of linear equations whose right sides are the last column, by elimination."""
+    """The solution of linear equations, whose right-hand sides are the last column, by elimination."""
     n = len(rows)
     for i in range(n):
         pivot = max(range(i, n), key=lambda j: abs(rows[j][i]))

@@ -32,10 +32,10 @@ inline double entry(const Bounds& box, const TracedRay& ray) {
     return result;
 }
 
-/// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. Of equally near
-/// crossings, the hit is that of the first object, and within an object that of the cell that the ray enters first. So
-/// the hit does not depend on the order in which Embree visits cells. (Embree may skip a cell that is entered only at
-/// the hit.)
+/// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. If crossings are
+/// equally near, that of the first object is the hit, and within an object, that of the cell that the ray enters first.
+/// So the hit does not depend on the order in which Embree visits cells. (Embree may skip a cell that is entered only
+/// at the hit.)
 inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object,
                          const PreparedRay& prepared, float t, float far, const RTCHit& hit) {
     if (t < far || hit.geomID == RTC_INVALID_GEOMETRY_ID) return true;

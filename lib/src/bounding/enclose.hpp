@@ -55,7 +55,7 @@ class Encloser {
     const AffinePoint* point_of_box_;
     std::span<const Specialisation> around_;
     std::span<const RequiredOfLocal> required_;
-    // Of the last program:
+    // The last program that was enclosed:
     EnclosedProgram last_;
     Enclosure* registers_ = nullptr;
     std::span<const Specialisation> specialisations_;

@@ -12,7 +12,7 @@ using rewriting::ArenaScope, rewriting::LiveSet, rewriting::with_data_primitive;
 
 namespace {
 
-// The cost of an instruction, in halves of a simple one.
+// The cost of an instruction; a simple one costs 2.
 unsigned half_instructions(const Instruction& in, std::span<const float> constants) {
     const OpTraits& t = traits(in.op);
     unsigned halves = t.half_instructions;

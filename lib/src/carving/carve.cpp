@@ -6,6 +6,8 @@
 // polyhedron that is farthest from the solid is cut by a plane perpendicular to the direction from the solid to it.
 #include "phasetree/carving/carve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -226,12 +228,16 @@ class Carver {
 void check(const CarveOptions& options) {
     for (const glm::dvec3& d : options.directions)
         if (!(glm::length(d) > 0) || !std::isfinite(glm::length(d)))
-            throw ModelError("a carving direction must not be zero");
-    if (options.directions.size() > Polyhedron::max_planes - 6) throw ModelError("too many carving directions");
+            throw ModelError("the length of a carving direction must be finite and not zero");
+    if (options.directions.size() > Polyhedron::max_planes - 6)
+        throw ModelError(fmt::format("there are {} carving directions; at most {} are allowed",
+                                     options.directions.size(), Polyhedron::max_planes - 6));
     if (options.directions.empty() &&
         (options.max_planes < 6 || options.max_planes > static_cast<int>(Polyhedron::max_planes)))
-        throw ModelError("the number of carving planes must be from 6 to 256");
-    if (!(options.tolerance > 0)) throw ModelError("the carving tolerance must be positive");
+        throw ModelError(fmt::format("the number of carving planes must be from 6 to {}, but is {}",
+                                     Polyhedron::max_planes, options.max_planes));
+    if (!(options.tolerance > 0))
+        throw ModelError(fmt::format("the carving tolerance must be a positive number, but is {}", options.tolerance));
 }
 
 }  // namespace
@@ -246,7 +252,8 @@ CarvedBounds carve(const Field& field, const CarveOptions& options) {
 }
 
 CarvedBounds carve(const Phased& object, PhaseSet of, const CarveOptions& options) {
-    if (of.contains(vacuum)) throw ModelError("the vacuum has no bounds to carve");
+    if (of.contains(vacuum))
+        throw ModelError("the vacuum is unbounded, so it has no carved bounds; select other phases");
     return carve(Field(Merge{.of = object, .phases = of}), options);
 }
 
@@ -264,7 +271,7 @@ void CarvedBounds::clip(const glm::dvec3& origin, const glm::dvec3& direction, d
 }
 
 Field as_field(const CarvedBounds& carved) {
-    if (carved.box.empty()) throw ModelError("the carved bounds are empty");
+    if (carved.box.empty()) throw ModelError("the carved bounds are empty, so there is no field of them");
     Polyhedron node;
     for (const HalfSpace& h : carved.planes) {
         // Round outwards: rounding a normal moves the plane by no more than this within the box.

@@ -21,7 +21,7 @@ vec4 pt_d_sqrt(vec4 a) { float v = sqrt(a.w); return vec4(a.xyz * (v > 0.0 ? 0.5
 )";
 
 const char* const calls_sampler = R"(
-// The phase at a point, and how far from there at least the label cannot change (0 or more).
+// The phase at a point, and a distance from there within which the label cannot change (0 or more).
 int phasetree_sample(vec3 p, out float interface_distance) {
     float phi[PHASETREE_COMPONENTS];
     phasetree_distances(p, phi);
@@ -79,7 +79,7 @@ void phasetree_gradients(vec3 p, out vec4 phi[PHASETREE_COMPONENTS]) {
 )";
 
 const char* const table_sampler = R"(
-// The phase by a program of the table, and how far at least the label cannot change.
+// The phase according to a program of the table, and a distance within which the label cannot change.
 int pt_sample_by(int program, vec3 p, out float interface_distance) {
     vec4 head = pt_four(program);
     int steps = int(head.x), outputs = int(head.y);
@@ -134,7 +134,7 @@ vec3 pt_box_size() { return (PHASETREE_HIGH - PHASETREE_LOW) / vec3(PT_BOXES); }
 ivec3 pt_box(vec3 p) {
     return clamp(ivec3(floor((p - PHASETREE_LOW) / pt_box_size())), ivec3(0), PT_BOXES - 1);
 }
-// Where the program of the box around a point begins; -1 - phase where there is but one phase.
+// The start of the program for the box that contains a point, or -1 - phase if the box contains a single phase.
 int pt_program(vec3 p) {
     ivec3 box = pt_box(p);
     return int(pt_number(PT_GRID + (box.z * PT_BOXES.y + box.y) * PT_BOXES.x + box.x));
@@ -142,7 +142,8 @@ int pt_program(vec3 p) {
 )";
 
 const char* const grid_sampler = R"(
-// The phase at a point, and how far along a direction at least it cannot change, as far as the box around it tells.
+// The phase at a point, and a distance along a direction within which it cannot change. It reaches at most a resolution
+// beyond the box around the point, whose program is used.
 int pt_sample_along(vec3 p, vec3 direction, out float interface_distance) {
     vec3 low = PHASETREE_LOW + vec3(pt_box(p)) * pt_box_size();
     vec3 to_sides = (low + mix(vec3(0.0), pt_box_size(), greaterThan(direction, vec3(0.0))) - p) / direction;
@@ -172,18 +173,18 @@ struct PhasetreeCrossing {
     vec3 normal;        // out of `from`
 };
 
-// A shader that shows some phases as others, or not at all (as 0), defines this before this text.
+// To show some phases as others, or to hide them (as 0), define this macro before this text.
 #ifndef PHASETREE_SHOWN
 #define PHASETREE_SHOWN(phase) (phase)
 #endif
 
 // The first change of phase along origin + t * direction (of length 1) between t_min and t_max, for a ray that is in
-// the phase `carried` at t_min; if that is -1 it is found out, and is `from` in the result. A reflected ray goes on from
-// t_in in the phase `from`, a refracted one from t_out in `to`. There is one call of what evaluates the object in this
-// loop, because compilers write each of them out.
+// the phase `carried` at t_min. If `carried` is -1, the phase at t_min is determined first; it is `from` in the result.
+// Start a reflected ray at t_in in the phase `from`, and a refracted ray at t_out in the phase `to`. The loop evaluates
+// the object in a single place, because compilers inline every call.
 PhasetreeCrossing phasetree_trace(vec3 origin, vec3 direction, float t_min, float t_max, int carried) {
     PhasetreeCrossing crossing = PhasetreeCrossing(false, t_max, t_max, carried, carried, -direction);
-    // Outside of the bounds all is vacuum.
+    // Outside the bounds, everything is vacuum.
     vec3 low = (PHASETREE_LOW - origin) / direction, high = (PHASETREE_HIGH - origin) / direction;
     vec3 enter = min(low, high), leave = max(low, high);
     float t = t_min, end = min(t_max, min(leave.x, min(leave.y, leave.z)));
@@ -211,13 +212,13 @@ PhasetreeCrossing phasetree_trace(vec3 origin, vec3 direction, float t_min, floa
         if (after < 0.0) {
             t = before + max(s, PHASETREE_RESOLUTION);
         } else {
-            // Halve until the bracket is as short as the resolution, or as numbers of 32 bits allow.
+            // Bisect until the bracket is as short as the resolution, or as 32-bit floats allow.
             t = 0.5 * (before + after);
             if (after - before <= PHASETREE_RESOLUTION || t <= before || t >= after) break;
         }
     }
     if (after < 0.0) return crossing;
-    // Either side's component gives the normal; one of them may have no sample, or no program in its box.
+    // The component of either phase gives the normal. One of them may have no sample, or no program in its box.
     vec3 near = origin + before * direction, far = origin + after * direction;
     bool is_near = inside >= 0 && inside != behind && pt_has_gradients(near);
     vec3 normal = phasetree_normal(is_near ? near : far, is_near ? inside : behind);

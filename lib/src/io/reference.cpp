@@ -177,7 +177,9 @@ ParameterPage parameter_page(const Parameter& p, const ValueType& type, std::str
 
 std::vector<Chapter> node_chapters() {
     std::vector<Chapter> chapters{
-        {"Shapes", "A field is one signed distance, negative inside. These fields are not made from other nodes.",
+        {"Shapes",
+         "A field is one signed distance, negative inside. Fields that are called exact are the distance to the "
+         "surface; others are lower bounds of it. These fields are not made from other nodes.",
          pages_of_nodes<false>(PlainFields())},
         {"Operators on fields", "These fields are made from other nodes: combined, rounded, repeated or bounded.",
          pages_of_nodes<true>(PlainFields())},

@@ -22,8 +22,8 @@ HWY_INLINE float magnitude(float x) {
     return x < 0 ? -x : x;
 }
 
-// Clips a span of a ray to the slab between two planes across an axis; the span becomes empty if nothing is left. It is
-// computed in double, so that an origin far from the object costs no accuracy.
+// Clips a span of a ray to the slab between two planes perpendicular to an axis; the span becomes empty if nothing is
+// left. It is computed in double, so that an origin far from the object costs no accuracy.
 HWY_INLINE void clip(Interval& span, float low, float high, float origin, float direction, double inverse) {
     const double to_low = static_cast<double>(low) - static_cast<double>(origin);
     const double to_high = static_cast<double>(high) - static_cast<double>(origin);

@@ -66,8 +66,8 @@ Line line_through(const Ball& ball, const std::array<double, 4>& u) {
     return {glm::vec3(origin), glm::vec3(d)};
 }
 
-// One of the independent copies of the estimate, the replicates of randomised quasi-Monte Carlo: the sequence from a
-// random start of its own, and how often its lines have crossed each interface.
+// One of several independent copies of the estimate (the replicates of randomised quasi-Monte Carlo): a sequence that
+// starts at a random point of its own, and how often its lines have crossed each interface.
 struct Copy {
     Sequence sequence;
     std::vector<std::uint64_t> crossings = std::vector<std::uint64_t>(capacity * capacity);
@@ -104,7 +104,7 @@ class AreaEstimate {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         return elapsed.count() >= options_.seconds || (options_.cancelled && options_.cancelled());
     }
-    // False if it was stopped. Then some copies have more lines than others.
+    // Returns false if it was stopped. Some copies then have more lines than others.
     bool trace(std::size_t begin, std::size_t end) {
         std::atomic<bool> is_complete{true};
         tbb::parallel_for(std::size_t{0}, copies, [&](std::size_t k) {
@@ -177,7 +177,9 @@ class AreaEstimate {
 
 AreaResult estimate_areas(const Bounds& bounds, const LineTracer& lines, const AreaOptions& options) {
     if (bounds.empty()) throw ModelError("the object is empty, so it has no interfaces");
-    if (!bounds.finite()) throw ModelError("the object is unbounded, so its areas are not finite");
+    if (!bounds.finite())
+        throw ModelError(
+            "the bounds are infinite: the object is unbounded, so its areas are not finite; intersect it with a box");
     if (!(options.tolerance > 0))
         throw ModelError(fmt::format("the tolerance must be a positive number, but is {}", options.tolerance));
     if (!(options.seconds > 0))

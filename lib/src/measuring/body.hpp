@@ -10,7 +10,7 @@ struct MomentBounds {
     Moments low{}, high{}, estimate{};
 
     MomentBounds() = default;
-    /// The moments of a phase, from sums in which no term took part in more than `additions` additions.
+    /// The moments of a phase, from sums in which each term took part in at most `additions` additions.
     MomentBounds(const PhaseSums&, std::size_t additions);
     /// Adds the moments of another body, times a factor that is not negative.
     void add(const MomentBounds&, double factor);

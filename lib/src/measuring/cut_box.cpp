@@ -6,8 +6,8 @@
 // most 18 tetrahedra. Each determinant has six terms of at most 1, with at most eight roundings each, so the error of a
 // volume is less than 10, that of a moment by less than 25, and the sum of the moments by less than 500. The map to the
 // box measures coordinates from the box's low corner. |low| + size is at most three times the largest absolute
-// coordinate, so a second moment is off by at most 9 · 600 units of what part_below() compares it with, and 5400 · 2⁻⁵³
-// < 10⁻¹².
+// coordinate, so the error of a second moment is at most 9 · 600 units, relative to what part_below() compares it with,
+// and 5400 · 2⁻⁵³ < 10⁻¹².
 #include "measuring/cut_box.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// What is below the plane, in the unit cube.
+// The part of the unit cube below the plane.
 struct UnitPart {
     Moments moments{};
     Point low{1, 1, 1}, high{0, 0, 0};
@@ -32,7 +32,7 @@ struct UnitPart {
             high[i] = std::max(high[i], p[i]);
         }
     }
-    // Adds the moments of a tetrahedron, `sign` times.
+    // Adds the moments of a tetrahedron, multiplied by `sign`.
     void add(const Point& a, const Point& b, const Point& c, const Point& d, double sign = 1) {
         Point u{}, v{}, w{}, sum{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ struct Corner {
     double f;
 };
 
-// The point between two corners, one below the plane and one not, at which the linear function is zero.
+// The point at which the linear function is zero, between a corner below the plane and one that is not.
 Point zero_between(const Corner& below, const Corner& above) {
     const double t = below.f / (below.f - above.f);
     Point p{};

@@ -40,7 +40,7 @@ struct PartOfBox {
         low.fill(std::numeric_limits<double>::infinity());
         high.fill(-std::numeric_limits<double>::infinity());
     }
-    /// All of the box.
+    /// The whole box.
     explicit PartOfBox(const MeasuredBox&);
 };
 

@@ -1,8 +1,9 @@
-// Statements that only need to know which boxes are next to which.
+// Decides statements from the adjacency of boxes alone.
 //
-// *Sets of boxes.* A box is *in* a phase if all of it certainly is, and *may meet* it otherwise, unless it certainly
-// does not. What is connected through boxes in a phase that share faces is connected in the phase. What is not
-// connected through boxes that may meet the phase and share at least a point is not connected in it.
+// *Sets of boxes.* A box is *in* a phase if the whole box certainly is. Otherwise it *may meet* the phase, unless it
+// certainly does not. Points that are connected through boxes that are in a phase and share faces are connected in the
+// phase. Points that are not connected through boxes that may meet the phase and share at least a point are not
+// connected in it.
 #include "measuring/decide.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Proof nowhere() {
     return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
 }
 
-// The groups of the leaves for which `is_wanted` holds; those that share a face, or at least a point, are together.
+// Groups the leaves for which `is_wanted` holds. Leaves that share a face, or at least a point, are in the same group.
 template <class IsWanted>
 DisjointSets groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted& is_wanted) {
     DisjointSets groups(octree.leaves.size());
@@ -37,7 +38,7 @@ DisjointSets groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted&
     return groups;
 }
 
-// The largest leaf, of those for which `is_wanted` holds; the first one of equals.
+// The largest leaf for which `is_wanted` holds; among equals, the first.
 template <class IsWanted>
 std::optional<std::uint32_t> largest(const PhaseOctree& octree, const IsWanted& is_wanted) {
     std::optional<std::uint32_t> found;
@@ -112,7 +113,8 @@ bool is_separated(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t 
     return !is_inside_reached;
 }
 
-// The leaves of a path through boxes outside the walls, from one in a phase inside to the space around the object.
+// The leaves of a path through boxes outside the walls, from a box that is in a phase of `inside` to the space around
+// the object.
 std::vector<std::uint32_t> leak(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t inside) {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> from(octree.leaves.size(), none);
@@ -146,7 +148,7 @@ struct ClosestPair {
     std::uint32_t first, second;
 };
 
-// The pair of leaves, one of each list, that are closest to each other, if they are closer than `limit`.
+// The closest pair of leaves, one from each list, if they are closer than `limit`.
 class ClosestLeaves {
   public:
     ClosestLeaves(const PhaseOctree& octree, double limit) : octree_(octree) { best_.distance = limit; }
@@ -198,8 +200,8 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
     return points;
 }
 
-// A point of each phase, joined by a path on which there are no other phases. Of all such points that are middles of
-// boxes, about the closest.
+// A point of each phase, joined by a path without other phases. Of all pairs of such points that are centres of boxes,
+// this is about the closest.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
     DisjointSets groups =
@@ -301,7 +303,7 @@ Proof decide(const Evidence& e, const AreApart& s) {
     if (e.is_nowhere(s.first) || e.is_nowhere(s.second)) return nowhere();
     const auto may_meet = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_possible(p.index); }; };
     const auto is_in = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); }; };
-    // Distances of boxes are rounded. Boxes that do not touch are at least a side of the smallest ones apart.
+    // Distances of boxes are rounded. Boxes that do not touch are at least one side of the smallest boxes apart.
     const double rounding = 1e-12 * e.octree.whole().half_diagonal();
     const double limit = std::max(s.at_least * (1 + 1e-12) + rounding, 0.5 * e.octree.side());
     const auto close = ClosestLeaves(e.octree, limit)

@@ -8,21 +8,21 @@
 
 namespace phasetree::measuring {
 
-/// What statements are decided from.
+/// What is known of the object when a statement is decided.
 struct Evidence {
     const PhaseOctree& octree;
     const Evaluator& evaluator;
     const std::function<bool()>& is_stopped;
 
-    /// Whether no box may contain the phase.
+    /// Whether the phase is certainly in no box.
     bool is_nowhere(Phase) const;
-    /// A point of each of these phases; nothing if one is not known.
+    /// A point of each of these phases; nullopt if one of them has no known point.
     std::optional<std::vector<Witness>> points_of(PhaseSet) const;
     /// The point in the middle of a box that is certainly in one phase.
     Witness middle_of(const OctreeLeaf&) const;
 };
 
-/// Each returns a verdict, or "undecided" if these boxes do not suffice.
+/// Decide a statement; the verdict is "undecided" if these boxes do not suffice.
 Proof decide(const Evidence&, const IsPresent&);
 Proof decide(const Evidence&, const IsConnected&);
 Proof decide(const Evidence&, const IsClosed&);
@@ -30,7 +30,7 @@ Proof decide(const Evidence&, const AreApart&);
 Proof decide(const Evidence&, const AreTouching&);
 Proof decide(const Evidence&, const IsThick&);
 
-/// The leaves for which `is_wanted` holds, by their indices.
+/// The indices of the leaves for which `is_wanted` holds.
 template <class IsWanted>
 std::vector<std::uint32_t> leaves_where(const PhaseOctree& octree, IsWanted&& is_wanted) {
     std::vector<std::uint32_t> found;

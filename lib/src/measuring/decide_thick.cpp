@@ -1,11 +1,11 @@
 // Whether a phase is nowhere thinner than required.
 //
-// *Proof.* Points of the phase are in boxes that may meet it. A box is done if there is a ball of the required diameter
-// in the phase whose centre is within reach of all of the box. That a ball is in the phase follows from the components
-// at its centre, which are 1-Lipschitz, or from the boxes that it meets.
+// *Proof.* All points of the phase are in boxes that may meet it. A box is done if the phase contains a ball of the
+// required diameter whose centre is within reach of every point of the box. The ball is in the phase if this follows
+// from the components at its centre, which are 1-Lipschitz, or from the boxes that it meets.
 //
-// *Disproof.* At a point of the phase, all centres within reach are excluded: they are in boxes, and for each of these
-// there is a box outside the phase that is closer to any point of it than the radius.
+// *Disproof.* All centres within reach of some point of the phase are excluded: for each box that contains such
+// centres, there is a box outside the phase that is closer than the radius to every point of it.
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +63,8 @@ class Thickness {
     }
 
   private:
-    // Once this many boxes are open, the phase is hardly thick, and a few of them are enough to find out where.
+    // With this many open boxes, the phase is hardly thick enough, and a few of the boxes suffice to find out where it
+    // is not.
     static constexpr std::size_t enough_open = 512;
     static constexpr std::size_t most_candidates = 48;
 
@@ -77,7 +78,7 @@ class Thickness {
         const auto own = -static_cast<double>(values[phase_.index]);
         return std::max(own, std::isfinite(others) ? others : own) - static_cast<double>(octree_.value_error);
     }
-    // Whether the ball is in the phase, by the boxes that it meets, which are those in [begin, end).
+    // Whether the ball is in the phase, judging by the boxes that it meets; these are in [begin, end).
     bool is_ball_in(const Point& centre, std::size_t begin, std::size_t end) const {
         if (not_in_[end] == not_in_[begin]) return true;
         const OctreeLeaf &first = octree_.leaves[begin], &last = octree_.leaves[end - 1];
@@ -127,8 +128,8 @@ class Thickness {
         last_centre_ = widened(best);
         return true;
     }
-    // Whether each point of the phase in a box is within reach of a ball. Divides the box where one ball is not enough,
-    // as at edges, where it is about as far away as it may be.
+    // Whether each point of the phase in a box is within reach of a ball. Divides the box if one ball is not enough, as
+    // at edges, where the ball is nearly as far away as allowed.
     bool is_covered(const Cube& box, int depth) {
         constexpr int most_depth = 3;
         if (find_centre(box)) return true;
@@ -163,7 +164,7 @@ class Thickness {
         prove(leaves.subspan(middle));
     }
 
-    // Points of the phase in some of the boxes that are open.
+    // Points of the phase in some of the open boxes.
     std::vector<glm::vec3> candidates() const {
         std::vector<glm::vec3> points;
         const std::size_t step = std::max<std::size_t>(1, open_.size() / most_candidates);

@@ -85,7 +85,7 @@ class Examination {
         find_phases(program, is_enclosed ? &encloser.enclosed() : nullptr);
         return true;
     }
-    // Leaves all phases of the program possible.
+    // Treats all phases of the program as possible.
     void leave_open() {
         const ArenaScope scratch(worker_.scratch);
         result_.node.specialisations = {};
@@ -206,8 +206,9 @@ Division::Division(const Node& parent, const MeasureContext& context, Worker& wo
     has_jumps_ = context.program.has_folds && may_jump(parent.program);
 }
 
-// The phase whose component is negative at the centre of a box. Nothing if there is none, or if a component is not a
-// number; then pruning's verdict that the box is in one phase is not used, because nothing says in which.
+// The phase whose component is negative at the centre of a box. Returns nullopt if there is none, or if a component is
+// not a number. In that case, a result of pruning that the box is in a single phase is not used, because it is unknown
+// in which.
 std::optional<Phase> Division::phase_at_centre(std::size_t i) const {
     const ValuesAtPoint centre{values_.registers, values_.slot, i};
     std::optional<Phase> found;

@@ -21,7 +21,7 @@ struct MeasureContext {
     float resolution = 0;            ///< in the scene's unit of length
 };
 
-/// A box, with the part of the object's program that is left in it.
+/// A box, with the part of the object's program that is left in it after pruning.
 struct Node {
     Bounds box;
     WorkingProgram program;
@@ -39,7 +39,8 @@ struct PhaseInBox {
     /// Directions in which the component does not rise anywhere in the box: bit 2i towards lower coordinates along axis
     /// i, bit 2i + 1 towards higher ones.
     std::uint8_t falls = 0;
-    /// The least value of the component at the sampled points that are in the phase, and the number of that point.
+    /// The least value of the component at the sampled points in the phase, and the number of the point where it
+    /// occurs.
     double deepest = 0;
     std::uint8_t deepest_at = 0;
 
@@ -51,7 +52,7 @@ struct PhaseInBox {
 /// The points of a box at which its components are sampled.
 std::array<glm::vec3, batch_size> sampled_points(const Bounds& box);
 
-/// What is known of a box.
+/// What is known about a box.
 struct ExaminedBox {
     Node node;
     std::optional<Phase> only{};         ///< the phase that contains all of the box, if it is known

@@ -1,6 +1,6 @@
 // The bounds are first divided into parts. Then each part is divided by itself, depth first, until the doubt in each
 // box is below a threshold. (The doubt of a phase is the volume that may or may not belong to it.) If volumes are not
-// precise enough, the threshold falls, and all parts are divided again from the beginning. All earlier divisions
+// precise enough, the threshold is lowered, and all parts are divided again from the beginning. All earlier divisions
 // together take less time than the last one, and memory is needed only for one path of boxes per thread.
 //
 // The sums of a part are added in the order of its division, and those of the parts in the order of the parts, so they
@@ -41,7 +41,7 @@ constexpr double least_share = 1e-3;
 // Phases are divided further as long as their doubt in a box is above these thresholds.
 using Thresholds = std::array<double, Phase::capacity>;
 
-// A part of the bounds, and what its last division has found.
+// A part of the bounds, and the result of its last division.
 struct Part {
     ExaminedBox box;
     ObjectSums sums;
@@ -50,7 +50,7 @@ struct Part {
     bool is_full = false;   // whether it has been divided into as many boxes as it may be
 };
 
-// Says when to stop.
+// Decides when to stop.
 class Stop {
   public:
     explicit Stop(const MeasureOptions& options) : options_(options), start_(Clock::now()) {}
@@ -295,7 +295,7 @@ class Measurement {
         }
         return MeasureEnd::precision;
     }
-    // False if it was stopped. Parts that were not finished keep what was known of them.
+    // Returns false if it was stopped. Unfinished parts keep their previous results.
     bool divide_once(std::size_t most_of_part, double from, double to) {
         std::atomic<std::size_t> done{0};
         std::atomic<bool> is_stopped{false};

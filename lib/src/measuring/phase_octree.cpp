@@ -125,7 +125,7 @@ class OctreeDivision {
             }
             items = std::move(next);
         }
-        // The points of `first` are kept, and its data of falls.
+        // The points and the falls of `first` are kept.
         parts.resize(items.size() + 1);
         tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
             Found& part = parts[i + 1];
@@ -336,7 +336,7 @@ void PhaseOctree::narrow() {
         for_each_phase(leaf.is_certain() ? 0 : leaf.possible, [&](int phase) {
             if (is_excluded(leaf, phase)) excluded |= std::uint64_t{1} << phase;
         });
-        // One phase is always left: each point is in one.
+        // At least one phase must remain, because each point is in some phase.
         if (excluded == 0 || excluded == leaf.possible) continue;
         leaf.possible &= ~excluded;
         for (int direction = 0; direction < 6; ++direction)

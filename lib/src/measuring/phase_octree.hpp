@@ -36,7 +36,7 @@ struct OctreeLeaf {
     bool is_certain() const { return (possible & (possible - 1)) == 0; }
 };
 
-/// A point that certainly is in a phase.
+/// A point that is certainly in a phase.
 struct CertainPoint {
     glm::vec3 point;
     double depth;  ///< minus the component there, or an estimate of it
@@ -79,12 +79,12 @@ struct PhaseOctree {
             if (i != 13) beside(leaf, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, f);
     }
 
-    /// Excludes phases from boxes by what is beside them. Let a phase's component not rise in a box towards one of its
-    /// faces. A point of the phase in the box may then move through this face, and stays in the phase. So if no box on
-    /// the other side may contain the phase, neither does this one.
+    /// Excludes phases from boxes by what neighbouring boxes contain. Suppose that a phase's component does not rise in
+    /// a box towards one of its faces. Then a point of the phase in the box can move through this face without leaving
+    /// the phase. So if no box on the other side can contain the phase, this box does not contain it either.
     void narrow();
 
-    /// The same for half of the directions, so that each pair of leaves is met once or twice, not from both of them.
+    /// The same for half of the directions, so that not every pair of leaves is visited from both of its leaves.
     template <class F>
     void around_leaf_once(const OctreeLeaf& leaf, F&& f) const {
         for (int i = 0; i < 13; ++i) beside(leaf, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, f);
@@ -130,7 +130,7 @@ struct PhaseOctree {
     }
 };
 
-/// Thrown by divided() if it is to stop, or if there are more boxes than allowed.
+/// Thrown by divided() when it is stopped, or when there are more boxes than allowed.
 struct DivisionStopped {
     bool is_for_boxes = false;
 };

@@ -9,7 +9,7 @@ namespace {
 
 using Triple = std::array<double, 3>;
 
-// The range of a product of two numbers from intervals; of a square if they are the same number.
+// The range of a product of two numbers from intervals, or of a square if both are the same number.
 std::pair<double, double> range_of_product(double a_low, double a_high, double b_low, double b_high, bool is_square) {
     const double p = a_low * b_low, q = a_low * b_high, r = a_high * b_low, s = a_high * b_high;
     if (is_square) return {a_low <= 0 && a_high >= 0 ? 0 : std::min(p, s), std::max(p, s)};
@@ -86,7 +86,7 @@ void PhaseSums::add(const MeasuredBox& box) {
 void PhaseSums::add(const MeasuredBox& box, const PartOfBox& certain, const PartOfBox& possible,
                     const Moments& estimated) {
     const double doubt = std::max(0.0, possible.moments[0] - certain.moments[0]);
-    // What else is in the phase lies between the two parts, so its volume is between 0 and their difference.
+    // The rest of the phase lies between the two parts, so its volume is between 0 and their difference.
     for_each_integrand(possible.low, possible.high, [&](std::size_t k, double least, double most) {
         const bool is_volume = k == 0;
         low[k] += certain.moments[k] + (is_volume || doubt == 0 ? 0 : doubt * std::min(0.0, least));

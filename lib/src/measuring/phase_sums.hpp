@@ -23,10 +23,10 @@ struct PhaseSums {
     }
     double doubt() const { return high[0] - low[0]; }
 
-    /// Adds a box, all of which is in the phase.
+    /// Adds a box that is entirely in the phase.
     void add(const MeasuredBox&);
-    /// Adds a box in doubt. The phase contains at least `certain` and at most `possible` of it. The moments of its part
-    /// are approximately `estimated`.
+    /// Adds a box in doubt. The phase contains at least `certain` and at most `possible` of it. The moments of the part
+    /// in the phase are approximately `estimated`.
     void add(const MeasuredBox&, const PartOfBox& certain, const PartOfBox& possible, const Moments& estimated);
     void add(const PhaseSums&);
 };
@@ -38,10 +38,10 @@ class ObjectSums {
 
     PhaseSet phases() const { return phases_; }
     const PhaseSums& operator[](Phase p) const { return sums_[index_[p.index]]; }
-    /// Adds a box as it is, without dividing it.
+    /// Adds a box without dividing it further.
     void add(const ExaminedBox&, const MeasureContext&);
     void add(const ObjectSums&);
-    /// The largest number of additions in which one term has taken part.
+    /// The largest number of additions in which any single term has taken part.
     std::size_t additions() const { return additions_; }
 
   private:

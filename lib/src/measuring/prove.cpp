@@ -36,8 +36,8 @@ class Prover {
           present_(statements.size()),
           is_measured_(statements.size()) {}
 
-    // Coarse volumes first, because most statements about volumes are decided by them; then the boxes; then volumes as
-    // precise as they must be. Each stage leaves time for the next.
+    // First coarse volumes, which decide most statements about volumes; then the boxes; then volumes as precisely as
+    // necessary. Each stage leaves time for the next.
     std::vector<Proof> run() {
         const FlushSubnormals flush;
         decide_volumes(0.1, 0.01, 0.25);
@@ -85,7 +85,7 @@ class Prover {
         return std::max({extent.x, extent.y, extent.z}) / boxes_along_longest_side;
     }
     bool is_open(std::size_t i) const { return proofs_[i].verdict == Verdict::undecided && proofs_[i].reason.empty(); }
-    // Whether boxes can still decide something: a statement other than on volumes, or whether phases are somewhere.
+    // Whether boxes can still decide something: a statement that is not about volumes, or whether phases exist.
     bool is_any_open() const {
         for (std::size_t i = 0; i < statements_.size(); ++i) {
             const auto* volume = std::get_if<HasVolume>(&statements_[i]);
@@ -121,7 +121,7 @@ class Prover {
         proof.resolution = evidence.octree.side();
         proofs_[i] = std::move(proof);
     }
-    // Whether the phases of a statement about a volume are somewhere, which it requires.
+    // Decides whether the phases of a statement about a volume exist, as the statement requires.
     void decide_presence(const Evidence& evidence, const HasVolume& s, std::size_t i) {
         for (const auto& [phase, weight] : s.weights) {
             if (present_[i].contains(phase)) continue;
@@ -135,7 +135,7 @@ class Prover {
         }
         conclude(s, i);
     }
-    // Decides by the interval known.
+    // Decides from the interval known so far.
     void conclude(const HasVolume& s, std::size_t i) {
         Proof& proof = proofs_[i];
         const Measured& sum = proof.measured;
@@ -144,7 +144,7 @@ class Prover {
         if (sum.low >= s.at_least && sum.high <= s.at_most && are_present(s, present_[i]))
             proof.verdict = Verdict::proved;
     }
-    // Open statements about volumes, each with an equal part of the time that is left of the stage.
+    // Decides open statements about volumes. Each gets an equal part of the stage's remaining time.
     void decide_volumes(double tolerance, double finest, double share) {
         begin_stage(share);
         std::size_t left = 0;
@@ -201,14 +201,14 @@ class Prover {
     Evaluator evaluator_;
     Clock::time_point start_;
     std::vector<Proof> proofs_;
-    // Of statements about volumes: the phases that are known to be somewhere, and whether there is an interval.
+    // For each statement about a volume: the phases that are known to exist, and whether there is an interval.
     std::vector<PhaseSet> present_;
     std::vector<bool> is_measured_;
     double end_of_stage_ = 0;  // in seconds since the start
     std::atomic<bool> is_stopped_{false}, is_cancelled_{false};
 };
 
-// Rejects statements about phases that cannot be meant, and lengths out of their ranges.
+// Rejects statements with invalid phases, or with lengths out of range.
 struct CheckStatement {
     void phase(Phase p) const {
         if (p.index >= Phase::capacity) throw ModelError(fmt::format("there is no phase {}", p.index));

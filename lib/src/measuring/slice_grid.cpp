@@ -22,8 +22,8 @@ namespace {
 constexpr int most_divisions = 14;
 // The side of a square is at least this many resolutions.
 constexpr double least_side = 4;
-// Sides of squares per tolerance. A point and an outline that is in the same square, or in one next to it, are at most
-// two diagonals apart, and leaving out vertices moves an outline by an eighth of a side.
+// Sides of squares per tolerance. A point is at most two diagonals from an outline in the same square or a neighbouring
+// one, and leaving out vertices moves an outline by at most an eighth of a side.
 constexpr double sides_per_tolerance = 3;
 // The distance of the first lines from the bounds, in squares. Faces of objects, and therefore bounds, often have round
 // coordinates. Fractions that are not in a simple ratio keep lines of the grid from running within faces.

@@ -14,8 +14,8 @@ struct GridSquare {
     auto operator<=>(const GridSquare&) const = default;
 };
 
-/// The grid of squares in which outlines are found: 2ⁿ along each side. Its lines are where halving the whole again and
-/// again puts them, because that is how the squares are proven.
+/// The grid of squares in which outlines are found: 2ⁿ along each side. Its lines are where repeated halving of the
+/// whole puts them, because squares are examined in this way.
 struct SliceGrid {
     SlicePlane plane;
     Bounds bounds;  ///< of the object, with a margin of vacuum
@@ -28,9 +28,9 @@ struct SliceGrid {
     SliceGrid(const TraceableObject&, const SlicePlane&, double tolerance);
 
     std::uint32_t count() const { return std::uint32_t{1} << levels; }
-    /// How many squares the bounds may be long, because the first line is before them.
+    /// The maximum length of the bounds, in squares. The grid is longer, because its first line lies before the bounds.
     double squares_across() const { return static_cast<double>(count()) - 2; }
-    /// The whole, as a flat box.
+    /// The whole grid, as a flat box.
     Bounds whole() const;
     bool meets_bounds(const glm::vec2& low, const glm::vec2& high) const;
 };

@@ -83,7 +83,7 @@ class Outlines {
     void add_step(Phase phase, std::uint32_t from, std::uint32_t to, std::uint32_t through) {
         steps_[slot_of(from, phase)] = {to, through};
     }
-    // Where opposite corners and the centre are in one phase, that phase separates the other two corners.
+    // If two opposite corners and the centre are in one phase, that phase separates the other two corners.
     bool add_joined_corners(const GridSquare& s, const std::array<Phase, 4>& labels) {
         const glm::vec2 low(grid_.columns[s.column], grid_.rows[s.row]);
         const glm::vec2 high(grid_.columns[s.column + 1], grid_.rows[s.row + 1]);
@@ -106,8 +106,8 @@ class Outlines {
         return static_cast<std::uint32_t>(positions_.size() - 1);
     }
 
-    // Both phases beside a line of vertices see the same vertices left out, because lines are followed once, with the
-    // phase of the lower index on the left.
+    // The phases on both sides of a line of vertices lose the same vertices, because each line is followed once, with
+    // the phase of the lower index on the left.
     void leave_out_vertices() {
         is_left_out_.assign(positions_.size(), false);
         std::vector<bool> is_done(vertices_.count());
@@ -181,7 +181,7 @@ class Outlines {
     std::vector<bool> is_left_out_;
 };
 
-// Counts the squares without outlines that are not beside one with an outline.
+// Counts the squares that neither have an outline nor a neighbour with one.
 void set_unexplained(Slice& result, const SliceGrid& grid, const std::vector<GridSquare>& squares,
                      const std::vector<bool>& has_outline) {
     const auto is_near = [&](const GridSquare& s) {

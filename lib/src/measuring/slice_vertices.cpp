@@ -10,7 +10,7 @@ namespace phasetree::measuring {
 
 namespace {
 
-// Bisection finds a vertex to this power of two of an edge.
+// The number of bisections. They locate a vertex to within 2⁻¹⁶ of its edge's length.
 constexpr int bisections = 16;
 
 template <class T>
@@ -74,7 +74,7 @@ Phase SliceVertices::label_at(float u, float v) const {
     return labels_of(std::span(&point, 1)).front();
 }
 
-// There is nothing but vacuum outside of the bounds.
+// Everything outside the bounds is vacuum.
 std::vector<Phase> SliceVertices::labels_of(std::span<const glm::vec2> points) const {
     std::vector<Phase> labels(points.size());
     constexpr std::size_t points_of_task = 64 * batch_size;

@@ -13,7 +13,7 @@ namespace phasetree::measuring {
 /// The labels at the corners of squares, and the vertices on those of their edges whose ends differ.
 class SliceVertices {
   public:
-    /// `squares` are in ascending order. Squares are added to them until both squares beside every vertex are there.
+    /// `squares` must be in ascending order. Squares are added until both squares beside every vertex are included.
     /// Throws SlicingCancelled.
     SliceVertices(const SliceGrid&, const Evaluator&, std::vector<GridSquare>& squares, const SliceOptions&);
 

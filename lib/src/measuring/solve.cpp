@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double first_tolerance = 0.1;
 // The finest tolerance. 32-bit coordinates usually end a measurement earlier.
 constexpr double finest_tolerance = 1e-9;
-// A tolerance falls at least and at most by these factors from one measurement of a number to the next.
+// From one measurement of a number to the next, the tolerance is multiplied by a factor between these two.
 constexpr double least_step = 1.0 / 2, greatest_step = 1.0 / 64;
 // Numbers are rounded to decimals that are at most this share of the bracket apart.
 constexpr double share_of_digit = 1.0 / 64;
@@ -50,7 +50,7 @@ double halvings(double factor) {
     return std::log(factor) / std::numbers::ln2;
 }
 
-// A number between the ends of the bracket, and how precisely it would be measured next.
+// A number between the ends of the bracket, and the tolerance of its next measurement.
 struct Candidate {
     double at = 0;
     double tolerance = 0;
@@ -142,12 +142,12 @@ class Solver {
     Side side_of(const Measured& m) const {
         return m.high < target_.value ? Side::below : m.low > target_.value ? Side::above : Side::undecided;
     }
-    // Lowers the tolerance to where the interval would no longer contain the target, if the estimate were exact.
+    // Lowers the tolerance so that the interval would no longer contain the target if the estimate were exact.
     void refine(Candidate& c) const {
         const Measured& m = c.known->measure;
         const double gap = target_.value - m.estimate, reach = gap > 0 ? m.high - m.estimate : m.estimate - m.low;
         const double needed = reach > 0 ? 0.8 * std::abs(gap) / reach : 0;
-        // The interval may be much narrower than the tolerance asked for.
+        // The interval may be much narrower than the tolerance required.
         if (m.estimate > 0) c.tolerance = std::min(c.tolerance, (m.high - m.low) / m.estimate);
         c.tolerance = std::max(c.tolerance * std::clamp(needed, greatest_step, least_step), finest_tolerance);
     }
@@ -180,7 +180,8 @@ class Solver {
         return std::nullopt;
     }
 
-    // Where the target is by linear interpolation of the estimates; the middle if that says nothing.
+    // The number at which the target is reached according to linear interpolation of the estimates; if these do not
+    // determine one, the middle.
     double interpolated() const {
         const SolvePoint &low = *result_.low, &high = *result_.high;
         const double share = (target_.value - low.measure.estimate) / (high.measure.estimate - low.measure.estimate);
@@ -213,8 +214,8 @@ class Solver {
         }
         return found;
     }
-    // No measurement is much more precise than one that was as precise as possible. Leaves out the numbers that are so
-    // close to the solution that they need one.
+    // `most_precise` was as precise as possible. Excludes the numbers that are so close to the solution that they would
+    // need a much more precise measurement.
     void leave_out_hopeless(std::vector<Candidate>& all, const Measured& most_precise) const {
         const SolvePoint &low = *result_.low, &high = *result_.high;
         const double slope = (high.measure.estimate - low.measure.estimate) / (high.at - low.at);
@@ -222,8 +223,8 @@ class Solver {
             if (!c.known && std::abs(slope * (c.at - interpolated())) < 0.4 * most_precise.width())
                 c.is_exhausted = true;
     }
-    // Replaces an end of the bracket by a number within it. `tolerance` is where to start, and then the one that it
-    // took. Measures the number next that needs the least precision.
+    // Replaces an end of the bracket by a number within it, always measuring next the number that needs the least
+    // precision. `tolerance` is that of the first measurements; it becomes the one that was needed.
     std::optional<SolveEnd> halve(double& tolerance) {
         std::vector<Candidate> all = candidates(tolerance);
         const auto is_exhausted = [](const Candidate& c) { return c.is_exhausted; };
@@ -245,7 +246,7 @@ class Solver {
             else
                 refine(c);
         }
-        // Numbers so close that nothing lies between them are as narrow a bracket as there is.
+        // No number lies between the ends, so the bracket is as narrow as possible.
         if (all.empty()) return SolveEnd::width;
         result_.undecided = std::ranges::find_if(all, [](const Candidate& c) { return c.known.has_value(); })->known;
         return SolveEnd::undecided;

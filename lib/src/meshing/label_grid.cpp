@@ -29,7 +29,9 @@ Grid Grid::around(const Bounds& bounds, float spacing) {
     if (!(spacing >= 0 && std::isfinite(spacing)))
         throw ModelError(fmt::format("the spacing must be a positive length, or 0, but is {}", spacing));
     if (bounds.empty()) throw ModelError("the object is empty, so it has no mesh");
-    if (!bounds.finite()) throw ModelError("the object is unbounded, so it has no finite mesh");
+    if (!bounds.finite())
+        throw ModelError(
+            "the bounds are infinite: the object is unbounded, so it has no finite mesh; intersect it with a box");
     const glm::dvec3 size = glm::dvec3(bounds.high) - glm::dvec3(bounds.low);
     const double longest = std::max({size.x, size.y, size.z});
     Grid grid;

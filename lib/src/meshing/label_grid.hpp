@@ -61,7 +61,7 @@ class CrossingsAlong {
     /// The crossings between a point and the next one along the axis.
     std::span<const GridCrossing> of_edge(const glm::ivec3& point) const;
     /// The crossing that represents an edge, if it has any. Two crossings are the faces of something thin; the second
-    /// is chosen. Of three, the middle one is chosen.
+    /// one represents the edge. If there are three, it is the middle one.
     std::optional<GridCrossing> shown_on_edge(const glm::ivec3& point) const;
 
   private:

@@ -34,7 +34,7 @@ class MeshProgress {
   public:
     explicit MeshProgress(const std::function<void(float)>& tell) : tell_(tell) {}
 
-    /// Begins a stage of this many steps, at whose end this share of all the work is done.
+    /// Begins a stage of this many steps. At its end, the fraction `end` of all the work is done.
     void begin(std::size_t steps, float end) {
         start_ = end_;
         end_ = end;

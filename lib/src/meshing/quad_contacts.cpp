@@ -109,7 +109,7 @@ class Search {
         return {cube_of(box.low), cube_of(box.high)};
     }
 
-    // Changed quadrilaterals and those whose boxes touch common cubes, in ascending order.
+    // Changed quadrilaterals, and those whose boxes touch a cube that a changed one's box touches, in ascending order.
     void collect_near(std::span<const std::uint32_t> changed) {
         MarkedCubes marked(grid_);
         for (const std::uint32_t quad : changed) marked.mark(cubes_of(box_of(quad)));
@@ -193,7 +193,7 @@ class Search {
             }
         }
     }
-    // Those of two, in the first of all cubes that both boxes touch.
+    // The triangles of two quadrilaterals, but only in the first of the cubes that both boxes touch.
     void examine(const BoxedQuad& a, const BoxedQuad& b, const glm::ivec3& cube, TriangleContact& contact,
                  std::vector<VerticesInContact>& found) const {
         if (is_changed_[a.quad] == 0 && is_changed_[b.quad] == 0) return;

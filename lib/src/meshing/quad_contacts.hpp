@@ -10,10 +10,10 @@ namespace phasetree::meshing {
 
 using VerticesInContact = std::array<std::uint32_t, 6>;
 
-/// Find the triangles that cross or touch others, other than in common vertices and edges, or that are hardly more than
-/// a line or a point. Only pairs are examined of which one triangle belongs to a quadrilateral in `changed`, which is
-/// in ascending order. Things touch if they are closer than `tolerance`. `begin_layer` is called once for each layer of
-/// cubes, from any thread; it may throw.
+/// Find the triangles that cross or touch others outside common vertices and edges, or that are nearly degenerate to a
+/// line or a point. Only pairs in which a triangle belongs to a quadrilateral of `changed` are examined; `changed` must
+/// be in ascending order. Things touch if they are closer than `tolerance`. `begin_layer` is called once for each layer
+/// of cubes, from any thread; it may throw.
 ///
 /// Returns, for each such pair in ascending order, the vertices of both triangles. The result does not depend on the
 /// number of threads.

@@ -9,8 +9,8 @@
 
 namespace phasetree::meshing {
 
-/// The quadrilateral of an edge of the grid that lies between two phases. It consists of two triangles, or of those
-/// between a vertex on the edge and the sides.
+/// The quadrilateral of an edge of the grid that lies between two phases. It consists of two triangles, or, if there is
+/// a vertex on the edge, of the triangles between that vertex and the sides.
 struct Quad {
     glm::ivec3 point{0};  ///< where the edge begins
     std::uint8_t axis = 0;
@@ -27,7 +27,7 @@ class QuadMesh {
     std::vector<glm::vec3> vertices;  ///< first those of the cubes, then others
     std::vector<Quad> quads;
 
-    /// The vertex on the edge of a quadrilateral, which is split from now on.
+    /// Adds and returns a vertex on the edge of a quadrilateral, which is split from now on.
     std::uint32_t centre(std::uint32_t quad) {
         quads[quad].is_split = true;
         return made(centres_, quad);

@@ -23,8 +23,8 @@ CubeEdge edge_of_cube(int edge);
 /// The mean of the middles of a patch's edges.
 glm::dvec3 regular_vertex(const CubePatches&, const CubeLabels&, int patch);
 
-/// Where interfaces meet in a side of a cube: all that cut its edges, or, if there is a wall across the side, only
-/// those around one of the corners beside the wall.
+/// A cut of a side of a cube: where the interfaces that cut the side's edges meet in it. If there is a wall across the
+/// side, only the interfaces around one of the corners beside the wall belong to the cut.
 struct SideCut {
     int corner = -1;       ///< the corner that is cut off, or -1 if two corners or more are on each side
     bool is_wall = false;  ///< whether there is a wall, and so another cut around the opposite corner
@@ -33,7 +33,7 @@ struct SideCut {
     /// The middle of the side, or the middle between it and the corner that is cut off.
     glm::dvec3 regular_point(int side) const;
 };
-/// The cut that an edge of the side is on. The phases at the ends of the edge must differ.
+/// The cut to which an edge of the side belongs. The phases at the ends of the edge must differ.
 SideCut cut_of_side(const CubeLabels&, int side, int edge);
 
 }  // namespace phasetree::meshing

@@ -15,10 +15,10 @@ namespace phasetree::meshing {
 
 namespace {
 
-// Triangles touch if they are closer than this, in units of the last place of the farthest coordinate. So scaling and
-// rounding coordinates does not make them cross.
+// Triangles count as touching if they are closer than this, in units of the last place of the farthest coordinate. The
+// margin ensures that scaling and rounding of coordinates does not make them cross.
 constexpr double touching_digits = 2;
-// Where the spacing is only a few of these units, a smaller distance, as a fraction of the spacing.
+// If the spacing is only a few of these units, a smaller distance is used: this fraction of the spacing.
 constexpr double most_touching = 1.0 / 64;
 
 // How far new vertices and those that are moved stay away from sides and edges, in cubes.
@@ -77,8 +77,9 @@ class Separation {
         return u;
     }
 
-    // For each contact, raises the placement of those vertices by a step that have the lowest. So a vertex does not pay
-    // for all of its neighbours. Returns the quadrilaterals that change, in ascending order.
+    // For each contact, raises the placement of the vertices with the lowest placement by one step. So a vertex that is
+    // already higher is not raised because of its neighbours. Returns the quadrilaterals that change, in ascending
+    // order.
     std::vector<std::uint32_t> raise(const std::vector<VerticesInContact>& contacts) {
         std::vector<char> is_raised(placements_.size(), 0);
         const auto placement = [&](std::uint32_t v) {
@@ -139,7 +140,7 @@ class Separation {
             put(mesh_.divider(a, b), sides[i].cube, on_side(sides[i], edge, p == Placement::regular));
         }
     }
-    // Where the interface crosses an edge of the grid, or near that if it is at an end.
+    // The point where the interface crosses an edge of the grid, moved away from the edge's ends if necessary.
     double position_on_edge(int axis, const glm::ivec3& point) const {
         const auto c = cut_.crossings[static_cast<std::size_t>(axis)].shown_on_edge(point);
         return c ? within_border(static_cast<double>(c->at) - point[axis]) : 0.5;
@@ -166,8 +167,8 @@ class Separation {
         at = on_interface(side.cube, at, side.axis);
         return cut.is_wall ? kept_at_corner(at, cut) : at;
     }
-    // Moves a point of a cube along one of the axes, but not along `fixed_axis`, to the nearest interface, if there is
-    // one within the borders.
+    // Moves a point of a cube along one of the axes other than `fixed_axis` to the nearest interface, if there is one
+    // within the borders.
     glm::dvec3 on_interface(const glm::ivec3& cube, const glm::dvec3& at, int fixed_axis) const {
         const glm::dvec3 place = cut_.grid.place(cube) + cut_.grid.spacing * at;
         double nearest = 1;

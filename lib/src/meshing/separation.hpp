@@ -4,15 +4,15 @@
 // edge of the grid need not be in a plane, and two triangles between them may reach into other cubes. We look for
 // triangles that touch others, and change only the vertices of these, in steps (`Placement`). Triangles then become
 // finer, as in Ju and Udeshi, *Intersection-free Contouring on an Octree Grid* (Pacific Graphics 2006), until each of
-// them lies in one cube. We go on until none touch.
+// them lies in one cube. We repeat this until none touch.
 //
 // The last step, in which positions are regular, cannot fail. In a cube, the triangles of a patch are then those
 // between its vertex, which is inside the cube, and segments on the sides, which do not cross each other. So the
 // triangles of a patch meet only in common edges and at the vertex. There are finitely many ways to label a cube; the
-// test lib/separation goes through all of them, and finds that triangles of different patches keep a distance.
-// Triangles of different cubes meet on the common side alone, in the same segments. Therefore this ends, at the latest
-// when all vertices are regular, and at the end no triangles touch each other: all of those that are not regular have
-// been compared with their neighbours.
+// test lib/separation checks all of them: triangles of different patches keep a distance. Triangles of different cubes
+// meet only on the common side, in the same segments. Therefore the process terminates, at the latest when all vertices
+// are regular. Then no triangles touch each other, because all those that are not regular have been compared with their
+// neighbours.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 
 namespace phasetree::meshing {
 
-/// What has been done about a vertex of a cube. Each step includes those before it.
+/// How far the separation has gone at a vertex of a cube. Each step includes those before it.
 enum class Placement : std::uint8_t {
     free,         ///< where planes meet (vertex_in_cube.hpp)
     inside,       ///< moved into the cube, onto the interface if it is found there
@@ -35,7 +35,7 @@ enum class Placement : std::uint8_t {
     regular       ///< positions that depend on labels alone (regular_points.hpp)
 };
 
-/// What is known of the grid.
+/// What is known about the grid.
 struct CutGrid {
     const Grid& grid;
     const LineTracer& lines;
@@ -47,8 +47,8 @@ struct CutGrid {
 
 /// Chooses the diagonals of all quadrilaterals, and moves and adds vertices until no triangles touch each other. The
 /// result does not depend on the number of threads. `cancelled` is called periodically, and may throw. `advance` is
-/// called from any thread, once for each layer of points of the grid, while all triangles are compared; what follows
-/// takes little time.
+/// called from any thread, once for each layer of points of the grid, while all triangles are compared; the subsequent
+/// work takes little time.
 void separate(const CutGrid&, QuadMesh&, const std::function<void()>& cancelled, const std::function<void()>& advance);
 
 }  // namespace phasetree::meshing

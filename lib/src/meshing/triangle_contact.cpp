@@ -25,8 +25,8 @@ bool is_beside_plane(const PlacedTriangle& a, const glm::dvec3& normal, const Pl
     return is_above || is_below;
 }
 
-// Whether an edge of a separates the triangles as seen along an axis: all of b is on the other side of it than a,
-// except for common vertices, which are ends of the edge.
+// Whether an edge of a separates the triangles in the projection along an axis: b lies on the opposite side of the edge
+// from a, except for common vertices, which are ends of the edge.
 bool is_separated_by_edge(const PlacedTriangle& a, const PlacedTriangle& b, int axis, double tolerance) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (std::size_t i = 0; i < 3; ++i) {

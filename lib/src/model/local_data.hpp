@@ -11,8 +11,8 @@
 namespace phasetree {
 
 /// The equivalent of LocalPrimitive for a primitive with data: in a small box, only few of its floats matter.
-/// specialise() receives its data. search_half_instructions is the cost of searching them for eight points, in halves
-/// of a simple instruction.
+/// specialise() receives its data. search_half_instructions is the cost of searching them for eight points; a simple
+/// instruction costs 2.
 template <class N>
 concept LocalDataPrimitive = DataPrimitive<N> &&
     requires(const float* data, const PointRange& range, std::span<const float> of, std::vector<float>& floats) {

@@ -160,7 +160,7 @@ WindingRule rule_of(const std::string& rule) {
         fmt::format("mesh: unknown rule \"{}\": use \"winding_number\", \"even_odd\" or \"non_zero\"", rule));
 }
 
-// The surface as it is; nothing if it has to be repaired.
+// The surface of the mesh as given, or nullopt if the mesh has to be repaired.
 std::optional<Surface> clean_surface(const TriangleMesh& triangles, const std::string& name) {
     try {
         Surface surface = mesh::surface_of(triangles, name);

@@ -84,7 +84,7 @@ bool lie_on_each_other(const Surface& s, std::uint32_t one, std::uint32_t other)
 }
 
 // The winding number of a surface around a point, from the crossings of a ray with the triangles that are not left out.
-// Nothing if the ray comes too close to an edge for a reliable result.
+// Returns nullopt if the ray comes too close to an edge for a reliable result.
 template <class IsLeftOut>
 std::optional<int> winding_number(const Surface& s, const BoxTree& tree, const glm::dvec3& p, const glm::dvec3& d,
                                   const IsLeftOut& is_left_out) {

@@ -33,7 +33,7 @@ struct Surface {
     glm::dvec3 corner(std::uint32_t triangle, int i) const { return at(triangles[triangle][i]); }
 };
 
-/// Thrown for a mesh that is no clean surface. It can be repaired (mesh_repair/repair.hpp).
+/// Thrown for a mesh that is not a clean surface. It can be repaired (mesh_repair/repair.hpp).
 class UncleanMesh : public ModelError {
     using ModelError::ModelError;
 };
@@ -45,8 +45,8 @@ Surface surface_of(const TriangleMesh&, const std::string& name);
 /// Throws UncleanMesh if two triangles cross, or touch outside their shared vertices and edges.
 void require_no_crossing(const Surface&, const std::string& name);
 
-/// Throws UncleanMesh if the solid is on the outside of a triangle: the whole surface, or one of several, is inside
-/// out.
+/// Throws UncleanMesh if the solid is on the outside of a triangle, because the whole surface, or one of several, is
+/// inside out.
 void require_outward(const Surface&, const std::string& name);
 
 /// The boxes around the triangles.

@@ -11,7 +11,7 @@ namespace phasetree {
 namespace {
 
 constexpr std::size_t piece_floats = OutlinePieces::floats;
-// The cost of one piece, in halves of a simple instruction.
+// The cost of one piece; a simple instruction costs 2.
 constexpr unsigned work_of_curved = 200, work_of_straight = 60;
 
 // An outline, or the part of it that is left in a surrounding box.

@@ -186,7 +186,7 @@ class Search {
 std::vector<SurfacePoint> scattered(const Field& surface, int count, float spacing, int seed) {
     const Bounds b = bounds(surface);
     if (b.empty()) throw ModelError("scatter: the surface is empty");
-    if (!b.finite()) throw ModelError("scatter: the surface must be bounded");
+    if (!b.finite()) throw_unbounded("scatter: the surface", surface);
     const float radius = 0.5f * b.diagonal() * (1 + 1e-4f);
     if (!(radius > 1e-9f && radius < 1e9f))
         throw ModelError("scatter: the surface must be between 1e-9 and 1e9 m large");

@@ -12,7 +12,7 @@ namespace phasetree::program {
 
 namespace {
 
-// Only this many constants, evenly spaced, are hashed of a long list such as an image. Lists with equal hashes are
+// In a long list of constants, such as an image, only this many, evenly spaced, are hashed. Lists with equal hashes are
 // compared in full.
 constexpr std::size_t most_hashed = 512;
 
@@ -44,12 +44,15 @@ std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std
             continue;
         }
         if (next >= limit_)
-            throw ModelError(fmt::format(
-                "the object needs more than {} instructions, because every use of a shape repeats it", limit_));
+            throw ModelError(
+                fmt::format("the object needs more than {} instructions, because every use of a shape repeats it; use "
+                            "fewer copies in the tree, or place copies of the whole object with \"instances\" of the "
+                            "scene",
+                            limit_));
         if (program_.constants.size() + constants.size() > most_constants)
             throw ModelError(
                 fmt::format("the object's instructions hold more than {} numbers, because every use of a shape repeats "
-                            "its image, network or outline",
+                            "its image, network or outline; use fewer copies of it",
                             most_constants));
         program_.instructions.push_back({op, a, b, static_cast<std::uint32_t>(program_.constants.size())});
         program_.constants.insert(program_.constants.end(), constants.begin(), constants.end());
@@ -62,7 +65,8 @@ void InstructionList::work(std::size_t steps) {
     work_ += steps;
     if (work_ > most_work_for_one * limit_)
         throw ModelError(fmt::format(
-            "finding the object's instructions takes more than {} steps, because every use of a shape repeats it",
+            "finding the object's instructions takes more than {} steps, because every use of a shape repeats it; "
+            "use fewer copies in the tree, or place copies of the whole object with \"instances\" of the scene",
             most_work_for_one * limit_));
 }
 

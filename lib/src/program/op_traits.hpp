@@ -10,13 +10,13 @@ namespace phasetree::program {
 /// The properties of an operation.
 struct OpTraits {
     std::uint8_t operands = 1;  ///< the number of operand values
-    /// Its cost, in halves of a simple operation such as an addition; a rough estimate.
+    /// A rough estimate of its cost. A simple operation such as an addition costs 2.
     std::uint16_t half_instructions = 2;
-    std::uint16_t floats_read = 0;   ///< the number of its floats that an evaluation reads; 0 for about all of them
-    bool gives_point = false;        ///< its result is a point instead of a number
-    bool has_constant = false;       ///< its data is a single constant
-    bool is_long_primitive = false;  ///< a primitive whose equation is long (concepts.hpp)
-    bool has_cost_in_data = false;   ///< its cost depends on its data (HasCostInData)
+    std::uint16_t floats_read = 0;        ///< how many of its floats an evaluation reads; 0 means nearly all
+    bool gives_point = false;             ///< its result is a point instead of a number
+    bool has_constant = false;            ///< its data is a single constant
+    bool is_long_primitive = false;       ///< a primitive whose equation is long (concepts.hpp)
+    bool has_cost_in_data = false;        ///< its cost depends on its data (HasCostInData)
     bool is_best_in_small_boxes = false;  ///< it is expensive, and its bounds are much better in small boxes
     bool is_fold = false;                 ///< it folds space, so it is not continuous
     bool is_pattern = false;              ///< a PatternPrimitive or a PatternDataPrimitive: it has a period

@@ -16,7 +16,7 @@ namespace phasetree::rewriting {
 using program::traits;
 
 /// The upper limit up to which the values of a local primitive are required in a region
-/// (pruning/required_interval.hpp). Of larger values, only the fact that they are larger matters.
+/// (pruning/required_interval.hpp). Larger values need not be exact, only larger.
 struct RequiredOfLocal {
     std::uint32_t source;  ///< see Specialisation::source
     float high;

@@ -104,12 +104,13 @@ std::vector<UnboundedPart> parts_of(const Handle& tree) {
     return std::move(search.found);
 }
 
-std::string message_of(const std::vector<UnboundedPart>& parts) {
-    if (parts.empty()) return "the object is unbounded; intersect it with a box";
+// "WHAT is unbounded because of its "plane" (at set.of.plane)", and an end that says how to bound it by default.
+std::string message_of(std::string_view what, const std::vector<UnboundedPart>& parts, std::string_view end = {}) {
+    if (parts.empty()) return fmt::format("{} is unbounded{}", what, end.empty() ? "; intersect it with a box" : end);
     std::vector<std::string> named;
     for (const UnboundedPart& part : parts) named.push_back(fmt::format("\"{}\" (at {})", part.kind, part.path));
-    return fmt::format("the object is unbounded because of its {}; {}", fmt::join(named, ", "),
-                       how_to_bound(parts.front()));
+    return fmt::format("{} is unbounded because of its {}{}", what, fmt::join(named, ", "),
+                       end.empty() ? "; " + how_to_bound(parts.front()) : std::string(end));
 }
 
 }  // namespace
@@ -122,7 +123,15 @@ std::vector<UnboundedPart> unbounded_parts(const Field& field) {
     return parts_of(field);
 }
 
-UnboundedError::UnboundedError(const std::vector<UnboundedPart>& parts) : ModelError(message_of(parts)) {}
+UnboundedError::UnboundedError(const std::vector<UnboundedPart>& parts) : ModelError(message_of("the object", parts)) {}
+
+void detail::throw_unbounded(std::string_view what, const Field& part, std::string_view end) {
+    throw ModelError(message_of(what, unbounded_parts(part), end));
+}
+
+void detail::throw_unbounded(std::string_view what, const Phased& part, std::string_view end) {
+    throw ModelError(message_of(what, unbounded_parts(part), end));
+}
 
 std::string how_to_bound(const UnboundedPart& part) {
     if (std::holds_alternative<Field>(part.node))

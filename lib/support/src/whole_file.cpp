@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The directory that a file lies in.
+/// The directory that contains a file.
 fs::path folder_of(const fs::path& target) {
     return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/// Where a symbolic link leads, and that one, and so on, whether there is a file or not.
+/// Follows symbolic links, including links to links, to a path that is not a link. No file need exist there.
 fs::path followed(const fs::path& path) {
     constexpr int most_links = 40;  // Linux's own limit
     fs::path target = path;
@@ -41,7 +41,7 @@ fs::path followed(const fs::path& path) {
     return target;
 }
 
-/// Where the file really goes, links followed; throws what can be said without creating anything.
+/// The path of the file after following links. Throws all errors that can be detected without creating anything.
 fs::path resolved(const fs::path& path) {
     std::error_code error;
     const fs::path target = followed(path);
@@ -56,7 +56,7 @@ fs::path resolved(const fs::path& path) {
     if (status.type() == fs::file_type::directory) throw FileError(EISDIR, "it is a directory");
     if (fs::exists(status)) {
         if (status.type() != fs::file_type::regular) throw FileError(EINVAL, "it is not a regular file");
-        // Renaming over a file does not ask for its permissions, but who protects a file means it.
+        // Replacing a file by renaming ignores its permissions. But a write-protected file should not be replaced.
         if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) throw FileError(errno);
     } else if (status.type() == fs::file_type::none) {
         throw FileError(error.value(), error.message());
@@ -66,12 +66,12 @@ fs::path resolved(const fs::path& path) {
 
 constexpr std::string_view temporary_end = ".tmp";
 
-/// How the temporary names of a file begin. File systems allow 255 bytes; the rest is for the numbers.
+/// The beginning of a file's temporary names. File systems allow 255 bytes; the rest is reserved for the numbers.
 std::string temporary_start(const fs::path& target) {
     return fmt::format(".{}.", target.filename().string().substr(0, 200));
 }
 
-/// A name in the same directory, another one for each file that this process writes at once.
+/// A temporary name in the same directory; different for each file that this process writes at the same time.
 fs::path name_beside(const fs::path& target) {
     static std::atomic<unsigned> written{0};
     fs::path beside = target;
@@ -88,10 +88,10 @@ bool is_temporary_of(const fs::path& target, const std::string& name) {
     return numbers.find_first_not_of("0123456789.") == std::string_view::npos && std::ranges::count(numbers, '.') == 1;
 }
 
-/// Takes away the temporary files of processes that were killed. One that is still being written is locked by its
-/// writer, on whatever machine; where there are no locks everything stays.
+/// Removes temporary files of processes that were killed. A file that is still being written is locked by its writer,
+/// on whatever machine. On file systems without locks, nothing is removed.
 void remove_abandoned(const fs::path& target) {
-    // A folder that cannot be read is the trouble of whoever opens files in it.
+    // If the folder cannot be read, opening files in it reports the error.
     (void)each_entry(folder_of(target), [&](const fs::path& path) {
         if (!is_temporary_of(target, path.filename().string())) return true;
         const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
@@ -116,7 +116,7 @@ class Descriptor {
     int descriptor_;
 };
 
-/// Whether an open file still has that name.
+/// Whether an open file still has this name.
 bool has_name(int file, const fs::path& name) {
     struct stat of_file {};
     struct stat of_name {};
@@ -130,7 +130,8 @@ WholeFile::WholeFile(const fs::path& path) : target_(resolved(path)), temporary_
     remove_abandoned(target_);
     ::unlink(temporary_.c_str());  // of a process that was killed and had the same id, where there are no locks
     open();
-    // Between its creation and its lock the file looks abandoned to another process that writes the same one.
+    // Until it is locked, the new file looks abandoned to another process that writes the same file, which may remove
+    // it.
     while (::flock(descriptor_, LOCK_EX) == 0 && !has_name(descriptor_, temporary_)) {
         ::close(std::exchange(descriptor_, -1));
         open();
@@ -165,7 +166,7 @@ void WholeFile::close() {
 }
 
 void WholeFile::finish() {
-    // The file is locked until it has its name.
+    // Keep the file locked until it has its final name.
     const Descriptor lock(descriptor_ >= 0 ? ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0) : -1);
     close();
     std::error_code error;
@@ -177,7 +178,7 @@ void WholeFile::finish() {
 void WholeFile::finish_on_disk() {
     if (::fsync(descriptor_) != 0) throw FileError(errno);
     finish();
-    // The name is kept by the folder.
+    // The name is stored in the folder, so the folder must be on the disk, too.
     const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) throw FileError(errno);
     const int failure = ::fsync(folder) == 0 ? 0 : errno;

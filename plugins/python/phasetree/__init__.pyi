@@ -190,7 +190,7 @@ class Field:
         subtract: The fields to cut away, at least one. (list of fields)
         """
     def smooth_union(self, *of: Field, radius: float) -> Field:
-        r"""Union with filleted seams; folded from the first field to the last.
+        r"""Union with filleted seams; applied pairwise, from the first field to the last.
 
             smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
@@ -200,7 +200,7 @@ class Field:
         radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
         """
     def smooth_intersection(self, *of: Field, radius: float) -> Field:
-        r"""Intersection with rounded edges; folded from the first field to the last.
+        r"""Intersection with rounded edges; applied pairwise, from the first field to the last.
 
             −smin(−a, −b)
 
@@ -253,7 +253,7 @@ class Field:
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
         r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
-            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         positions: Positions of the copies' origins. (list of [x, y, z]s in m)
@@ -263,16 +263,16 @@ class Field:
     def polar_array(self, count: int, angle: float | None = ...) -> Field:
         r"""Copies rotated about the z axis by equal angles.
 
-            min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+            min over i < n of φ(R(−i a/n) p); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 10000)
+        count: Number of copies. (whole number; at least 1 and at most 10000)
         angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
         """
     def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
         r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
-            min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+            min over i, j, k of φ(p − (i dx, j dy, k dz)); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         spacing: Distance between copies along x, y and z. ([x, y, z] in m)
@@ -291,30 +291,30 @@ class Field:
     def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Field:
         r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
 
-            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
         Section 7.7 of the paper.
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 100000)
+        count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the disk of the copies' origins. (number in m; positive)
         turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Field:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
-            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
         Section 7.7 of the paper.
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 100000)
+        count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
         r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
-            copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+            copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         on: The field whose surface the copies stand on; it must be bounded. (field)
@@ -347,7 +347,7 @@ class Field:
         Section 4.1, 7.3 of the paper.
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
@@ -360,7 +360,7 @@ class Field:
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
         inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
@@ -612,7 +612,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
         r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
-            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+            min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         positions: Positions of the copies' origins. (list of [x, y, z]s in m)
@@ -622,16 +622,16 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
     def polar_array(self, count: int, angle: float | None = ...) -> Object:
         r"""Copies rotated about the z axis by equal angles.
 
-            min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+            min over i < n of φ(R(−i a/n) p); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 10000)
+        count: Number of copies. (whole number; at least 1 and at most 10000)
         angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
         """
     def grid(self, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
         r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
-            min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+            min over i, j, k of φ(p − (i dx, j dy, k dz)); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         spacing: Distance between copies along x, y and z. ([x, y, z] in m)
@@ -650,30 +650,30 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
     def fibonacci_disk(self, count: int, radius: float, turned: int | None = ...) -> Object:
         r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
 
-            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+            copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
         Section 7.7 of the paper.
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 100000)
+        count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the disk of the copies' origins. (number in m; positive)
         turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Object:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
-            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+            copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
         Section 7.7 of the paper.
 
         of: The field or object to copy. (object)
-        count: How many. (whole number; at least 1 and at most 100000)
+        count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
         r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
-            copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+            copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
         on: The field whose surface the copies stand on; it must be bounded. (field)
@@ -690,7 +690,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
         Section 4.1, 7.3 of the paper.
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -703,7 +703,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
         inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
@@ -719,7 +719,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
         errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
-        r"""Combines objects; where they overlap, later ones replace earlier ones. Folded from the first object to the last.
+        r"""Combines objects; where they overlap, later ones replace earlier ones. Applied pairwise, from the first object to the last.
 
             φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
@@ -728,7 +728,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
         of: The objects, at least one. (list of objects)
         """
     def over(self, *of: Object) -> Object:
-        r"""Combines objects; where they overlap, earlier ones replace later ones. Folded from the last object to the first.
+        r"""Combines objects; where they overlap, earlier ones replace later ones. Applied pairwise, from the last object to the first.
 
             A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
@@ -1343,7 +1343,7 @@ def spherical_cap(radius: float, cut: float | None = ...) -> Field:
     """
 
 def prism(sides: float, radius: float, height: float) -> Field:
-    r"""A prism about the z axis on a regular polygon with an edge across the x axis; exact.
+    r"""A prism about the z axis, whose base is a regular polygon with an edge perpendicular to the x axis; exact.
 
         fold to one sector;  q = (polygon, |pz| − h/2);  |max(q, 0)| + min(max(qx, qy), 0)
 
@@ -1361,7 +1361,7 @@ def wedge(size: Sequence[float] | np.ndarray) -> Field:
     """
 
 def pyramid(base: float, height: float) -> Field:
-    r"""A pyramid on a square, centred at half its height on the z axis; exact.
+    r"""A pyramid with a square base, centred at half its height on the z axis; exact.
 
         ± min(distance to the base, distance to the nearest slanted face)
 
@@ -1429,7 +1429,7 @@ def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter:
     Section 4.3, 9.1 of the paper.
 
     size: Edge length of the cubes, each of which has one site. (number in m; positive)
-    gap: Between blocks. (number in m; positive)
+    gap: Width of the gap between blocks. (number in m; positive)
     rounding: Rounding c of the edges; 0 for sharp ones. (number in m; zero or more; default 0)
     jitter: Irregularity: 0 puts the sites on a cubic lattice, 1 anywhere in their cubes. (number; at least 0 and at most 1; default 0.9)
     seed: Seed of the pattern. (number; at least 0 and at most 288; default 0)
@@ -1598,7 +1598,7 @@ def text(text: str | Expression, file: str | PathLike[str], size: float | None =
     text: The text; \n begins a new line. (text)
     file: Font file: TrueType or OpenType (.ttf, .otf). (name of a file)
     size: Em size of the font; capitals are about 0.7 em high. (number in m; positive; default 1)
-    align: Alignment: the point of each line at x = 0, from 0, its beginning, to 1, its end. (number; at least 0 and at most 1; default 0)
+    align: Alignment: which point of each line is at x = 0. 0 is its beginning, 0.5 its middle, 1 its end. (number; at least 0 and at most 1; default 0)
     spacing: Additional space after each letter; may be negative. (number in em; at least -1 and at most 100; default 0)
     line_height: Distance between lines. (number in em; positive; default 1.2)
     """
@@ -1657,7 +1657,7 @@ def difference(from_: Field | Expression, *subtract: Field | Expression | Sequen
     """
 
 def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Union with filleted seams; folded from the first field to the last.
+    r"""Union with filleted seams; applied pairwise, from the first field to the last.
 
         smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
@@ -1668,7 +1668,7 @@ def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius:
     """
 
 def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], radius: float) -> Field:
-    r"""Intersection with rounded edges; folded from the first field to the last.
+    r"""Intersection with rounded edges; applied pairwise, from the first field to the last.
 
         −smin(−a, −b)
 
@@ -1738,7 +1738,7 @@ def displace(of: Field | Expression, amplitude: float, scale: float, octaves: fl
 def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Field:
     r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
-        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     positions: Positions of the copies' origins. (list of [x, y, z]s in m)
@@ -1749,7 +1749,7 @@ def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turn
 def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
     r"""Copies at the given positions, optionally rotated about the z axis and scaled.
 
-        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier
+        min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     positions: Positions of the copies' origins. (list of [x, y, z]s in m)
@@ -1761,20 +1761,20 @@ def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, tur
 def polar_array(of: Field, count: int, angle: float | None = ...) -> Field:
     r"""Copies rotated about the z axis by equal angles.
 
-        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+        min over i < n of φ(R(−i a/n) p); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 10000)
+    count: Number of copies. (whole number; at least 1 and at most 10000)
     angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
     """
 @overload
 def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
     r"""Copies rotated about the z axis by equal angles.
 
-        min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier
+        min over i < n of φ(R(−i a/n) p); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 10000)
+    count: Number of copies. (whole number; at least 1 and at most 10000)
     angle: Total angle: copy i is rotated by i/count of it. Default: a full turn. (number in degrees; default 360)
     """
 
@@ -1782,7 +1782,7 @@ def polar_array(of: Object, count: int, angle: float | None = ...) -> Object:
 def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Field:
     r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
-        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     spacing: Distance between copies along x, y and z. ([x, y, z] in m)
@@ -1794,7 +1794,7 @@ def grid(of: Field, spacing: Sequence[float] | np.ndarray, count_x: int | None =
 def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None = ..., count_y: int | None = ..., count_z: int | None = ...) -> Object:
     r"""Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, then i.
 
-        min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier
+        min over i, j, k of φ(p − (i dx, j dy, k dz)); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     spacing: Distance between copies along x, y and z. ([x, y, z] in m)
@@ -1832,7 +1832,7 @@ def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.
     radii: Radius of influence of each skeleton: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
     points: Point skeletons. (list of [x, y, z]s in m; default [])
     polyline: A chain of segments, which is a single skeleton. (list of [x, y, z]s in m; default [])
-    of: Fields as skeletons: their distance, zero inside. (list of fields; default [])
+    of: Fields that serve as skeletons. The distance is 0 inside them. (list of fields; default [])
     weights: Weights of the skeletons, in the same order; default 1. (number or list of numbers; positive; default [])
     threshold: Threshold T; a larger one makes the solid smaller. (number; positive; default 0.5)
     """
@@ -1841,12 +1841,12 @@ def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.
 def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ...) -> Field:
     r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
 
-        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
     Section 7.7 of the paper.
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
+    count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the disk of the copies' origins. (number in m; positive)
     turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
     """
@@ -1854,12 +1854,12 @@ def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ..
 def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
     r"""Copies spread evenly over a disk about the z axis, on a Fibonacci spiral.
 
-        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the earlier
+        copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
     Section 7.7 of the paper.
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
+    count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the disk of the copies' origins. (number in m; positive)
     turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
     """
@@ -1868,24 +1868,24 @@ def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = .
 def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
     r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
-        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
     Section 7.7 of the paper.
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
+    count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the sphere of the copies' origins. (number in m; positive)
     """
 @overload
 def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
     r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
-        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; of objects, the later over the earlier
+        copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
     Section 7.7 of the paper.
 
     of: The field or object to copy. (object)
-    count: How many. (whole number; at least 1 and at most 100000)
+    count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the sphere of the copies' origins. (number in m; positive)
     """
 
@@ -1893,7 +1893,7 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
 def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
     r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
-        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+        copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     on: The field whose surface the copies stand on; it must be bounded. (field)
@@ -1906,7 +1906,7 @@ def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None
 def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
     r"""Copies scattered over the surface of a field, standing on it, with random rotations.
 
-        copies at random points of the surface f = 0, their z axis along ∇f; of objects, the later over the earlier
+        copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
     on: The field whose surface the copies stand on; it must be bounded. (field)
@@ -1943,7 +1943,7 @@ def bounding_volume(of: Field, margin: float, volume: Field | Expression | None 
     Section 4.1, 7.3 of the paper.
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 @overload
@@ -1955,7 +1955,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | Expression | None
     Section 4.1, 7.3 of the paper.
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 
@@ -1970,7 +1970,7 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
     inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
     """
 @overload
@@ -1984,7 +1984,7 @@ def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, in
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which its distance replaces the child. (number in m; positive)
+    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
     inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
     """
 
@@ -2040,7 +2040,7 @@ def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, 
     """
 
 def under(*of: Object | Sequence[Object]) -> Object:
-    r"""Combines objects; where they overlap, later ones replace earlier ones. Folded from the first object to the last.
+    r"""Combines objects; where they overlap, later ones replace earlier ones. Applied pairwise, from the first object to the last.
 
         φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
@@ -2050,7 +2050,7 @@ def under(*of: Object | Sequence[Object]) -> Object:
     """
 
 def over(*of: Object | Sequence[Object]) -> Object:
-    r"""Combines objects; where they overlap, earlier ones replace later ones. Folded from the last object to the first.
+    r"""Combines objects; where they overlap, earlier ones replace later ones. Applied pairwise, from the last object to the first.
 
         A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
@@ -2333,7 +2333,7 @@ def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Seq
     empty: The numbers of the vacuum, unless they belong to a phase; by default 0. (list of numbers; at least -16777216 and at most 16777216; default [])
     spacing: Distance between voxels along x, y and z, for images. OpenVDB grids have their own. ([x, y, z] in m; zero or more; default [0, 0, 0])
     smoothing: Standard deviation σ of the blur; at 0, interfaces show the steps of the voxels. (number in voxels; at least 0 and at most 4; default 1)
-    grid: Name of the grid in an OpenVDB file; required if there are several of whole numbers. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
+    grid: Name of the grid in an OpenVDB file; required if the file has several grids of whole numbers. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
     """
 
 def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: float | Sequence[float] | None = ..., file: str | PathLike[str] | None = ...) -> Object:
@@ -3002,7 +3002,7 @@ def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spaci
     r"""A voxel grid, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Values are interpolated between the voxels' centres; negative ones count as 0. Outside the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then rotated, then translated.
 
     file: An OpenVDB file (.vdb) with a grid of floats or doubles whose background is 0. Or grey images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y and the left column the least x; the stack is centred on the origin. (name of a file)
-    grid: Name of the grid in an OpenVDB file; required if there are several of numbers. If several have the same name, append the index: "density[0]", "density[1]". (text; default "")
+    grid: Name of the grid in an OpenVDB file; required if the file has several grids of numbers. If several have the same name, append the index: "density[0]", "density[1]". (text; default "")
     spacing: Distance between voxels along x, y and z. Required for images; OpenVDB files have their own. ([x, y, z] in m; positive; default none)
     factor: Factor applied to the numbers. (number; zero or more; default 1)
     scale: Scale factor. (number; positive; default 1)
@@ -3101,7 +3101,7 @@ class lights:
     def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""Many equal sphere lights.
 
-        centres: Their centres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
+        centres: Centres of the spheres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
         radius: Radius of a sphere. (number in m; more than 0 and at most 1e15)
         radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
         intensity: Factor applied to the radiance. (number; zero or more; default 1)
@@ -3214,7 +3214,7 @@ class meshes:
         r"""A horizontal square about the z axis.
 
         material: Material of the mesh. (opaque material)
-        height: Its z. (number in m; at least -1e15 and at most 1e15; default 0)
+        height: Height of the floor: its z coordinate. (number in m; at least -1e15 and at most 1e15; default 0)
         size: Length of the edges. (number in m; more than 0 and at most 1e15; default 1000)
         opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)

@@ -96,8 +96,8 @@ class Expression(Value):
             if sign != "-" or isinstance(other, _registry.classes["Object"]):
                 return NotImplemented
             raise TypeError(
-                "a formula less a field may mean a number or a difference of solids: "
-                "formula.field() - field is the latter"
+                "formula - field is ambiguous: a number or a difference of solids? For the difference, write "
+                "formula.field() - field"
             )
         other = expression(other)
         return NotImplemented if other is None else Expression(sign, (other, self) if swapped else (self, other))
@@ -153,7 +153,7 @@ class Expression(Value):
         return hash(self.text)
 
     def __bool__(self):
-        raise TypeError("a formula is no truth value: pt.min and pt.max choose between numbers")
+        raise TypeError("a formula has no truth value; use pt.min or pt.max to choose between numbers")
 
     def __array_ufunc__(self, ufunc, method, *inputs, **options):
         name = _UFUNCS.get(ufunc.__name__)
@@ -182,7 +182,7 @@ def expression(value):
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         number = float(value)
         if number != number or number in (float("inf"), float("-inf")):
-            raise Error(f"a formula's numbers must be finite, but here is {number}")
+            raise Error(f"a formula's numbers must be finite, but one is {number}")
         text = repr(int(number)) if number == int(number) and abs(number) < 1e15 else repr(number)
         return Expression(text if number >= 0 else f"({text})")
     return None
@@ -248,7 +248,7 @@ def _function(name, least, most):
             raise TypeError(f"{name} takes {least if least == most else f'{least} or more'} numbers")
         of = tuple(expression(v) for v in values)
         if None in of:
-            raise Error(f"{name} is of numbers and of what pt.coordinates() gives, but here is {values[of.index(None)]!r}")
+            raise Error(f"{name} takes numbers and expressions of pt.coordinates(), not {values[of.index(None)]!r}")
         return Expression(name, of)
 
     apply.__name__ = apply.__qualname__ = name

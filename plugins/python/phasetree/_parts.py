@@ -36,7 +36,7 @@ class Part(Value):
         object.__setattr__(self, "_text", json.dumps(value, ensure_ascii=False))
 
     def __setattr__(self, name, value):
-        raise AttributeError(f"a {self.kind} cannot be changed; make another one")
+        raise AttributeError(f"a {self.kind} is immutable; create another one")
 
     def _pickled(self):
         return self.chapter, self.kind, json.loads(self._text)

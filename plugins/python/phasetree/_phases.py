@@ -31,7 +31,7 @@ class Phase(Value):
         object.__setattr__(self, "density", None if density is None else float(density))
 
     def __setattr__(self, name, value):
-        raise AttributeError(f"a phase cannot be changed; make another one for another {name}")
+        raise AttributeError(f"a phase is immutable; to change its {name}, create another one")
 
     def _pickled(self):
         return self.name, self.material, self.density

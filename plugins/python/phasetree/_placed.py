@@ -30,7 +30,7 @@ def _maps(transforms, what):
     else:
         raise Error(f"{what} must be positions (3,) or (N, 3), or matrices 3x4 or 4x4, one or N; the shape is {array.shape}")
     if len(array) == 0 or not np.all(np.isfinite(array)):
-        raise Error(f"{what} must be at least one place of finite numbers")
+        raise Error(f"{what} must have at least one place, and finite numbers")
     return np.ascontiguousarray(array)
 
 
@@ -69,7 +69,7 @@ def places(of, transforms):
     an affine map, 3x4 or 4x4.
     """
     if not isinstance(of, str) or not of:
-        raise Error(f"places are those of an object or a group by its name, but this is {of!r}")
+        raise Error(f"places need the name of an object or a group, not {of!r}")
     return Places(of, _maps(transforms, "transforms"))
 
 

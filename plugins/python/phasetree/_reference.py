@@ -72,7 +72,7 @@ class Kind:
         required = [p for p in listed if not p.optional]
         self.parameters = [p for p in required if p.is_handle] + [p for p in required if not p.is_handle]
         self.parameters += [p for p in listed if p.optional]
-        # Of what it is made of in any number the arguments are as many: union(a, b, c).
+        # A required list of fields or objects, which may be passed as separate arguments: union(a, b, c).
         self.many = next((p for p in self.parameters if p.is_handle and p.is_list and not p.optional), None)
 
     @property
@@ -189,8 +189,8 @@ def check_still(value, what):
     """
     if moves(value):
         raise Error(
-            f"{what} has keys, and what is made in Python stands still. Make one scene for each time, or write the scene "
-            "file by hand: the command renders it with --at and --frames"
+            f"{what} has keys, but trees and transforms made in Python do not move. Make one scene per time, or write "
+            "the scene file by hand: the command renders it with --at and --frames"
         )
 
 
@@ -200,5 +200,5 @@ def file_name(value):
     try:
         name.encode()
     except UnicodeEncodeError:
-        raise Error(f"scenes are UTF-8, in which no file can be named {os.fsencode(name)!r}") from None
+        raise Error(f"scene files are UTF-8, so they cannot name the file {os.fsencode(name)!r}; rename it") from None
     return name

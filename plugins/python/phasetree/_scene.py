@@ -106,9 +106,9 @@ class Scene(Value):
         objects=None, groups=None, instances=(), unit=None, expect=(),
     ):  # fmt: skip
         if (object is None) == (objects is None) and (object is not None or not meshes):
-            raise Error("a scene shows either an object or objects, or meshes alone")
+            raise Error("a scene needs one of these: an object, named objects, or only meshes")
         if object is not None and not isinstance(object, Object):
-            raise Error(f"a scene shows an object of phases, such as field.set(phase), but this is {object!r}")
+            raise Error(f"a scene needs an object of phases, such as field.set(phase), not {object!r}")
         self.object = object
         self.objects = _placed.named_objects(objects or {})
         self.groups = {
@@ -116,7 +116,7 @@ class Scene(Value):
         }
         self.instances = _placed.place_lists(instances, "instances")
         if objects is None and (self.groups or self.instances):
-            raise Error("groups and instances are of objects, which have names: Scene(objects={…}, instances=…)")
+            raise Error("groups and instances place named objects: use Scene(objects={…}, instances=…)")
         self.phases = object.phases if object is not None else _placed.phases_of(self.objects)
         self.camera = None if camera is None else _part(camera, "Cameras", "a camera")
         self.lights = _several(lights, "Lights", "a light")
@@ -371,7 +371,7 @@ def _warn_of_what_stands_still(raw, path):
     shown += [{**entry, "phases": None} for entry in raw.get("objects", ())]
     if _reference.moves([shown, _fields_of_materials(raw)]):
         warnings.warn(
-            f"{path}: trees, and where objects stand, move with time, and are as at the time 0 from here on",
+            f"{path}: its trees or transforms change with time; they are read at time 0, and no longer move",
             stacklevel=3,
         )
 

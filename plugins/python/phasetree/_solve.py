@@ -78,7 +78,7 @@ def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seco
             f"{target:.9g} it is; move this end farther away"
         )
     if best is None:
-        raise Error("the time was over before both ends of the bracket were measured")
+        raise Error("time ran out before both ends of the bracket were measured; allow more seconds")
     return Solution(best[0], first[0], last[0], best[1][0], first[1][0], last[1][0], stopped, count)
 
 

@@ -268,7 +268,7 @@ def _name_of_phase(value):
     """What stands for a phase in the text of a statement."""
     if isinstance(value, Phase):
         return value.name
-    raise Error(f"statements have phases, names and numbers, but no {type(value).__name__}")
+    raise Error(f"statements contain phases, names and numbers, not {type(value).__name__}")
 
 
 class Object(Value):

@@ -41,13 +41,13 @@ def _as_scene(what):
     elif isinstance(what, Object):
         what = Scene(_with_materials(what))
     else:
-        raise Error(f"what is viewed is an object of phases or a scene, but this is {what!r}")
+        raise Error(f"the view shows an object of phases or a scene, not {what!r}")
     if what.camera is None and what.object is None:
         raise Error("a scene of several objects, or of meshes alone, needs a camera to be viewed")
     if what.camera is None:
         low, high = np.array(what.object.bounds, dtype=float)
         if not (np.all(np.isfinite(low)) and np.all(low < high)):
-            raise Error("the object has no bounds to put a camera before: give a scene with a camera")
+            raise Error("the object is unbounded, so the view cannot place a camera; pass a scene with a camera")
         middle, radius = (low + high) / 2, np.linalg.norm(high - low) / 2
         position = middle + 3.2 * radius * np.array([0.35, -0.87, 0.35])
         what = what.with_(camera=_parts.cameras.thin_lens(tuple(position), tuple(middle), fov=40))

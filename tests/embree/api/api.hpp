@@ -1,4 +1,5 @@
-// What the tests of the C99 interface share: trees and geometries made through its C++ wrapper, packets of any size.
+// Shared by the tests of the C99 interface: trees and geometries created through its C++ wrapper, and packets of any
+// size.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +44,7 @@ struct Placed {
     unsigned id = 0;
 };
 
-// How a query is made that carries something with it.
+// How a query passes additional data to Embree.
 struct Call {
     bool coherent = false;
     embree::Context* context = nullptr;   // none: a stock one
@@ -208,7 +209,7 @@ inline bool occluded_one(RTCScene scene, RTCRayHit ray, const Call& call = {}) {
     return ray.ray.tfar < 0;
 }
 
-// A call that fails must, and its message have this in it.
+// Requires that a call fails with a message that contains this text.
 inline void expect_error(PhasetreeError error, PhasetreeError expected, const char* part) {
     CHECK(error == expected);
     const std::string message = phasetreeGetErrorMessage();

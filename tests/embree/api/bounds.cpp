@@ -1,4 +1,4 @@
-// Carved bounds through the C99 interface: what they promise, and what is rejected.
+// Carved bounds through the C99 interface: their guarantees, and rejected arguments.
 #include "embree/api/api.hpp"
 #include "support/random_tree.hpp"
 

@@ -1,4 +1,4 @@
-// Building: progress, and cells that are kept in files.
+// Building: progress, and cells stored in files.
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -168,7 +168,7 @@ TEST_CASE("files of cells that cannot be used") {
     std::ofstream(folder / "text") << std::string(1000, ' ');
     expect_error(read(folder / "text", tree, nullptr), wrong, "not a cell file");
     CHECK(geometry == nullptr);
-    // What could not be read is no obstacle to writing.
+    // A file that could not be read can still be written.
     built.write_cells(path);
     CHECK(read(path, tree, nullptr) == PHASETREE_ERROR_NONE);
     CHECK(phasetreeReleaseGeometry(geometry) == PHASETREE_ERROR_NONE);

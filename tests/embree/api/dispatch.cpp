@@ -1,4 +1,4 @@
-// Applications with a user geometry of their own that dispatches between several things, ours among them.
+// Applications with a user geometry of their own that dispatches between several things, including our geometries.
 #include "embree/api/api.hpp"
 
 namespace test_dispatch {

@@ -1,5 +1,5 @@
-// Filter functions: they see every crossing of a ray once, in the ray's order, with phases that follow on each other,
-// for one ray as for packets; occlusion agrees; a rejected crossing leaves no trace.
+// Filter functions see every crossing of a ray once, in order, with consecutive phases, for single rays and packets.
+// Occlusion agrees, and a rejected crossing has no effect.
 #include <map>
 
 #include "embree/api/api.hpp"

@@ -1,4 +1,4 @@
-// Rays that are none, straight into the callbacks: they end, and write nothing.
+// Invalid rays, passed directly to the callbacks: they end, and write nothing.
 #include <chrono>
 
 #include "embree/api/api.hpp"

@@ -90,7 +90,7 @@ TEST_CASE("instances: scaled, sheared and mirrored ones hit the same points, wit
         const double stretch = std::cbrt(std::abs(glm::determinant(a.linear)));
         for (const Ray& ray : rays(400, 7)) {
             const Ray there{a.linear * ray.origin + a.shift, a.linear * ray.direction};
-            // What the instance makes of the ray, rounding included: the yardstick traces that.
+            // The ray in the instance's space, including rounding. The reference traces this ray.
             const RTCRayHit here = trace_one(inner, rayhit(ray));
             const RTCRayHit r = trace_one(outer, marked(there));
             // World coordinates are rounded to ulps of the shift; seen from the object that is this much.

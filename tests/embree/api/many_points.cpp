@@ -1,4 +1,4 @@
-// Many points at once give every bit of what one at a time does, whatever their layout.
+// Many points at once give the same bits as single points, whatever their layout.
 #include "embree/api/api.hpp"
 
 namespace test_many_points {

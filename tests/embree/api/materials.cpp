@@ -1,4 +1,4 @@
-// What a host gets and keeps of each phase: the scene's material as JSON, and a number and a pointer of its own.
+// What a host can get and store for each phase: the scene's material as JSON, and a number and a pointer of its own.
 #include "embree/api/api.hpp"
 #include "phasetree/io/write.hpp"
 

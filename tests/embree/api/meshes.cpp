@@ -1,4 +1,4 @@
-// Meshes of geometries through the C99 interface: what they promise, and what is rejected.
+// Meshes of geometries through the C99 interface: their guarantees, and rejected arguments.
 #include "embree/api/api.hpp"
 #include "support/manifold.hpp"
 
@@ -25,7 +25,7 @@ void receive(const PhasetreeMesh* mesh, void* to) {
     received.triangles = mesh->triangleCount;
 }
 
-// The triangles at which a phase is on one side alone, outward.
+// The outward triangles that have a phase on exactly one side.
 std::vector<std::array<std::uint32_t, 3>> surface_of(const embree::Mesh& mesh, unsigned phase) {
     std::vector<std::array<std::uint32_t, 3>> surface;
     for (std::size_t i = 0; i < mesh.behind.size(); ++i) {

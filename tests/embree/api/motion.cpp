@@ -1,5 +1,4 @@
-// Motion of the whole geometry by time steps: at each time it is what a geometry is that stands where the motion is
-// then.
+// Motion of the whole geometry by time steps: at each time, it equals a geometry that stands still at that position.
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 

@@ -1,5 +1,5 @@
-// Packets: any size, coherent or not, in scenes of any kind, are what single rays are; lanes that are not asked, or hit
-// nothing, keep every bit.
+// Packets of any size, coherent or not, in scenes of any kind, give the same results as single rays. Inactive lanes,
+// and lanes that hit nothing, keep every bit.
 #include "embree/api/api.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/trace/tracer.hpp"

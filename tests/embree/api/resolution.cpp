@@ -1,5 +1,5 @@
-// Resolutions that cannot be, and trees far from the origin: rays end, hit what is there, and the geometry says what it
-// does instead of what was asked for.
+// Impossible resolutions, and trees far from the origin: rays end and hit what is there, and the geometry reports the
+// resolution that it uses instead of the requested one.
 #include <fmt/format.h>
 
 #include "embree/api/api.hpp"

@@ -57,7 +57,7 @@ Owner owner_of(std::uintptr_t address) {
     return Owner::other;
 }
 
-// The first owner on the way up that is not the standard library.
+// The first caller, walking up the stack, that is not the standard library.
 _Unwind_Reason_Code look(_Unwind_Context* context, void* found) {
     const Owner owner = owner_of(_Unwind_GetIP(context));
     if (owner == Owner::standard_library) return _URC_NO_REASON;

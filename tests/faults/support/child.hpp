@@ -1,4 +1,4 @@
-// The command, run in a process of its own that a fault is planned for.
+// Runs the command in a process of its own, in which a fault is injected.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -48,7 +48,8 @@ struct Ended {
     std::map<std::string, std::string> files;  // of its directory, but the scene
 };
 
-// Runs the command with `before` called in the process before main() and `after` behind it; `meanwhile` in this one.
+// Runs the command. Calls `before` in its process before main(), `after` there after main(), and `meanwhile` in this
+// process.
 inline Ended run_command(const std::vector<std::string>& arguments, const std::function<void()>& before = {},
                          const std::function<std::size_t()>& after = {}, const std::string& scene = tiny_scene,
                          const std::function<void(pid_t)>& meanwhile = {}) {
@@ -75,7 +76,7 @@ inline Ended run_command(const std::vector<std::string>& arguments, const std::f
         for (std::string& word : words) argv.push_back(word.data());
         argv.push_back(nullptr);
         if (before) before();
-        // What gets out of main() ends the process.
+        // An exception that leaves main() ends the process.
         const int code = [&]() noexcept { return phasetree_main(static_cast<int>(words.size()), argv.data()); }();
         if (after) write_text(told, std::to_string(after()));
         std::fflush(nullptr);
@@ -95,7 +96,7 @@ inline Ended run_command(const std::vector<std::string>& arguments, const std::f
     return ended;
 }
 
-// Whether each file that is there is whole, as another run wrote it, and there is no other.
+// Whether each file is complete, equal to that of another run, and there are no others.
 inline bool are_whole(const Ended& ended, const Ended& reference) {
     for (const auto& [name, bytes] : ended.files) {
         const auto whole = reference.files.find(name);

@@ -1,21 +1,20 @@
-// Faults on purpose: memory that runs out at the n-th allocation, and files that cannot be written.
+// Injects faults: memory that runs out at the n-th allocation, and files that cannot be written.
 //
-// Only allocations of the project's own code fail, those it makes through the standard library among them. Embree, TBB,
-// OpenImageIO and OpenColorIO are others' code: Embree and TBB end the process where a lock or a task cannot be
-// allocated, OpenImageIO's and OpenColorIO's static registries do so while the program starts, and nothing of that can
-// be mended here.
+// Only allocations by the project's own code fail, including those it makes through the standard library. Embree and
+// TBB end the process if a lock or a task cannot be allocated, and so do the static registries of OpenImageIO and
+// OpenColorIO while the program starts. These cannot be fixed here.
 #pragma once
 
 #include <cstddef>
 
 namespace phasetree::tests::faults {
 
-// How allocations fail: the n-th from now on, from 1, and with `for_good` all that follow. Of every thread.
+// Makes the n-th allocation from now on fail, counted from 1 over all threads; with `for_good`, all later ones, too.
 void fail_allocation(std::size_t n, bool for_good);
-// Ends that; how many allocations of the project's own code there were since fail_allocation().
+// Ends this, and returns the number of allocations by the project's own code since fail_allocation().
 std::size_t stop_failing_allocations();
 
-// What becomes of write() to files (not to the standard streams), close(), rename() and open() for writing.
+// How write() to files (not to the standard streams), close(), rename() and open() for writing fail.
 struct WriteFaults {
     std::size_t failing = 0;   // the call that fails, from 1; 0: none
     bool for_good = false;     // and all that follow
@@ -23,7 +22,7 @@ struct WriteFaults {
     std::size_t shortest = 0;  // a write() takes no more bytes than this; 0: any number
 };
 void set_write_faults(const WriteFaults&);
-// Ends that; such calls since set_write_faults().
+// Ends this, and returns the number of such calls since set_write_faults().
 std::size_t stop_write_faults();
 
 }  // namespace phasetree::tests::faults

@@ -1,4 +1,4 @@
-// The calls that an input of the target `calls` may make, by what they are about: each file beside this one has some.
+// The calls that an input of the target `calls` may make, by topic: each file in this folder has some.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace phasetree::fuzz {
 
-// What every call promises of its error.
+// Checks what every call guarantees about its error.
 void check(PhasetreeError);
 // A filter that lets no crossing into phase 1 pass.
 void reject_some(const RTCFilterFunctionNArguments*);

@@ -1,4 +1,4 @@
-// What an input of the target `calls` chooses: numbers, members of lists, pointers that may be NULL.
+// The choices that an input of the target `calls` encodes: numbers, members of lists, pointers that may be NULL.
 #pragma once
 
 #include <iterator>
@@ -12,7 +12,7 @@ inline constexpr float some_numbers[] = {0, 0.5f, -0.5f, 1, -1, 0.01f, 2, -3, 1e
 inline constexpr float not_finite[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                        -std::numeric_limits<float>::infinity()};
 
-// What an input has left to say; zeros at its end.
+// The rest of an input; zeros after its end.
 class Choices {
   public:
     explicit Choices(Bytes bytes) : bytes_(bytes) {}

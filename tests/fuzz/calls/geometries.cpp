@@ -1,4 +1,5 @@
-// Geometries are made of trees, counted, asked, edited, moved and called back as Embree would.
+// Geometries are created from trees, reference-counted, queried, edited, moved, and their callbacks are called as
+// Embree would.
 #include <cstdint>
 
 #include "fuzz/calls/calls.hpp"

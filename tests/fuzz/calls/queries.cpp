@@ -1,4 +1,4 @@
-// Rays, packets of rays and points are asked about what is in the scenes.
+// Queries the scenes with rays, packets of rays, and points.
 #include <cmath>
 #include <limits>
 #include <vector>

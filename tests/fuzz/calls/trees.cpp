@@ -1,4 +1,4 @@
-// Trees are made of texts, edited, counted and asked.
+// Trees are created from texts, edited, reference-counted and queried.
 #include <cstdint>
 #include <cstring>
 

@@ -1,5 +1,5 @@
-// Parts and checkpoints: as they are, and again with checksums that are right, without which nothing behind them would
-// ever be read.
+// Parts and checkpoints: unchanged, and again with corrected checksums, without which nothing after them would ever be
+// read.
 #include <cstring>
 
 #include "film_file/merge.hpp"

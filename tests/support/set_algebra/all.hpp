@@ -1,7 +1,7 @@
 #pragma once
 
-/// All parts of the oracle: what each node means (set_algebra.hpp), and random contents of the files that nodes read:
-/// random_content(), an overload for each type of content.
+/// All parts of the oracle: the meaning of each node (set_algebra.hpp), and random contents of the files that nodes
+/// read, by an overload of random_content() for each type of content.
 
 #include "support/set_algebra/balls.hpp"
 #include "support/set_algebra/blobs.hpp"

@@ -7,7 +7,7 @@
 
 namespace phasetree::tests::oracle {
 
-/// How far each skeleton is: the points, the chain, the fields.
+/// The distance to each skeleton: the points, the chain, the fields.
 inline std::vector<double> skeletons(const Blob& n, const dvec3& p) {
     std::vector<double> d;
     for (const glm::vec3& v : n.points) d.push_back(glm::length(p - dvec3(v)));
@@ -36,7 +36,7 @@ inline double contributions(const Blob& n, const dvec3& p) {
 inline bool member(const Blob& n, const dvec3& p) {
     return contributions(n, p) > n.threshold;
 }
-/// The field, or how far the point is from where one skeleton gives its share of the threshold.
+/// The field, or the distance to where a single skeleton contributes its share of the threshold.
 inline double signed_value(const Blob& n, const dvec3& p) {
     const std::vector<double> d = skeletons(n, p);
     double weights = 0, outside = absent;

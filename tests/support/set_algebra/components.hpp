@@ -49,7 +49,7 @@ inline Components components(const Layered& n, const dvec3& p) {
     a[0] = outside + t;
     return a;
 }
-/// What is kept of the chosen phases is where kept < 0. If that is all phases, what goes need not be within them.
+/// The chosen phases are kept where kept < 0. If all phases are chosen, the removed part need not be within them.
 inline Components cut(Components a, double kept, PhaseSet chosen, PhaseSet there) {
     const bool all = chosen.empty() || (there.bits & ~chosen.bits & ~std::uint64_t{1}) == 0;
     double vacuum_value = all ? std::min(a[0], -kept) : a[0];
@@ -102,7 +102,7 @@ inline Components components(const Contacts& n, const dvec3& p) {
     const Components a = values(n.a, p), b = values(n.b, p);
     return in_contact(a, b, n.phases_b, n.alpha * depth(a, n.phases_a) - (1.0 - n.alpha) * depth(b, n.phases_b));
 }
-/// Each phase but the last fills its gaps below the rest.
+/// Each phase except the last fills its gaps, below all other phases.
 inline Components components(const CloseGaps& n, const dvec3& p) {
     const Components a = values(n.of, p);
     Components r = a;

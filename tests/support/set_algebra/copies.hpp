@@ -1,6 +1,6 @@
 #pragma once
 
-/// Copies: each is where its inverse transform leads into the child.
+/// Copies: a point is in a copy if the copy's inverse transform maps it into the child.
 
 #include "support/set_algebra/components.hpp"
 
@@ -71,7 +71,7 @@ std::vector<Copy> copies(const FibonacciSphere<Child>& n) {
     }
     return all;
 }
-/// Where the places are is examined by tests of their own (tests/lib/scatter.cpp).
+/// The positions of the copies have tests of their own (tests/lib/scatter.cpp).
 template <class Child>
 std::vector<Copy> copies(const Scatter<Child>& n) {
     std::vector<Copy> all;

@@ -127,7 +127,7 @@ inline bool member(const Formula& n, const dvec3& p) {
         if (p[i] < static_cast<double>(n.box[0][i]) || p[i] > static_cast<double>(n.box[1][i])) return false;
     return FormulaAtPoint(n.text, p).compute() < 0;
 }
-/// λ and the box around the solid are what the node has found; that they are right, other tests ask.
+/// λ and the box around the solid are taken from the node; other tests check them.
 inline double signed_value(const Formula& n, const dvec3& p) {
     const double slope = n.lipschitz;
     if (n.box.empty()) return FormulaAtPoint(n.text, p).compute() / slope;

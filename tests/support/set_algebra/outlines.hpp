@@ -31,8 +31,8 @@ inline std::vector<Quadratic> curves(const Bezier& n) {
         all.push_back({n.points[i], n.points[i + 1], n.points[(i + 2) % n.points.size()]});
     return all;
 }
-/// A curve is within the triangle of its points: from outside of that it is seen as its chord is. On an edge of the
-/// triangle, an end is seen opposite to the other.
+/// A curve lies within the triangle of its points, so from outside the triangle, it is seen under the same angle as its
+/// chord. From a point on an edge of the triangle, the ends may be seen in opposite directions.
 inline double seen(const dvec2& p, const Quadratic& q, int depth = 0) {
     const double turns[] = {seen(p, q.a, q.b), seen(p, q.b, q.c), seen(p, q.c, q.a)};
     const bool on_edge = std::any_of(std::begin(turns), std::end(turns), [](double a) { return std::abs(a) > 3.14; });
@@ -62,8 +62,8 @@ inline double signed_value(const Bezier& n, const dvec3& p) {
     return member(n, p) ? -d : d;
 }
 
-/// The contours of a text where they stand, each letter's strokes by themselves: tests' texts (random_text.hpp) have
-/// the holes of a stroke behind its outer contour.
+/// The contours of a text at their positions, grouped by the strokes of letters. In the texts of tests
+/// (random_text.hpp), the holes of a stroke follow its outer contour.
 inline std::vector<std::vector<std::vector<Quadratic>>> strokes(const Text& n) {
     std::vector<std::vector<std::vector<Quadratic>>> all;
     double y = 0;

@@ -88,8 +88,8 @@ inline bool member(const RoundedCylinder& n, const dvec3& p) {
     const double wide = n.radius - e + (into > 0 ? std::sqrt(std::max(e * e - into * into, 0.0)) : e);
     return p.x * p.x + p.y * p.y < wide * wide;
 }
-/// A ball that grows evenly as it moves from one centre to the other: how deep the point is in the one that holds it
-/// best. The depth is a concave function of the way, so thirds find its maximum.
+/// A ball that grows evenly as it moves from one centre to the other: the maximum depth of the point in any of these
+/// balls. The depth is a concave function of the position, so ternary search finds its maximum.
 inline double swept(const RoundCone& n, const dvec3& p) {
     const auto outside = [&](double t) {
         return glm::length(p - glm::mix(dvec3(n.from), dvec3(n.to), t)) -

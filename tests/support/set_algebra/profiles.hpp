@@ -34,12 +34,12 @@ inline double signed_value(const Revolve& n, const dvec3& p) {
 
 // Profiles.
 
-/// The angle under which the way from a to b is seen from p, signed.
+/// The signed angle under which the segment from a to b is seen from p.
 inline double seen(const dvec2& p, const dvec2& a, const dvec2& b) {
     const dvec2 u = a - p, v = b - p;
     return std::atan2(u.x * v.y - u.y * v.x, glm::dot(u, v));
 }
-/// How many times a closed way whose parts are seen under these angles in sum goes around: odd is inside.
+/// The winding number of a closed path whose parts are seen under these angles; odd means inside.
 inline bool is_around(double angle) {
     return std::llround(angle / 6.283185307179586) % 2 != 0;
 }
@@ -105,7 +105,7 @@ inline bool member(const BoxFrame& n, const dvec3& p) {
     }
     return near >= 2;
 }
-/// Twelve boxes from the outside; from the inside the faces, and three square tunnels.
+/// From outside, twelve boxes; from inside, the faces and three square tunnels.
 inline double signed_value(const BoxFrame& n, const dvec3& p) {
     const double t = n.thickness;
     const dvec3 half = dvec3(n.size) / 2.0;
@@ -212,8 +212,8 @@ inline double signed_value(const Icosahedron& n, const dvec3& p) {
 
 // Coils.
 
-/// The least value of a function of one variable: of 48 steps a unit, those that are below their neighbours, narrowed
-/// down by thirds.
+/// The minimum of a function of one variable: sampled 48 times per unit, then refined by ternary search around each
+/// sample that is below its neighbours.
 template <class F>
 double least(F&& f, double from, double to) {
     const int steps = std::max(8, static_cast<int>(48 * (to - from)));

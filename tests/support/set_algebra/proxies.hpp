@@ -1,6 +1,7 @@
 #pragma once
 
-/// Stand-ins: what they keep, cut off and fill, by sets; and their values by the distances that take turns.
+/// Proxies and bounding volumes: what they keep, cut off and fill, by sets; and their values, from the distances that
+/// replace each other.
 
 #include "support/set_algebra/components.hpp"
 
@@ -19,7 +20,7 @@ template <class Child>
 double distance_to_volume(const BoundingVolume<Child>& n, const dvec3& p) {
     return n.volume ? value(n.volume, p) : distance_to_box(phasetree::bounds(n.of), p);
 }
-/// At the margin the volume takes over, on the way there what is left of twice the margin.
+/// Beyond the margin, the value is the volume's distance; before it, the rest of twice the margin.
 inline double stood_in_for(double by, double child, double margin) {
     if (by >= margin) return by;
     return std::max(by, std::min(child, 2 * margin - by));
@@ -67,7 +68,7 @@ inline Components components(const PhasedProxy& n, const dvec3& p) {
     return a;
 }
 
-/// Which level stands at a point.
+/// The level used at a point.
 template <class Child>
 const Child& level_at(const LevelOfDetail<Child>& n, const dvec3& p) {
     std::size_t i = 0;

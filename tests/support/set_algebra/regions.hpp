@@ -51,7 +51,7 @@ inline Phase region(const Remove& n, const dvec3& p) {
     const Phase l = label(n.of, p);
     return n.gone.contains(l) ? vacuum : l;
 }
-/// Signed depth in the union of some phases (of all if none are named): how far everything else is.
+/// Signed depth in the union of some phases (of all if none are named): the distance to everything else.
 inline double depth(const Components& a, PhaseSet among) {
     double inside = absent, outside = absent;
     for (std::size_t i = 0; i < Components::size; ++i) {

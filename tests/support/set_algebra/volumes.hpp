@@ -10,7 +10,7 @@
 
 namespace phasetree::tests::oracle {
 
-/// The sum of the voxels' values, weighted by what `basis` says of how many voxels the point is away along each axis.
+/// The sum of the voxels' values, weighted by `basis` of the point's offset along each axis, in voxels.
 template <class Basis>
 double by_basis(const VoxelGrid& grid, const dvec3& p, double beyond, const Basis& basis) {
     const VoxelLattice& l = grid.lattice;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Warps. λ is the node's choice, which the tests of slopes hold to be large enough.
+/// Warps. λ is taken from the node; the tests of slopes check that it is large enough.
 
 #include "support/set_algebra/components.hpp"
 #include "support/set_algebra/primitives.hpp"

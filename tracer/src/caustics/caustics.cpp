@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t photons_per_task = 4096;
 
-// Number of photons per source, and in total, that are traced for learning before the first pass.
+// The number of photons per source, and their maximum number in total, that are traced for learning before the first
+// pass.
 constexpr std::size_t learning_photons_per_source = 1 << 15, max_learning_photons = 1 << 18;
 
 // Photons have pixel coordinates of their own, so that their random numbers differ from those of the picture.

@@ -18,12 +18,12 @@
 // *Balls around parts of emissive surfaces:* pᵢ = q/(π r²), with the ball's radius r. p(line) is the sum of cᵢ pᵢ over
 // those balls that would start a photon on this line at this same point (emissive_surface_lines.hpp).
 //
-// *Balls around parts of emissive media:* a point in the ball (points_in_ball.hpp) and a direction choose a line, and
-// the point chooses the straight segment of it that is in the medium. The segment ends where the light leaves the
-// medium. It begins where the line enters the medium, or at the opaque surface or lamp that hides the rest. The photon
-// carries all emission along the segment. Any point on the segment would have chosen it, so pᵢ = q ∫ v, with the pdf q
-// of the direction per steradian (directions.hpp), the density v of points per volume, and the integral along the part
-// of the segment inside the ball. The sum is over all balls that the segment meets.
+// *Balls around parts of emissive media:* a point in the ball (points_in_ball.hpp) and a direction choose a line. The
+// photon starts on the straight segment of that line that contains the point and is in the medium. The segment ends
+// where the light leaves the medium. It begins where the line enters the medium, or at the opaque surface or lamp that
+// hides the rest. The photon carries all emission along the segment. Any point of the segment gives the same segment,
+// so pᵢ = q ∫ v, with the pdf q of the direction per steradian (directions.hpp), the density v of points per volume,
+// and the integral along the part of the segment inside the ball. The sum is over all balls that the segment meets.
 //
 // *Point lights:* all lines of a point light pass through it, so they have no density by area. They have the density of
 // directions cᵢ q, and a photon carries the light's intensity over that. No other technique finds light of a point
@@ -73,7 +73,7 @@ class PhotonEmission {
     /// The number of bins among which a source chooses the directions of its photons.
     std::size_t bins(std::size_t source) const;
     /// Samples a photon at a time given as a share of the shutter interval, in wavelengths or, if they are null, in
-    /// red, green and blue. nullopt if its line leads nowhere.
+    /// red, green and blue. nullopt if no photon can start on the sampled line.
     std::optional<EmittedPhoton> sample(Sampler& sampler, float time, const Wavelengths* wavelengths = nullptr) const;
     /// See EmittedPhoton::line_density; for a line that leads from a point in this phase towards a light.
     float line_density(const glm::vec3& origin, const glm::vec3& towards_light, Phase phase) const;
@@ -162,8 +162,8 @@ class PhotonEmission {
 
     float share(std::size_t source) const { return static_cast<float>(choice_.probability(source)); }
     float density(const CapSource&, const glm::vec3& origin, const glm::vec3& towards_light) const;
-    /// The density with which a lamp emits photons on a line, and the distance to the lamp, which is infinite if the
-    /// line misses it.
+    /// The density with which a lamp emits photons on a line, and the distance to the lamp; infinity if the line misses
+    /// it.
     struct LampOnLine {
         float density, distance;
     };

@@ -1,5 +1,5 @@
-// A photon: light from a lamp, an infinite light, or an emissive surface or medium that was refracted or reflected at
-// least once, by an interface of clear phases, smooth or rough, or by metal. It landed on an opaque surface that is not
+// A photon: light of a lamp, an infinite light, or an emissive surface or medium, after at least one refraction or
+// reflection by an interface of clear phases, smooth or rough, or by metal. It landed on an opaque surface that is not
 // a mirror, on a rough interface, or in a scattering medium. It represents the whole chain of interfaces behind it
 // (world/chain.hpp).
 #pragma once

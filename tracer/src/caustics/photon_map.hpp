@@ -28,8 +28,8 @@ class PhotonMap {
     static float half_length(float radius) { return radius; }
     float half_length() const { return half_length(radius_); }
 
-    /// Calls use(photon) for each photon, in whatever phase, within the radius of a surface point. Photons farther from
-    /// the tangent plane than a quarter of the radius are skipped: a surface that is nearly flat within the radius has
+    /// Calls use(photon) for each photon, in any phase, within the radius of a surface point. Photons farther from the
+    /// tangent plane than a quarter of the radius are skipped: a surface that is nearly flat within the radius has
     /// none, so they landed on another one. The estimate of the irradiance is the sum of the photons' powers over
     /// expected(), because powers are already divided by p(line). Where a surface is strongly curved or ends, it covers
     /// less than the disc, and the estimate is too dark within the radius.

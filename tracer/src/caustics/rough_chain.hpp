@@ -46,7 +46,8 @@ inline float rough_factor(float pdf, float light_ior, float light_cosine, float 
     return pdf * (light_ior * light_ior * std::abs(light_cosine)) / (path_ior * path_ior * std::abs(path_cosine));
 }
 
-/// n'² d², which divides the density of a point light's directions at an unrefracted distance from it.
+/// Returns n'² d², by which the density of directions cᵢ q of a point light is divided (see above) at the distance d,
+/// up to which its light was not refracted.
 inline float squared_optical_distance(float ior, float distance) {
     return (ior * distance) * (ior * distance);
 }

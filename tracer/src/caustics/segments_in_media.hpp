@@ -15,7 +15,7 @@ struct MediumSegment {
 };
 
 /// The segment that contains the ray's origin; light travels in the ray's direction. The segment begins at the nearest
-/// surface or lamp behind the origin, and ends at the first surface ahead. nullopt if there is no such surface, if a
+/// surface or lamp behind the origin, and ends at the first surface ahead. nullopt if there is no surface ahead, if a
 /// lamp is in front of it, or if no photon continues from it. The medium of the phase need not be emissive.
 std::optional<MediumSegment> medium_segment(const Ray& ray, const World& world, const Scene& scene);
 

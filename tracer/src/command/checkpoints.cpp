@@ -38,9 +38,9 @@ void Checkpoints::run(const std::stop_token& stop) {
         try {
             write_film(file_, header_, film_);
         } catch (const std::bad_alloc&) {
-            say("phasetree: out of memory for a checkpoint; rendering goes on\n");
+            say("phasetree: out of memory for a checkpoint; rendering continues\n");
         } catch (const std::exception& e) {
-            say("phasetree: {}; rendering goes on\n", e.what());
+            say("phasetree: {}; rendering continues\n", e.what());
         }
         last = Clock::now();
     }

@@ -31,7 +31,7 @@ int first_of_share(const Farm& farm, int share);
 std::string part_of_share(const Farm& farm, int share);
 
 // The number of parts at each step: first the shares, then the results of merging neighbours, until a single merge can
-// read them all. Of the m parts of the previous step, merge i of n reads those from i·m/n on, rounded down.
+// read them all. If the previous step has m parts, merge i of n reads those from i·m/n on, rounded down.
 std::vector<int> parts_of_steps(const Farm& farm);
 
 // An upper bound on the length in bytes of a merge's command line.

@@ -54,7 +54,8 @@ FilmFileHeader header_of(const RenderOptions& options, const Document& document,
 
 void add_cells(FilmFileHeader& header, const RenderOptions& options, const CellStatistics& cells) {
     const std::size_t most = options.max_bytes > 0 ? options.max_bytes : default_cell_bytes();
-    header.settings.emplace_back("cells", cells.is_coarser ? fmt::format("within {} bytes", most) : "as fine as pays");
+    header.settings.emplace_back(
+        "cells", cells.is_coarser ? fmt::format("limited to {} bytes", most) : "without a memory limit");
 }
 
 }  // namespace phasetree::tracer

@@ -144,7 +144,7 @@ int import_file(const ImportOptions& options) {
 }  // namespace
 
 void add_import(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("import", "Make a scene of a glTF file, with clear objects as phases");
+    CLI::App* command = app.add_subcommand("import", "Convert a glTF file to a scene, with clear objects as phases");
     command->footer(
         "Clear objects (KHR_materials_transmission and KHR_materials_volume) become phases of one tree;\n"
         "their triangles are written to a folder beside the scene: cup.json has cup.meshes. The rest of\n"

@@ -34,7 +34,7 @@ struct MeasureCommand {
     bool as_json = false;
 };
 
-// The shares of the time that preparing the object for areas may take, and tracing lines for them.
+// For areas: the maximum shares of the time for preparing the object and for tracing lines.
 constexpr double share_of_preparing = 0.5, share_of_areas = 0.2;
 
 using Clock = std::chrono::steady_clock;

@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What is known of a statement.
+// A statement, and what is known about it.
 struct Finding {
     Expectation expectation;
     Proof proof;
@@ -36,7 +36,7 @@ std::string name_of_statement(const Statement& s) {
     return names[s.index()];
 }
 
-// Without "expect": each phase is somewhere, and in one piece.
+// The statements for a scene without "expect": each phase exists and is connected.
 std::vector<Expectation> usual_expectations(const SceneTree& tree) {
     std::vector<Expectation> all;
     for_each_phase(phases(tree.object).bits & ~PhaseSet::of(phasetree::vacuum).bits, [&](int i) {
@@ -53,7 +53,7 @@ std::string point_text(const glm::vec3& p) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
-// What the points show, after the statement and the reason.
+// The text about the points, which follows the statement and the reason.
 std::string witness_text(const Finding& f, const PhaseNames& names) {
     const std::vector<Witness>& points = f.proof.witnesses;
     if (points.empty()) return "";

@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr int most_slices = 100'000;
 
 struct SliceCommand {
-    std::array<std::optional<double>, 3> at;  // across x, y and z
+    std::array<std::optional<double>, 3> at;  // of planes perpendicular to x, y and z
     std::string axis = "z";
     std::optional<int> count;
     std::optional<double> from, to;
@@ -209,7 +209,7 @@ void add_slice_options(CLI::App& command, SliceCommand& options) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         command
             .add_option("--" + std::string(axis_names[axis]), options.at[axis],
-                        fmt::format("Cut across the {} axis, at this coordinate", axis_names[axis]))
+                        fmt::format("Cut perpendicular to the {} axis, at this coordinate", axis_names[axis]))
             ->check(number_in(-far, far))
             ->option_text("COORDINATE");
     command.add_option("--count", options.count, "Cut a stack of N slices, each into a file of its own")
@@ -234,8 +234,9 @@ void add_slice_options(CLI::App& command, SliceCommand& options) {
             "Output file, .svg or .png; #### in the name stands for the number of the slice (default: slice.svg)")
         ->option_text("FILE");
     command
-        .add_option("--tolerance", options.tolerance,
-                    "SVG: how far outlines may be from where phases change (default: a thousandth of the longest side)")
+        .add_option(
+            "--tolerance", options.tolerance,
+            "SVG: maximum distance of outlines from the true interfaces (default: a thousandth of the longest side)")
         ->check(number_in(1e-15, far))
         ->option_text("LENGTH");
     command.add_option("--size", options.size, "PNG: pixels along the longer side (default: 1000)")

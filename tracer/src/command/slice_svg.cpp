@@ -98,8 +98,8 @@ std::string slice_svg(const Slice& slice, const SliceFrame& frame) {
         "<title>{2}</title>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
         page_width, page_height, xml_text(frame.plane));
-    // The scene's coordinates, with the second axis upwards. So are the widths of lines: not every program knows
-    // vector-effect="non-scaling-stroke".
+    // Scene coordinates, with the second axis upwards. Line widths are in scene units, too, because not every program
+    // supports vector-effect="non-scaling-stroke".
     svg += fmt::format(
         "<g transform=\"matrix({} 0 0 {} {} {})\" fill-rule=\"evenodd\" stroke=\"#303030\" stroke-width=\"{:.6g}\" "
         "stroke-linejoin=\"round\">\n",

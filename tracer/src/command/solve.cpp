@@ -179,10 +179,9 @@ void add_solve_options(CLI::App& command, SolveCommand& options) {
         ->required()
         ->option_text("PATH[=LOW:HIGH]");
     command
-        .add_option(
-            "--until", options.quantity,
-            "What the number is to achieve: volume(PHASE) or mass(PHASE), where the phase may be \"total\", and "
-            "its value")
+        .add_option("--until", options.quantity,
+                    "The target: volume(PHASE) or mass(PHASE), where the phase may be \"total\", and "
+                    "its value")
         ->required()
         ->option_text("'volume(PHASE) = VALUE [UNIT]'");
     command
@@ -210,7 +209,7 @@ void add_solve(CLI::App& app, Run& run) {
         "dl, l and m3, units of mass mg, g, kg and t. Without a unit, a volume is in cubed units of\n"
         "length, and a mass in kilograms.\n"
         "\n"
-        "The bracket is halved again and again. An end moves only if the volume's certain interval\n"
+        "The bracket is halved repeatedly. An end moves only if the volume's certain interval\n"
         "proves on which side of the target it is. So at one end of the final bracket the volume is\n"
         "certainly below the target, at the other above it, and one crossing is in between. There may\n"
         "be others. The value printed lies in the bracket. Ctrl-C prints the bracket so far.\n"

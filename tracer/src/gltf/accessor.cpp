@@ -18,7 +18,7 @@ Number at(std::string_view bytes, std::size_t offset) {
     return n;
 }
 
-// Rows without bytes cost memory when they are read, and a small file may ask for billions.
+// Rows without bytes take memory when they are read, and a small file can declare billions.
 constexpr std::size_t most_rows_of_zeros = 10'000'000;
 
 }  // namespace
@@ -44,7 +44,7 @@ std::size_t Accessor::size_of(Type type) {
 Accessor::Rows Accessor::rows_in(std::string_view bytes, std::size_t stride, std::size_t offset, std::size_t count,
                                  Type type, std::size_t columns, const Item& item) {
     const std::size_t row = size_of(type) * columns;
-    // 0 is what programs write that mean none.
+    // Some programs write 0 for "no stride".
     if (stride == 0) stride = row;
     if (stride < row) item.fail("has rows that overlap");
     if (offset > bytes.size()) item.fail("extends beyond the end of its bytes");

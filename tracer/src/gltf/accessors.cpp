@@ -37,7 +37,7 @@ MeshoptLayout layout_of(const Item& compressed) {
     return layout;
 }
 
-// What is read of a primitive's vertices. Of texture coordinates there are no more than a few sets in any file.
+// The attributes of vertices that are read. Files have at most a few sets of texture coordinates.
 constexpr std::array attribute_names{"POSITION",   "NORMAL",     "TANGENT",    "COLOR_0",    "JOINTS_0",
                                      "WEIGHTS_0",  "TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3",
                                      "TEXCOORD_4", "TEXCOORD_5", "TEXCOORD_6", "TEXCOORD_7"};
@@ -61,7 +61,7 @@ std::string_view Accessors::bytes_of_view(std::size_t index, const Item& from) {
     const auto compressed = view.extension(meshopt_name);
     if (!compressed) return document_.view(index, from);
     if (!has_meshopt()) {
-        // A file that does not require the extension has the bytes without compression, too.
+        // A file that does not require the extension also has the uncompressed bytes.
         const Item buffer = document_.element("buffers", view.needed_index("buffer"), view);
         const auto fallback = buffer.extension(meshopt_name);
         if (buffer.has("uri") || !fallback || !fallback->flag("fallback")) return document_.view(index, from);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 
-// The direction of a column of the placement; `otherwise` if it has no length.
+// The direction of a column of the placement; `otherwise` if its length is 0.
 glm::dvec3 axis(const glm::dmat4& placement, int column, const glm::dvec3& otherwise) {
     const glm::dvec3 v(placement[column]);
     const double length = glm::length(v);
@@ -61,7 +61,7 @@ std::optional<Camera> camera_of(const Document& document, const PlacedMeshes& pl
     return first;
 }
 
-// What keeps a light from emitting; empty if it emits.
+// The reason why a light does not emit; empty if it does.
 std::string why_dark(const glm::vec3& color, float intensity) {
     if (intensity < 0) return "a negative intensity";
     if (intensity == 0) return "the intensity 0";

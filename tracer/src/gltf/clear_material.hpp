@@ -14,7 +14,7 @@
 
 namespace phasetree::tracer::gltf {
 
-/// A clear material by glTF's own numbers. Images are replaced by their mean.
+/// A clear material, in the numbers of glTF. Images are replaced by their mean.
 struct ClearMaterial {
     bool has_volume = false;  ///< KHR_materials_volume; without it, a surface is a thin pane with nothing inside
     float ior = 1.5f;
@@ -22,7 +22,8 @@ struct ClearMaterial {
     float roughness = 0;   ///< α of GGX is its square
     glm::vec3 tint{1};     ///< the base colour, by which light is multiplied at each crossing of the surface
     glm::vec3 attenuation_color{1};
-    std::optional<float> attenuation_distance{};  ///< after which white light has the colour; if none, it stays white
+    /// The distance after which white light has the attenuation colour; without it, light stays white.
+    std::optional<float> attenuation_distance{};
     std::optional<SurfaceFilm> film{};
     std::optional<float> priority{};  ///< extras.phasetree_priority
     std::string matter{};             ///< extras.phasetree_matter; empty if there is none

@@ -20,7 +20,7 @@ constexpr std::size_t most_bytes_of_json = std::size_t{64} << 20;
 constexpr std::size_t most_depth = 64;
 constexpr std::size_t most_bytes_of_buffers = std::size_t{1} << 30;
 
-// How deep the brackets of a JSON text are within each other, those in strings aside.
+// The nesting depth of the brackets of a JSON text, ignoring those in strings.
 std::size_t depth_of(std::string_view text) {
     std::size_t depth = 0, most = 0;
     bool is_in_string = false;
@@ -28,7 +28,7 @@ std::size_t depth_of(std::string_view text) {
         const char c = text[i];
         if (c == '"') is_in_string = !is_in_string;
         if (is_in_string) {
-            i += c == '\\' ? 1 : 0;  // what follows a backslash ends no string
+            i += c == '\\' ? 1 : 0;  // the character after a backslash does not end a string
         } else if (c == '{' || c == '[') {
             most = std::max(most, ++depth);
         } else if (depth > 0 && (c == '}' || c == ']')) {
@@ -45,7 +45,7 @@ std::uint32_t number_at(std::string_view content, std::size_t at) {
     return n;
 }
 
-// The bytes of the next chunk, which is taken off the content.
+// Removes the next chunk from the content and returns its bytes.
 std::string_view next_chunk(std::string_view& content, std::uint32_t& type) {
     const std::size_t size = number_at(content, 0);
     type = number_at(content, 4);
@@ -268,7 +268,7 @@ std::vector<std::string> Document::files() const {
                 const Item item = element(list, i, root());
                 std::string path = item.has("uri") ? path_of_uri(item.text("uri")) : "";
                 if (!path.empty()) files.push_back(std::move(path));
-            } catch (const GltfError&) {  // it names none that is read
+            } catch (const GltfError&) {  // it does not name a file that can be read
             }
     return files;
 }

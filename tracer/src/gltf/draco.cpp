@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view invalid = "contains invalid Draco data; export the file again, or without Draco compression";
 
-// The library allocates what the data ask for. So this looks at the numbers of triangles, vertices and attributes
-// before it does. `Decoder` is one of the library's decoders of meshes.
+// The library allocates as much memory as the data declare, so the numbers of triangles, vertices and attributes are
+// checked first. `Decoder` is one of the library's mesh decoders.
 template <class Decoder>
 class LimitedDecoder : public Decoder {
   public:
@@ -31,7 +31,7 @@ class LimitedDecoder : public Decoder {
     bool DecodeConnectivity() override {
         constexpr std::uint16_t version_of_gltf = DRACO_BITSTREAM_VERSION(2, 2);
         if (this->bitstream_version() != version_of_gltf) return false;
-        // Edgebreaker's data begin with the number of vertices, sequential ones with that of faces.
+        // Data of the Edgebreaker method begin with the number of vertices, sequential data with the number of faces.
         draco::DecoderBuffer ahead = *this->buffer();
         std::uint32_t first = 0, second = 0;
         if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) return false;
@@ -50,7 +50,7 @@ class LimitedDecoder : public Decoder {
         for (int i = 0; i < cloud.num_attributes(); ++i) {
             const draco::PointAttribute& attribute = *cloud.attribute(i);
             const auto bytes = static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type()));
-            // Beside each number there may be an integer from which it is made.
+            // In addition to each number, there may be an integer from which it is computed.
             bytes_per_point += static_cast<std::size_t>(attribute.num_components()) * (bytes + sizeof(std::int32_t));
         }
         is_beyond_limits_ = points > limits_.vertices || (points > 0 && bytes_per_point > limits_.bytes / points);

@@ -15,16 +15,16 @@ namespace phasetree::tracer::gltf {
 namespace {
 
 enum class Use {
-    read,      // or nearly: what is lost is said where it is met
-    harmless,  // nothing of the picture depends on it
-    accepted,  // something of the picture is missing, but a file that requires it is read
-    refused    // something is missing, and a file that requires it is rejected
+    read,      // at least nearly; what is lost is reported where the extension is used
+    harmless,  // does not affect the picture
+    accepted,  // part of the picture is missing, but a file that requires it is read
+    refused    // part of the picture is missing, and a file that requires it is rejected
 };
 
 struct Extension {
     std::string_view name;
     Use use;
-    std::string_view missing = "";                  // what the picture lacks where it is not read
+    std::string_view missing = "";                  // what is missing from the picture if it is not read
     std::string_view remedy = "export without it";  // what to do about a file that requires it
 };
 
@@ -54,7 +54,7 @@ constexpr std::array known_extensions{
     Extension{"EXT_mesh_manifold", Use::harmless},
     Extension{"EXT_structural_metadata", Use::harmless},
     Extension{"GODOT_single_root", Use::harmless},
-    Extension{"KHR_animation_pointer", Use::harmless},  // animations have a sentence of their own
+    Extension{"KHR_animation_pointer", Use::harmless},  // animations are reported separately
     Extension{"KHR_audio_emitter", Use::harmless},
     Extension{"KHR_implicit_shapes", Use::harmless},
     Extension{"KHR_interactivity", Use::harmless},
@@ -101,7 +101,7 @@ constexpr std::array known_extensions{
     Extension{"VRMC_materials_mtoon", Use::refused, "toon shading"},
 };
 
-// Read where clear materials become phases.
+// Read if clear materials become phases.
 constexpr std::array<std::string_view, 2> extensions_of_phases{"KHR_materials_dispersion", "KHR_materials_volume"};
 
 const Extension* find(std::string_view name) {
@@ -109,7 +109,7 @@ const Extension* find(std::string_view name) {
     return found == known_extensions.end() ? nullptr : found;
 }
 
-// Messages quote only what looks like the name of an extension.
+// Messages quote only texts that look like the name of an extension.
 bool is_name(std::string_view text) {
     constexpr std::size_t longest = 60;
     return !text.empty() && text.size() <= longest &&

@@ -1,4 +1,4 @@
-// The extensions of glTF that this program knows, and what it does with each: the one list of them.
+// The list of all glTF extensions that this program knows, and what it does with each.
 //
 // Reference: https://github.com/KhronosGroup/glTF/tree/main/extensions
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace phasetree::tracer::gltf {
 
-/// Throws GltfError, which names the extension and says what to do, if the file requires an extension without which it
-/// is not what its author meant. Without `has_materials` extensions of materials and images do not count. With
-/// `has_phases` clear materials become phases, so that their extensions are read.
+/// Throws GltfError, which names the extension and a remedy, if the file requires an extension without which the
+/// picture would be wrong. Without `has_materials`, extensions of materials and images do not count. With `has_phases`,
+/// clear materials become phases, so their extensions are read.
 void check_required_extensions(const Document&, bool has_materials, bool has_phases = false);
 
-/// What a material loses with an extension that is not read, as a predicate such as "loses sheen of cloth"; empty if it
-/// loses nothing, or if the name is none that a message may quote.
+/// What a material loses because an extension is not read, as a predicate such as "loses sheen of cloth". Empty if it
+/// loses nothing, or if messages must not quote the name.
 std::string loss_without(std::string_view name);
 
 /// One sentence that lists the extensions that are not read and may change the picture, and what is missing; empty if

@@ -22,9 +22,10 @@ bool repeats(const Document& document, const Item& source) {
 
 }  // namespace
 
-// glTF's coordinates have (0, 0) at the upper left corner of an image, and v grows downwards. KHR_texture_transform
-// scales them, then turns them counter-clockwise as such axes show it, then moves them. (The matrix in its
-// specification turns the other way, which issue 1563 of KhronosGroup/glTF confirms; other programs do the same.)
+// glTF's texture coordinates have (0, 0) at the upper left corner of an image, and v points down. KHR_texture_transform
+// scales them, then rotates them counter-clockwise as seen in these axes, then moves them. (The matrix in its
+// specification rotates the other way. Issue 1563 of KhronosGroup/glTF confirms that this is a mistake, and other
+// programs rotate as here.)
 Coordinates coordinates_of(const Item& texture) {
     Coordinates c;
     c.set = texture.index("texCoord").value_or(0);

@@ -1,4 +1,4 @@
-// The images of a glTF file, each read once, and how they lie on meshes.
+// The images of a glTF file, each read only once, and how they are mapped onto meshes.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace phasetree::tracer::gltf {
 
-/// By which texture coordinates of a mesh an image is laid on it, and how these become ours, of which (0, 0) is the
+/// The texture coordinates by which an image is mapped onto a mesh, and their transform to ours, in which (0, 0) is the
 /// image's lower left corner.
 struct Coordinates {
     std::size_t set = 0;
@@ -27,30 +27,31 @@ struct Coordinates {
     bool operator==(const Coordinates&) const = default;
 };
 
-/// Those of a material's reference to a texture (KHR_texture_transform).
+/// The coordinates of a material's reference to a texture (KHR_texture_transform).
 Coordinates coordinates_of(const Item& texture);
 
 struct ReadImage {
     std::shared_ptr<const TextureImage> image;
     glm::vec3 mean{0};   ///< of all pixels
-    glm::vec2 green{0};  ///< the least and the greatest value of the second channel
-    glm::vec2 blue{0};   ///< and of the third
-    /// The range of the second channel, widened to quarters, so that images share the tables that are made for a range.
+    glm::vec2 green{0};  ///< the minimum and the maximum of the second channel
+    glm::vec2 blue{0};   ///< the same for the third channel
+    /// The range of the second channel, enlarged to multiples of a quarter, so that images can share the tables made
+    /// for a range.
     glm::vec2 green_in_quarters() const { return {std::floor(4 * green.x) / 4, std::ceil(4 * green.y) / 4}; }
-    float lit_share = 0;      ///< the part of the pixels of which a channel is at least 0.01, linear
-    bool is_missing = false;  ///< then there is nothing else: alpha was wanted, and there is none
-    bool repeats = true;      ///< whether the file, too, repeats it beyond its edges
+    float lit_share = 0;      ///< the fraction of pixels in which a channel is at least 0.01, linear
+    bool is_missing = false;  ///< alpha was requested, but the image has none; the other members are not set
+    bool repeats = true;      ///< whether the file repeats it beyond its edges, as phasetree does
 };
 
 class Images {
   public:
-    /// Refers to the document. `most_pixels` is how many all images may have.
+    /// Refers to the document. `most_pixels` is the maximum number of pixels of all images together.
     Images(const Document& document, std::size_t most_pixels)
         : document_(document), most_pixels_(most_pixels), pixels_left_(most_pixels) {}
 
-    /// The image of a material's reference to a texture; nothing if the texture has none that can be read, or none with
-    /// alpha where that is wanted. Throws GltfError. An image that is wanted with two meanings is read twice, and
-    /// counts twice.
+    /// The image of a material's reference to a texture; nullopt if the texture has no image that can be read, or none
+    /// with alpha if that is requested. Throws GltfError. An image that is requested with two meanings is read twice,
+    /// and counts twice.
     std::optional<ReadImage> read(const Item& texture, ImageMeaning meaning);
 
   private:

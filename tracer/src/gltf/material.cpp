@@ -16,7 +16,7 @@ namespace phasetree::tracer::gltf {
 
 namespace {
 
-// A name for people.
+// The name of a material in messages.
 std::string name_of_material(const Item& material, std::size_t index) {
     const std::string name = clean_name(material.text("name"));
     return name.empty() ? fmt::format("material {}", index) : name;
@@ -33,7 +33,7 @@ float largest(const glm::vec3& v) {
 // Surfaces that emit less are shown as dark.
 constexpr float faintest_radiance = 0.01f;
 
-// A surface that is metal by more than this everywhere counts as all metal.
+// A surface whose metallic factor exceeds this everywhere counts as metal.
 constexpr float nearly_all = 0.99f;
 
 }  // namespace
@@ -88,7 +88,7 @@ class Materials::Maker {
 
     std::optional<Item> extension(std::string_view name) const { return item_.extension(name); }
 
-    // Reads a texture's image, and notes it if the image is of a kind that is not read.
+    // Reads the image of a texture. Reports an image in a format that is not read.
     std::optional<ReadImage> image(const std::optional<Item>& texture, ImageMeaning meaning) {
         if (!texture) return std::nullopt;
         const auto read = images_.read(*texture, meaning);
@@ -96,8 +96,8 @@ class Materials::Maker {
             note_loss("has an image in an unsupported format, which is ignored; use PNG or JPEG");
         return read;
     }
-    // How an image lies on meshes. The first one of a material decides which coordinates the meshes have; others are
-    // laid by these, too, or by a second set.
+    // How an image is mapped onto meshes. The first image of a material determines the meshes' texture coordinates. The
+    // others use these, too, or a second set.
     ImageCoordinates lay(const Item& texture, const ReadImage& image) {
         if (!image.repeats) note_loss("has an image that must not repeat; it is rendered as repeating");
         const Coordinates wanted = coordinates_of(texture);
@@ -165,7 +165,8 @@ class Materials::Maker {
         const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
         metallic_ = metallic;
         mean_roughness_ = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
-        // Surfaces of one roughness share their tables, which take a tenth of a second. No eye sees a 64th.
+        // Surfaces of the same roughness share their tables, which take a tenth of a second to make. A difference of
+        // 1/64 is invisible.
         const float roughness = std::round(32 * std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f)) / 32;
         roughness_ = roughness;
         alpha_ = roughness * roughness;
@@ -198,7 +199,7 @@ class Materials::Maker {
         return NormalMap{.strength = std::clamp(texture->number("scale", 1), -100.0f, 100.0f), .image = read->image};
     }
 
-    // What it emits, without its colour; nothing if it is dark.
+    // Its emission, without its colour; nullopt if it is dark.
     std::optional<Glowing> emission(bool keeps_normal_map) {
         const glm::vec3 emissive = item_.vec3("emissiveFactor", glm::vec3(0));
         const auto strength = extension("KHR_materials_emissive_strength");
@@ -211,7 +212,7 @@ class Materials::Maker {
         TintedMeshImage light{.factor = fraction(emissive / largest(emissive))};
         const auto texture = item_.item("emissiveTexture");
         const auto read = image(texture, ImageMeaning::colors);
-        // If an image says where the surface emits, but cannot be read, the surface is taken to be dark.
+        // If the image that shows where the surface emits cannot be read, the surface is assumed to be dark.
         if (texture && !read) return std::nullopt;
         if (read) {
             if (read->lit_share < 0.5f) {
@@ -235,7 +236,7 @@ class Materials::Maker {
 
     float index() const {
         const auto ior_extension = extension("KHR_materials_ior");
-        // 0 is glTF's word for a surface whose reflection other extensions say.
+        // In glTF, 0 means that other extensions determine the reflection.
         const float wanted = ior_extension ? ior_extension->number("ior", 1.5f) : 1.5f;
         return wanted > 0 ? std::clamp(wanted, 1.01f, 4.0f) : 1.5f;
     }

@@ -1,7 +1,7 @@
-// The materials of a glTF file as ours.
+// Converts the materials of a glTF file.
 //
-// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. Where the number is
-// neither 0 nor 1 everywhere, ours is a `mix` of the two by that number.
+// glTF mixes two surfaces by a number, `metallic`: a diffuse one under a clear coat, and a metal. If the number is not
+// 0 everywhere or 1 everywhere, the material becomes a `mix` of the two by that number.
 //   * The dielectric is a `coated` material, whose coat has the index 1.5, or that of KHR_materials_ior, and whose base
 //     is chosen so that it looks like glTF's colour under the coat (texture/tinted_mesh_image.hpp). As in glTF, α of
 //     GGX is the square of the roughness.
@@ -9,8 +9,8 @@
 //   * A material with a clear coat, sheen, specular factors, anisotropy or iridescence is `principled`
 //     (shading/bsdf/principled.hpp), and may emit light, too. Other materials avoid the cost of its tables.
 //   * Any other material that emits light is `glowing`. It reflects the rest diffusely, whatever its roughness. If an
-//     image makes most of it dark, as of lamps on a machine, it is a surface like others and does not emit.
-//   * Where the alpha of its colour counts, meshes have holes, or let the part 1 − alpha of the light through
+//     image makes most of it dark, such as the lamps of a machine, it does not emit.
+//   * Where the alpha of its colour counts, meshes have holes, or let the fraction 1 − alpha of the light through
 //   (shading/opacity.hpp).
 // Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. They
 // become phases of a tree instead (clear_material.hpp).
@@ -32,27 +32,27 @@ namespace phasetree::tracer::gltf {
 
 struct NamedMaterial {
     std::string name;
-    bool is_clear = false;                 ///< then only the name, `clear` and not_shown are set
-    std::optional<ClearMaterial> clear{};  ///< of a clear material, if these are wanted
+    bool is_clear = false;                 ///< if so, only the name, `clear` and not_shown are set
+    std::optional<ClearMaterial> clear{};  ///< of a clear material, if these are requested
     Material material{};
-    std::optional<Opacity> opacity{};          ///< none is opaque everywhere
-    std::optional<Coordinates> coordinates{};  ///< there are none without images
-    /// The set of texture coordinates, as the file has them, of images that cannot be laid by the first.
+    std::optional<Opacity> opacity{};          ///< nullopt is opaque everywhere
+    std::optional<Coordinates> coordinates{};  ///< nullopt without images
+    /// The number in the file of a second set of texture coordinates, for images that cannot be mapped by the first.
     std::optional<std::size_t> second_set{};
     std::vector<std::string> not_shown{};   ///< sentences about what is lost
-    std::vector<std::string> extensions{};  ///< the names of those that it has
+    std::vector<std::string> extensions{};  ///< the names of its extensions
 };
 
 class Materials {
   public:
-    /// Refers to the document. `most_pixels` is how many all images may have. `wants_clear` says whether to read clear
-    /// materials; otherwise they are only recognised.
+    /// Refers to the document. `most_pixels` is the maximum number of pixels of all images together. `wants_clear`:
+    /// whether to read clear materials; otherwise they are only recognised.
     Materials(const Document& document, std::size_t most_pixels, bool wants_clear = false)
         : document_(document), images_(document, most_pixels), wants_clear_(wants_clear) {}
 
-    /// The material of that number, or glTF's own if there is none. `by_vertices` says whether the mesh has colours of
-    /// vertices; then there is an opacity wherever alpha counts, even if it is 1 but for the vertices' alpha. Throws
-    /// GltfError.
+    /// The material with this index, or glTF's default material if there is none. `by_vertices`: whether the mesh has
+    /// vertex colours. If so, there is an opacity wherever alpha counts, even if only the vertices' alpha differs from
+    /// 1. Throws GltfError.
     NamedMaterial make(const std::optional<std::size_t>& index, bool by_vertices, const Item& from);
 
   private:

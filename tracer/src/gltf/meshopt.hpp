@@ -1,5 +1,5 @@
-// Buffer views that are compressed by EXT_meshopt_compression, decoded by the meshoptimizer library where the build has
-// it. The data are not trusted.
+// Decodes buffer views that are compressed by EXT_meshopt_compression, if the build has the meshoptimizer library. The
+// data are not trusted.
 //
 // Reference: https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 #pragma once
@@ -27,8 +27,8 @@ struct MeshoptLayout {
 /// Whether the build has the library.
 bool has_meshopt();
 
-/// The `count` × `stride` bytes; nothing if the compressed ones are invalid, or there is no library. The layout is an
-/// allowed one.
+/// The `count` × `stride` decoded bytes; nullopt if the compressed bytes are invalid, or without the library. The
+/// layout must be allowed.
 std::optional<std::string> decode_meshopt(std::string_view compressed, const MeshoptLayout&);
 
 }  // namespace phasetree::tracer::gltf

@@ -1,4 +1,4 @@
-// Names from a glTF file, made fit for messages and scene files.
+// Cleans names from a glTF file for use in messages and scene files.
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,7 @@ glm::dmat4 placement_of(const Item& node) {
     return glm::scale(m, glm::dvec3(node.vec3("scale", glm::vec3(1))));
 }
 
-// A matrix for each instance of a node (EXT_mesh_gpu_instancing), or one that changes nothing.
+// A matrix for each instance of a node (EXT_mesh_gpu_instancing), or a single identity matrix.
 class Instances {
   public:
     Instances(Accessors& accessors, const Item& node) {
@@ -87,7 +87,7 @@ class Scene {
             next_.pop_back();
             const glm::dmat4 placement = n.placement * placement_of(n.node);
             placements_[n.number] = placement;
-            // Hidden nodes are still placed, because skins may have them as joints.
+            // Hidden nodes are still placed, because they may be joints of skins.
             const auto visibility = n.node.extension("KHR_node_visibility");
             const bool is_visible = n.is_visible && (!visibility || visibility->flag("visible", true));
             const auto mesh = n.node.index("mesh");
@@ -117,7 +117,8 @@ class Scene {
         const std::vector<std::size_t> children = parent.indices(list);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             const Item node = document_.element("nodes", *child, parent);
-            // Nodes are trees, so each is met once. Without that a small file could hold endlessly many.
+            // Nodes must form trees, so each may occur only once. Otherwise a small file could contain any number of
+            // meshes.
             if (placements_[*child]) node.fail("occurs twice in the node hierarchy");
             placements_[*child] = placement;
             next_.push_back({*child, node, placement, is_visible});

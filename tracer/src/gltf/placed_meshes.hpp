@@ -1,4 +1,4 @@
-// The meshes, cameras and lights of a glTF file where its nodes place them.
+// The meshes, cameras and lights of a glTF file, placed by its nodes.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace phasetree::tracer::gltf {
 
-/// For each joint of a skin the matrix from the space of the mesh to that of the file. A vertex goes to where the mean
-/// of these matrices takes it, weighted by its own weights: linear blend skinning.
+/// For each joint of a skin, the matrix from the space of the mesh to that of the file. A vertex is transformed by the
+/// mean of these matrices, weighted by the vertex's weights: linear blend skinning.
 using Joints = std::vector<glm::dmat4>;
 
 struct PlacedMesh {
     std::size_t mesh = 0;  ///< its number in "meshes"
     std::size_t node = 0;  ///< the number of its node in "nodes"
     glm::dmat4 placement{1};
-    /// Of a mesh with a skin; only vertices without joints go by the placement then.
+    /// The joints of a mesh with a skin. `placement` then applies only to vertices without joints.
     std::shared_ptr<const Joints> joints{};
-    /// Of the morph targets of its primitives; those that are missing are 0. Null if all are.
+    /// The weights of the morph targets of its primitives; missing ones are 0. Null if all are 0.
     std::shared_ptr<const std::vector<float>> weights{};
 };
 
@@ -37,8 +37,8 @@ struct PlacedMeshes {
     bool has_hidden = false;            ///< whether KHR_node_visibility hides a node that has a mesh
 };
 
-/// The visible meshes of the file's scene, or of its first if it names none, in the order of its nodes, each in the
-/// pose that its nodes have without animations. Throws GltfError, also for more than `most` of them.
+/// The visible meshes of the file's default scene, or of its first scene, in the order of its nodes and in the pose
+/// without animations. Throws GltfError, also for more than `most` meshes.
 PlacedMeshes placed_meshes(Accessors&, std::size_t most);
 
 }  // namespace phasetree::tracer::gltf

@@ -28,8 +28,8 @@ namespace {
 
 enum Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
 
-// Takes normals of a surface to normals, of any length, of the surface that is moved by m, which need not have an
-// inverse.
+// The matrix that transforms normals of a surface to normals, of any length, of the surface transformed by m. m need
+// not have an inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -56,7 +56,7 @@ std::optional<Accessor> attribute(const Attributes& attributes, const std::strin
     return found;
 }
 
-// How a morph target moves the vertices, and how much of it counts.
+// How a morph target moves the vertices, and its weight.
 struct MorphTarget {
     double weight;
     std::optional<Accessor> positions, normals, tangents;
@@ -98,8 +98,8 @@ class Reader {
     }
 
   private:
-    // Primitives of one material are one part, those with colours of vertices another. Those of a clear one are a solid
-    // for each placed mesh, whose number counts from 1.
+    // Primitives of the same material form one part, except that those with vertex colours form another. Primitives of
+    // a clear material form a solid for each placed mesh, whose number counts from 1.
     struct Key {
         std::optional<std::size_t> material;
         bool by_vertices = false;
@@ -119,7 +119,7 @@ class Reader {
         std::optional<ClearSolid> solid{};
     };
 
-    // Where a primitive's vertices come from, and where they go.
+    // The sources of a primitive's vertices, and their transforms.
     struct Source {
         Accessor positions;
         std::optional<Accessor> normals, texture, second_texture, colors, tangents, joints, weights, indices;
@@ -163,7 +163,7 @@ class Reader {
         const auto item = primitive.item("attributes");
         if (!item || !item->has("POSITION")) primitive.fail("has no positions");
         Attributes attributes{accessors_, *item, accessors_.decoded(primitive, *item)};
-        // What was compressed as a strip is decoded to triangles.
+        // Compressed strips are decoded to triangles.
         if (!attributes.decoded.empty()) mode = triangles;
         const Accessor positions = attributes.find("POSITION").value();
         if (positions.columns() != 3) positions.fail("has positions that do not have three numbers");
@@ -189,7 +189,7 @@ class Reader {
                       placed,
                       mode};
         if (source.joints && item->has("JOINTS_1")) say("has vertices with more than four joints; only four are used");
-        // Tangents without normals mean nothing.
+        // Tangents are meaningless without normals.
         begun.drops_tangents = begun.drops_tangents || !source.tangents || !source.normals;
         if (const auto decoded = attributes.decoded.find("indices"); decoded != attributes.decoded.end())
             source.indices.emplace(decoded->second);
@@ -211,7 +211,7 @@ class Reader {
                 throw GltfError(
                     fmt::format("its morph targets move more than {} million vertices", limits_.moves / 1'000'000));
         };
-        // Targets that move nothing take time, too.
+        // Targets with the weight 0 take time, too.
         count_moves(primitive.count("targets"));
         const std::vector<Item> targets = primitive.items("targets");
         const std::vector<float>& weights = *source.placed.weights;
@@ -295,7 +295,7 @@ class Reader {
             file_.clear_materials.push_back({unlike(clear_names_, made.name), made.clear.value()});
     }
 
-    // The name, or the name with a number if it is taken.
+    // The name, with a number appended if it is taken.
     static std::string unlike(std::set<std::string>& taken, const std::string& name) {
         std::string unique = name;
         for (int same = 2; !taken.insert(unique).second; ++same) unique = fmt::format("{} {}", name, same);
@@ -318,7 +318,8 @@ class Reader {
         if (!part.colors.empty()) part.colors.values.resize(part.mesh.vertices.size(), glm::vec3(1));
         drop_useless_opacity(part);
         if (begun.drops_tangents) part.tangents = {};
-        // Where there are images, triangles without coordinates have the same ones at all corners, so one pixel.
+        // If there are images, triangles without coordinates have the same coordinates at all corners, so they show a
+        // single pixel.
         if (begun.lacks_texture && !begun.has_images) part.texture = {};
         part.name = unlike(names_, part.name);
         file_.parts.push_back(std::move(part));
@@ -341,7 +342,7 @@ class Reader {
             throw GltfError(fmt::format("it has more than {} million triangles", limits_.triangles / 1'000'000));
         ++primitive_number_;
         if (vertices_in_part_.size() < source.positions.rows()) vertices_in_part_.resize(source.positions.rows());
-        // Only vertices that triangles have are taken: primitives may share one list of positions.
+        // Only vertices of triangles are kept, because primitives may share one list of positions.
         const auto vertex_of = [&](std::size_t corner) -> std::size_t {
             return source.indices ? source.indices->index(corner) : corner;
         };
@@ -356,7 +357,7 @@ class Reader {
             return vertices_in_part_[i].number;
         };
         for (std::size_t i = 0; i < count; ++i) {
-            // Every second triangle of a strip is the other way round.
+            // Every second triangle of a strip has the opposite orientation.
             const std::array<std::size_t, 3> of = source.mode == triangles ? std::array{3 * i, 3 * i + 1, 3 * i + 2}
                                                   : source.mode == fan     ? std::array{i + 1, i + 2, std::size_t{0}}
                                                                        : std::array{i, i + 1 + i % 2, i + 2 - i % 2};
@@ -388,7 +389,7 @@ class Reader {
         if (begun.second_set)
             part.second_texture.values.push_back(uv(source.second_texture, Coordinates::from_upper_left()));
         if (source.colors) {
-            // What came before without colours is white.
+            // Earlier vertices without colours are white.
             part.colors.values.resize(part.mesh.vertices.size() - 1, glm::vec3(1));
             part.colors.values.push_back(glm::clamp(finite(row<3>(*source.colors, i), *source.colors), 0.0f, 1.0f));
         }
@@ -404,7 +405,7 @@ class Reader {
                                           std::copysign(1.0f, static_cast<float>(side * tangent.w)));
     }
 
-    // What the morph targets make of a vector of a vertex.
+    // A vector of a vertex after applying the morph targets.
     template <std::optional<Accessor> MorphTarget::*vectors>
     static glm::dvec3 moved(glm::dvec3 v, std::size_t i, const Source& source) {
         for (const MorphTarget& target : source.targets)
@@ -432,7 +433,7 @@ class Reader {
         return weights > 0 ? sum / weights : source.placed.placement;
     }
 
-    // 0 for what has no length, or is no number.
+    // Normalises v; returns 0 if its length is 0 or not finite.
     static glm::vec3 unit(const glm::dvec3& v) {
         const double length = glm::length(v);
         return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);

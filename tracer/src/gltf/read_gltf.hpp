@@ -16,9 +16,9 @@
 
 namespace phasetree::tracer::gltf {
 
-/// The triangles of one material, in glTF's space, of which y is up, in metres.
+/// The triangles of one material, in glTF's space: y is up, the unit is the metre.
 struct Part {
-    std::string name{};  ///< of the material, unlike that of any other part
+    std::string name{};  ///< of the material; unique among the parts
     Material material{};
     std::optional<Opacity> opacity{};  ///< none is opaque everywhere
     TriangleMesh mesh{};
@@ -70,23 +70,23 @@ struct PunctualLight {
     float inner_cone = 0, outer_cone = 0;  ///< of a spot: half angles in radians
 };
 
-/// How much a file may have: a small one may place one mesh many times, or say that its images are large.
+/// Limits, because a small file may place one mesh many times, or declare large images.
 struct Limits {
-    std::size_t triangles = 20'000'000;  ///< a mesh counts at each place where it is
-    std::size_t primitives = 5'000'000;  ///< which are glTF's parts of meshes; they count in the same way
+    std::size_t triangles = 20'000'000;  ///< a mesh counts once per placement
+    std::size_t primitives = 5'000'000;  ///< glTF's parts of meshes; counted in the same way
     std::size_t materials = 2'000;       ///< that triangles have
     std::size_t solids = 1'000;          ///< of clear materials
     std::size_t pixels = 256'000'000;    ///< of all images
     std::size_t moves = 200'000'000;     ///< of vertices by morph targets
 };
 
-/// With `none` all triangles are of one part, clear ones too, and neither materials nor images are examined. If only
-/// some triangles of the part have colours of vertices, the others are white.
+/// With `none`, all triangles form one part, including clear ones, and neither materials nor images are examined. If
+/// only some triangles of the part have vertex colours, the others are white.
 enum class ReadMaterials { all, none };
 
 struct GltfFile {
-    std::vector<Part> parts;             ///< in the order of the materials; what has none comes first
-    std::vector<std::string> not_shown;  ///< sentences about what the file has and the parts have not
+    std::vector<Part> parts;             ///< in the order of the materials, after those without a material
+    std::vector<std::string> not_shown;  ///< sentences about content of the file that the parts lack
     // With ReadClear::as_solids:
     std::vector<ClearSolid> solids{};  ///< in the order of the file
     std::vector<NamedClearMaterial> clear_materials{};
@@ -101,8 +101,8 @@ struct ReadOptions {
     Limits limits{};
 };
 
-/// `content` is all of the file, .glb or .gltf; files that it names are read by `read_file`. Throws GltfError for what
-/// is no such file, what has no triangles to be shown, and what is beyond the limits, and whatever `read_file` throws.
+/// `content` is the whole file, .glb or .gltf; `read_file` reads files that it names. Throws GltfError if it is not
+/// such a file, has no triangles to show, or exceeds the limits. Exceptions of `read_file` are passed on.
 GltfFile read_gltf(std::string_view content, const ReadOptions& options, const ReadFile& read_file = {});
 inline GltfFile read_gltf(std::string_view content, ReadMaterials materials = ReadMaterials::all,
                           const Limits& limits = {}, const ReadFile& read_file = {}) {

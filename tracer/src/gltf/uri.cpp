@@ -18,14 +18,14 @@ int digit_of(char c) {
     return -1;
 }
 
-// Whether a text ends so, in upper or lower case. The ending is in lower case.
+// Whether a text has this ending, ignoring case. The ending is in lower case.
 bool has_ending(std::string_view text, std::string_view ending) {
     if (text.size() < ending.size()) return false;
     return std::ranges::equal(text.substr(text.size() - ending.size()), ending,
                               [](unsigned char a, char b) { return std::tolower(a) == static_cast<unsigned char>(b); });
 }
 
-// %20 is a blank. What is no such number stands for itself, because programs write names as they are.
+// Decodes escapes such as %20. Invalid ones are kept, because some programs write names without escaping them.
 std::string without_percents(std::string_view text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -84,7 +84,7 @@ std::string path_of_uri(std::string_view uri) {
     if (is_data(uri)) return {};
     if (has_scheme(uri)) throw GltfError("is outside the folder of the document; files are never downloaded");
     std::string path = without_percents(uri);
-    // As programs write them on Windows.
+    // Some programs on Windows write backslashes.
     std::ranges::replace(path, '\\', '/');
     const std::filesystem::path relative(path);
     const bool leaves = std::ranges::find(relative, std::filesystem::path("..")) != relative.end();

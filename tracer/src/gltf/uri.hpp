@@ -1,4 +1,4 @@
-// What a glTF document names by a URI: bytes that are written into it ("data:…"), or a file beside it.
+// URIs of a glTF document: bytes that are encoded in it ("data:…"), or a file in its folder.
 //
 // Reference: RFC 3986 (URI: generic syntax), RFC 2397 (the "data" URL scheme), RFC 4648 (base 64).
 #pragma once
@@ -9,15 +9,14 @@
 
 namespace phasetree::tracer::gltf {
 
-/// Gives all bytes of a file, by its path from the folder of the document, which is relative and has no "..". It may
-/// throw what it wants.
+/// Reads a whole file. The path is relative to the folder of the document and has no "..". It may throw any exception.
 using ReadFile = std::function<std::string(const std::string& path)>;
 
-/// All bytes that a URI names. Throws GltfError, whose message is to follow the place of the URI, for a URI that is
-/// neither of the two, or that names a file outside the document's folder.
+/// All bytes to which a URI refers. Throws GltfError for a URI that is neither of the two, or that names a file outside
+/// the document's folder. The caller puts the place of the URI before the message.
 std::string bytes_of_uri(std::string_view uri, const ReadFile& read_file);
 
-/// The path of the file that a URI names, from the folder of the document; empty for data. Throws as above.
+/// The path of the file that a URI names, relative to the folder of the document; empty for data. Throws as above.
 std::string path_of_uri(std::string_view uri);
 
 }  // namespace phasetree::tracer::gltf

@@ -20,7 +20,8 @@ struct SurfacePoint {
     glm::vec3 at, normal;
 };
 
-// Points on a surface, equally many per area. The i-th of n is where the area before it is (i + 1/2)/n of the whole.
+// Points on a surface, equally many per area. Point i of n lies where the accumulated area reaches (i + 1/2)/n of the
+// whole.
 std::vector<SurfacePoint> points_on(const Solid& solid, std::size_t count) {
     std::vector<SurfacePoint> points;
     points.reserve(count);
@@ -86,7 +87,7 @@ class Finder {
     }
 
   private:
-    // What the points on one surface say of another solid.
+    // The results of the points on one surface about another solid.
     struct Side {
         float depth = 0;
         bool is_inside = true;
@@ -114,7 +115,7 @@ class Finder {
         return side;
     }
 
-    // Whether the other surface is straight across from a point at that distance, and the way there leads outwards.
+    // Whether the other surface is directly opposite a point at that distance, in an outward direction.
     static bool faces(const Solid& own, const Solid& other, const SurfacePoint& p, float d) {
         for (const float sign : {1.0f, -1.0f}) {  // triangles may be inside out
             const glm::vec3 n = sign * p.normal;
@@ -123,8 +124,8 @@ class Finder {
         return false;
     }
 
-    // Whether the way from a point on the surface lies outside the solid, also where it begins: from the outside of a
-    // thin wall, the way inwards to a liquid begins within the wall.
+    // Whether the segment from a point on the surface lies outside the solid, including its beginning. (From the outer
+    // side of a thin wall, a segment inwards to a liquid begins within the wall.)
     static bool is_outside(const Solid& own, const glm::vec3& at, const glm::vec3& way) {
         return std::ranges::all_of(std::array{0.05f, 0.25f, 0.5f, 0.75f, 0.95f},
                                    [&](float t) { return own.distance(at + t * way) > 0; });

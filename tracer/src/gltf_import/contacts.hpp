@@ -12,7 +12,7 @@ namespace phasetree::tracer::gltf_import {
 /// A gap between two surfaces that face each other, with nothing in it.
 struct Gap {
     float least = 0, greatest = 0;  ///< its width
-    std::size_t of = 0;             ///< the solid of whose surface the share is
+    std::size_t of = 0;             ///< the solid to whose surface the share refers
     double share = 0;               ///< of that solid's surface
 };
 
@@ -26,7 +26,7 @@ struct Contact {
     bool overlap() const { return depth > 0; }
 };
 
-/// The contacts of solids, sorted by their numbers. Looks at up to 8192 points per pair, and fewer if there are many
+/// The contacts of solids, sorted by their numbers. Examines up to 8192 points per pair, and fewer if there are many
 /// pairs. Deterministic.
 std::vector<Contact> contacts_of(const std::vector<Solid>& solids);
 

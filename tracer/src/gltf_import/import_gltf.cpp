@@ -81,7 +81,7 @@ class Importer {
         return text;
     }
 
-    // What the file says, or else what names and the index suggest.
+    // As stated in the file, or else derived from names and the index.
     Matter matter_of_solid(const Solid& solid) {
         const auto stated = matter_named(solid.matter);
         if (stated) return *stated;
@@ -149,7 +149,7 @@ class Importer {
 
     SceneJson mesh_node(std::size_t solid) const { return {{"mesh", {{"file", made_.meshes[solid].file}}}}; }
 
-    // Neighbours of one phase in the order are one "set".
+    // Consecutive solids of the same phase form one "set".
     SceneJson tree() const {
         SceneJson objects = SceneJson::array();
         const std::vector<std::size_t>& order = precedence_.order;
@@ -178,7 +178,7 @@ class Importer {
         return names;
     }
 
-    // The path of the glTF file from the folder of the scene.
+    // The path of the glTF file relative to the folder of the scene.
     std::string named_from_scene() const {
         std::error_code problem;
         const path folder = scene_.has_parent_path() ? scene_.parent_path() : ".";
@@ -195,7 +195,7 @@ class Importer {
         return {{"gltf", std::move(gltf)}};
     }
 
-    // What the camera and the lights are placed around.
+    // The bounds around which the camera and the lights are placed.
     Bounds subject_of() const {
         Bounds subject;
         for (const Solid& solid : solids_) subject = unite(subject, solid.bounds);

@@ -1,4 +1,4 @@
-// A glTF file as a scene: its clear objects as phases of a tree, and the rest as meshes.
+// Converts a glTF file to a scene: clear objects become phases of a tree, everything else meshes.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace phasetree::tracer::gltf_import {
 
 struct ImportedMesh {
-    std::string file;   ///< from the folder of the scene
+    std::string file;   ///< relative to the folder of the scene
     std::string bytes;  ///< a PLY file
 };
 

@@ -44,13 +44,13 @@ inline std::string on_one_line(const SceneJson& value) {
     return value.is_object() ? "{" + text + "}" : "[" + text + "]";
 }
 
-// Whether an object has numbers and texts alone, and then a list or an object.
+// Whether an object has only numbers and texts, followed by one list or object.
 inline bool ends_in_structure(const SceneJson& value) {
     if (!value.is_object() || value.empty() || !std::prev(value.end())->is_structured()) return false;
     return std::all_of(value.begin(), std::prev(value.end()), [](const SceneJson& v) { return !v.is_structured(); });
 }
 
-// `column` is where the text begins, and `after` how many characters follow it on its last line.
+// `column` is the column at which the text begins; `after` is the number of characters that follow it on its last line.
 inline std::string laid_out(const SceneJson& value, std::size_t indent, std::size_t column, std::size_t after) {
     std::string line = on_one_line(value);
     if (!value.is_structured() || column + line.size() + after <= line_width) return line;

@@ -100,7 +100,7 @@ class Order {
         return true;
     }
 
-    // Winners first. Solids of one material follow each other where they may.
+    // Winners first. Solids of the same material follow each other where the decisions allow it.
     std::vector<std::size_t> sorted() {
         std::vector<std::size_t> order;
         std::vector<bool> is_taken(solids_.size(), false);
@@ -138,8 +138,8 @@ class Order {
 
     const std::vector<Solid>& solids_;
     const std::vector<Matter>& matter_;
-    std::vector<std::vector<std::size_t>> below_;  // whom each solid replaces
-    std::vector<std::size_t> above_;               // how many replace it
+    std::vector<std::vector<std::size_t>> below_;  // the solids that each solid replaces
+    std::vector<std::size_t> above_;               // the number of solids that replace it
 };
 
 }  // namespace

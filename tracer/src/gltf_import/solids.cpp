@@ -18,7 +18,7 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-// How many edges have triangles on one side only.
+// The number of edges with triangles on one side only.
 std::size_t open_edges(const TriangleMesh& mesh) {
     const JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;

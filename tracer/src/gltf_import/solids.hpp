@@ -13,10 +13,10 @@
 namespace phasetree::tracer::gltf_import {
 
 struct Solid {
-    std::string name{};        ///< of its node, unlike that of any other solid
+    std::string name{};        ///< of its node; unique among the solids
     std::size_t material = 0;  ///< in GltfFile::clear_materials
     std::optional<float> priority{};
-    std::string matter{};     ///< what the file says that it is made of; empty if nothing
+    std::string matter{};     ///< solid, liquid or gas as stated in the file; empty if not stated
     TriangleMesh mesh{};      ///< z is up
     phasetree::Mesh field{};  ///< the solid within the mesh, repaired where needed
     Bounds bounds{};

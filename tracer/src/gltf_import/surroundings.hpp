@@ -12,8 +12,8 @@ SceneJson camera_of(const gltf::GltfFile& file, const Bounds& subject);
 
 /// The file's lights, with a faint environment, which glTF files lack; or a lamp and an environment. One candela
 /// becomes a radiant intensity of 1 and one lux an irradiance of 1, as one nit of an emissive material becomes a
-/// radiance of 1. A point light becomes a small sphere, because light of points does not pass through clear surfaces
-/// without photons.
+/// radiance of 1. A point light becomes a small sphere, because without photons, the light of a point does not pass
+/// through clear surfaces.
 SceneJson lights_of(const gltf::GltfFile& file, const Bounds& subject);
 
 /// Size by the camera's aspect ratio; exposure for the file's lights. `has_phases` says whether there are clear phases,

@@ -1,8 +1,8 @@
 // Images that scenes name, read by OpenImageIO: the formats that it decodes row by row (OpenEXR, Radiance HDR, TIFF,
 // PNG, JPEG, …).
 //
-// What is read is the display window of an OpenEXR file: pixels outside of its data window are 0 in every channel,
-// alpha included, and pixels outside of its display window are cropped. Of a file with several parts the first is read.
+// OpenEXR files are read by their display window: pixels outside of the data window are 0 in every channel, alpha
+// included, and pixels outside of the display window are cropped. If a file has several parts, only the first is read.
 // Other formats have no display window, and their pixels are read as stored, whatever orientation their metadata name.
 // A TIFF file that says it is part of a larger picture is rejected.
 //

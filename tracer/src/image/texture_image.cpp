@@ -71,7 +71,7 @@ glm::vec3 TextureImage::at(const glm::vec2& uv) const {
 
 namespace {
 
-// Collects the rows of an image being read.
+// Collects the rows of an image while it is read.
 class TakenImage {
   public:
     explicit TakenImage(ImageMeaning meaning) : meaning_(meaning) {}

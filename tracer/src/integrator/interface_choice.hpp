@@ -22,7 +22,7 @@
 
 namespace phasetree::tracer {
 
-/// As `u_lobe`, makes a smooth interface refract unless reflection is total; 0 makes it reflect.
+/// The greatest `u_lobe`. With it, a smooth interface refracts unless reflection is total; with 0, it reflects.
 inline constexpr float greatest_below_one = 0x1.fffffep-1f;
 
 struct InterfaceChoice {

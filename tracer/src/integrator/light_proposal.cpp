@@ -10,7 +10,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Next to no light enters closer to grazing, where the pdf is unbounded.
+// Almost no light enters at smaller cosines (closer to grazing), and the pdf is unbounded there.
 constexpr float least_cosine = 1e-4f;
 
 // Refracts a direction outside into the medium. The normal points outward.

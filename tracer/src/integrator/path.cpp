@@ -215,8 +215,9 @@ class PathIntegrator {
     // Russian roulette on the contribution that the path can still bring to the camera. Refraction preserves L/n², and
     // the throughput applies to L, so the share of the camera's light that is found here is throughput ·
     // n²(here)/n²(camera). Returns whether the path continues. Where a guide, or the choice by lights at interfaces,
-    // changed the odds of the path's directions, the share is computed as if the BSDFs had chosen them. Paths towards
-    // light have low weights each, and producing them is the purpose of such a choice.
+    // changed the odds of the path's directions, the share is computed as if the BSDFs had chosen them. The purpose of
+    // such a choice is to produce many paths towards light, each with a low weight; roulette must not end them because
+    // of that weight.
     bool survives_roulette(int depth) {
         glm::vec3& throughput = path_.throughput;
         const float ior = clear_at(context_.scene, path_.ray.phase).ior / camera_ior_;

@@ -60,9 +60,9 @@ struct PathHelp {
 ///     N π r² (p(line)/n_l²) n² F(t).
 ///
 /// Wavelengths (spectrum/wavelengths.hpp). If the scene requests them, a path, its shadow rays and the photons that it
-/// gathers have the same three wavelengths from the start. Otherwise they have one, from where an interface disperses
-/// their colours. So the techniques still estimate the same integral, over directions and wavelengths. All three have
-/// the same density of wavelengths, which cancels in their weights.
+/// gathers have the same three wavelengths from the start. Otherwise they carry colours, and a single wavelength from
+/// the first interface on that disperses them. So the techniques still estimate the same integral, over directions and
+/// wavelengths. All three have the same density of wavelengths, which cancels in their weights.
 ///
 /// Guiding. Where a guide chooses some of the directions from a surface (guided.hpp), the pdf of the mixture replaces
 /// that of the BSDF in all of the above.

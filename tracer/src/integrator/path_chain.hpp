@@ -19,8 +19,8 @@ struct PathChain {
     LightProposal proposal{};  ///< how lights were sampled there
     glm::vec3 direction{0};    ///< the chain's first direction
     PhotonDensity by_photons{};
-    /// The number of interfaces from the point that gathers photons to the rough interface where this chain starts,
-    /// including the latter; 0 if photons are gathered at the start itself. Meaningless where no photons count.
+    /// The number of interfaces from the point that gathers photons up to and including the rough interface where this
+    /// chain starts; 0 if photons are gathered at that start. Meaningless where no photons count.
     int interfaces_before = 0;
     int length = 0;           ///< number of smooth clear interfaces and mirrors
     bool has_mirror = false;  ///< if so, shadow rays do not follow it

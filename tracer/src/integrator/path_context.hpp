@@ -1,4 +1,4 @@
-// What paths are traced in: the same for all vertices and shadow rays of a path.
+// The data that all vertices and shadow rays of a path share.
 #pragma once
 
 #include "sampling/sobol.hpp"

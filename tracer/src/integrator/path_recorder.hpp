@@ -47,7 +47,7 @@ class PathRecorder {
         if (record_) add_departure(surface, bsdf, departure, from, throughput, wavelengths);
     }
 
-    /// The path's odds of taking its branch were this many times those by Fresnel.
+    /// The path took its branch with this many times the probability that Fresnel's equations give.
     void chose(float odds_over_fresnel) {
         if (record_ && !record_->behind) record_->weight /= odds_over_fresnel;
     }

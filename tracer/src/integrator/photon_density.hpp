@@ -41,7 +41,8 @@ float per_line_density_at(const Photons& photons, const Scene& scene, const Surf
                           const glm::vec3& wi);
 
 /// As above, for a direction that continues from a rough interface, if photons count at an earlier vertex. `before` is
-/// that of the direction in which the path left the earlier vertex, over the pdf with which the path chose it.
+/// the per_line_density of the direction in which the path left the earlier vertex, divided by the pdf of that
+/// direction.
 float per_line_density_beyond(float before, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
                               const glm::vec3& wi);
 

@@ -38,9 +38,9 @@ struct Arrival {
 /// interfaces, times the transmittance of the media and the weights of the interfaces. Each interface reflects or
 /// refracts the ray at random.
 ///
-/// Up to the first boundary, the ray goes straight to the sampled light, which is known. After that, the lights are
-/// queried for what the ray sees. If the ray is dispersed on its way, the radiance includes Wavelengths::hero_to_all,
-/// so that it stands for the same light as the path's other numbers.
+/// Up to the first boundary, the ray goes straight to the sampled light, so nothing has to be looked up. After that,
+/// the lights are queried for what the ray sees. If the ray is dispersed on its way, the radiance includes
+/// Wavelengths::hero_to_all, so that it stands for the same light as the path's other numbers.
 ///
 /// A point light is reached only by the straight ray, through boundaries that do not refract. Its light through
 /// refracting interfaces is left to photons, because no direction sampled here leads through an interface to a point.

@@ -17,7 +17,7 @@ struct SphereLightsParameters : SphereEmissionParameters {
 
     template <class V>
     static void parameters(V&& v) {
-        v(&SphereLightsParameters::centres, Parameter{"centres", "m", "Their centres.", coordinate});
+        v(&SphereLightsParameters::centres, Parameter{"centres", "m", "Centres of the spheres.", coordinate});
         SphereEmissionParameters::parameters(v);
     }
     std::vector<AreaLight> made() const {

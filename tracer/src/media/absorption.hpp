@@ -2,8 +2,8 @@
 //
 // It is given for red, green and blue, as the colour that remains after a distance, or by wavelength. In the second
 // case, spectral light is absorbed such that the colour after that distance equals the colour for red, green and blue:
-// with the colour's spectrum c(λ) (for_light()), a(λ) = −ln c(λ)/d. Three coefficients alone do not define a distance,
-// and a(λ) is their mixture, as for scattering.
+// with the colour's spectrum c(λ) (for_light()), a(λ) = −ln c(λ)/d. If only three coefficients are given, there is no
+// such distance. a(λ) is then their mixture, as for scattering.
 #pragma once
 
 #include <algorithm>

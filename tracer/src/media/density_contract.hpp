@@ -29,7 +29,7 @@ struct PointBatch {
 };
 
 /// * together: the most efficient number of points per call of at(), at most batch_size.
-/// * at(points, count): ρ at the first `count` points. The other points must be numbers; their results are undefined.
+/// * at(points, count): ρ at the first `count` points. The other points must not be NaN; their results are undefined.
 /// * bounds(): a box outside of which ρ is 0.
 /// * stretches(way): an object whose next() returns the stretches of the segment in order, and then nullopt. Outside of
 ///   all stretches, ρ is 0. Its length() is the distance from where the first may begin to where the last may end.
@@ -41,8 +41,8 @@ concept DensityKind = std::copyable<D> && requires(const D& density, const Point
     { density.stretches(way).length() } -> std::same_as<float>;
 };
 
-/// The part of a segment within a box, from the first distance to the second. If there is none, the second is not
-/// greater. The segment's direction may have any length, and distances are in units of that length.
+/// The part of a segment within a box, from the first distance to the second. If there is none, the second distance is
+/// not greater than the first. The segment's direction may have any length, and distances are in units of that length.
 inline std::pair<float, float> part_within(const Bounds& box, const Way& way) {
     float from = 0.0f, to = way.length;
     for (int i = 0; i < 3; ++i) {

@@ -17,16 +17,16 @@ namespace phasetree::tracer {
 
 class Heat {
   public:
-    /// Temperatures are stored like densities, as shares of the greatest one. `greatest` and `reference` (T₀) are in
+    /// Temperatures are stored like densities, as fractions of the greatest one. `greatest` and `reference` (T₀) are in
     /// kelvin and positive.
     Heat(const VoxelDensity& shares, float greatest, float reference);
 
-    /// The temperature at a point, as a share of the greatest one.
+    /// The temperature at a point, as a fraction of the greatest one.
     float share_at(const glm::vec3& p) const { return shares_.at(p); }
-    /// The light at that share of the greatest temperature, in the components of a path. `luminance_at_reference` is
+    /// The light at this fraction of the greatest temperature, in the components of a path. `luminance_at_reference` is
     /// its luminance at T₀.
     glm::vec3 light(float share, float luminance_at_reference, const Wavelengths* wavelengths) const;
-    /// The luminance at that share over that at T₀.
+    /// The luminance at this fraction of the greatest temperature, divided by that at T₀.
     float luminance(float share) const;
     /// The spectrum of the light at T₀.
     const SharedLightSpectrum& spectrum() const { return spectrum_; }

@@ -45,7 +45,7 @@ inline glm::vec3 emission(const Medium& medium) {
         },
         medium);
 }
-/// The luminance of the emission at a point, in the space of Way, over that of emission(). It exceeds 1 where the
+/// The luminance of the emission at a point, in the space of Way, divided by that of emission(). It exceeds 1 where the
 /// medium is hotter than its reference temperature.
 inline float share_of_emission(const Medium& medium, const glm::vec3& place) {
     const auto* varying = std::get_if<VaryingMedium>(&medium);

@@ -15,8 +15,8 @@ namespace {
 // segments through an unbounded field, and those through blocks of voxels of which one is far denser than the others.
 constexpr int most_collisions_of_stretch = 1 << 16, most_collisions = 1 << 20;
 
-// A segment without empty stretches has at least this many tentative collisions on average where more of them reduce
-// the noise of estimates of transmittance and emission.
+// Where more tentative collisions reduce the noise of estimates of transmittance and emission, a segment without empty
+// stretches has at least this many on average.
 constexpr float collisions_of_estimate = 5;
 
 // Transmittance below `little` is subject to Russian roulette with this survival probability.

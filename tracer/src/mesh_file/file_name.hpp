@@ -1,4 +1,4 @@
-// File names made of other names.
+// Makes file names from other names.
 #pragma once
 
 #include <cctype>

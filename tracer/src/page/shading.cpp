@@ -9,7 +9,7 @@ namespace phasetree::tracer::page {
 const char* const shading = R"(
 uniform vec3 eye, right, up, forward, lamp;
 uniform vec2 image_size, jitter;
-uniform vec4 cut;          // what is beyond dot(xyz, p) = w is cut away; xyz is 0 for no cut
+uniform vec4 cut;          // everything beyond dot(xyz, p) = w is cut away; xyz is 0 for no cut
 uniform float floor_height, object_size;
 uniform vec3 object_centre;
 uniform vec4 looks[2 * PAGE_PHASES];
@@ -36,7 +36,7 @@ float fresnel(float cos_i, float eta, out float cos_t) {
 }
 
 vec3 radiance(vec3 o, vec3 d) {
-    vec3 sum = vec3(0.0), weight = vec3(1.0), pending = vec3(0.0);  // pending: what the lamp brings if it is seen
+    vec3 sum = vec3(0.0), weight = vec3(1.0), pending = vec3(0.0);  // pending: the lamp's contribution if it is visible
     bool to_lamp = false;
     int carried = -1;
     float small = 1e-4 * object_size;

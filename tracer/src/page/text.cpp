@@ -78,7 +78,7 @@ async function open() {
   }
   texture(0, gl.NEAREST);
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 1024, numbers.length / 4096, 0, gl.RGBA, gl.FLOAT, numbers);
-  // Low: what is drawn while the camera moves. Full: one pass at full size. Sum: the mean of the passes.
+  // Low: drawn while the camera moves. Full: one pass at full size. Sum: the mean of the passes.
   const has_floats = gl.getExtension("EXT_color_buffer_float");
   const targets = [1, 2, 3].map(unit => ({unit, t: texture(unit, gl.LINEAR), f: gl.createFramebuffer(), w: 0, h: 0}));
   function sized(target, w, h, floats) {
@@ -151,9 +151,10 @@ async function open() {
     gl.readPixels(0, from, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     return performance.now() - start;
   }
-  const [low, full, sum] = targets, wanted = 40;  // milliseconds a frame
-  // The first picture is small, so that it is there at once also where a pixel takes long. While the view moves, a picture has
-  // as many pixels as the wanted time allows; at rest it is drawn at twice the last scale again and again, and then in passes.
+  const [low, full, sum] = targets, wanted = 40;  // milliseconds per frame
+  // The first picture is small, so that it appears immediately even if a pixel takes long. While the view moves, a
+  // picture has as many pixels as the time per frame allows. At rest, it is drawn repeatedly at twice the last scale,
+  // and then in passes.
   const smallest = 0.02;
   let moved = performance.now(), is_dirty = true, row = 0, rows = 16, scale = smallest, rest = 0;
   const touch = () => { moved = performance.now(); is_dirty = true; row = rest = 0; state.passes = 0; };
@@ -168,7 +169,7 @@ async function open() {
       const [lw, lh] = scaled(scale), took = draw(low, lw, lh, 0, lh, [0, 0]);
       state.frame = took;
       state.scale = state.at_rest = scale;
-      // No sudden change.
+      // Limits the change of scale.
       scale = Math.min(1, Math.max(smallest, scale * Math.min(1.5, Math.max(0.5, Math.sqrt(wanted / Math.max(took, 1))))));
       show(low, w, h, 1, null);
       is_dirty = false;
@@ -177,7 +178,7 @@ async function open() {
     }
     if (performance.now() - moved < 150 || state.passes >= (has_floats ? state.most_passes : 1)) return;
     if (rest === 0) rest = Math.min(1, 2 * state.scale);
-    // In bands, so that the page answers meanwhile. Each pass at full size is a part of a pixel beside the last.
+    // Draws in bands, so that the page stays responsive. Each pass at full size is shifted by a fraction of a pixel.
     const k = state.passes, jitter = k ? [(k * 0.7548776662) % 1 - 0.5, (k * 0.5698402910) % 1 - 0.5] : [0, 0];
     const [rw, rh] = scaled(rest), to = Math.min(rh, row + rows), took = draw(full, rw, rh, row, to, jitter);
     rows = Math.round(Math.min(h, Math.max(1, rows * Math.min(2, Math.max(0.5, wanted / Math.max(took, 1))))));

@@ -89,7 +89,7 @@ class Renderer {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // Of the blocks that continue.
+    // The smallest number of samples of any pixel in the blocks that continue.
     int fewest_samples() const {
         auto fewest = static_cast<std::uint32_t>(samples_.size());
         for (const PixelRange& block : blocks_)

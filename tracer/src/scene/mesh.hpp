@@ -19,10 +19,10 @@ struct Mesh {
     AtCorners<glm::vec3> normals{};    // of length 1, or 0 where undefined; if present, shading is smooth
     AtCorners<glm::vec2> uv{};         // texture coordinates, for image textures
     AtCorners<glm::vec3> colors{};     // linear Rec.709, each channel in [0, 1]
-    AtCorners<glm::vec2> second_uv{};  // for images that are not laid by the first coordinates
-    AtCorners<float> alphas{};         // of the colours, each in [0, 1]; only where the opacity follows them
+    AtCorners<glm::vec2> second_uv{};  // for images that do not use `uv`
+    AtCorners<float> alphas{};         // of `colors`, each in [0, 1]; only if the opacity depends on them
     AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
-    std::optional<Opacity> opacity{};  // none is opaque everywhere
+    std::optional<Opacity> opacity{};  // opaque everywhere if absent
     Material material{};
     // The kind of the mesh, numbered from the second of a kind on: "floor", "obj 2". A part of a glTF file also has the
     // name of its material: "gltf wood".

@@ -161,7 +161,7 @@ struct FloorParameters : OpacityParameters {
     static void parameters(V&& v) {
         using P = FloorParameters;
         v(&P::material, mesh_material_parameter);
-        v(&P::height, Parameter{"height", "m", "Its z.", coordinate, true});
+        v(&P::height, Parameter{"height", "m", "Height of the floor: its z coordinate.", coordinate, true});
         v(&P::size, Parameter{"size", "m", "Length of the edges.", extent, true});
         opacity_parameters<P>(v);
     }

@@ -1,4 +1,4 @@
-// An entry of "phases" in a scene file: a material, and what else is known of the phase.
+// An entry of "phases" in a scene file: a material, and other properties of the phase.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace phasetree::tracer {
 
-// Stands beside the material: "glass": {"clear": {…}, "density": 2500}.
+// Properties written next to the material: "glass": {"clear": {…}, "density": 2500}.
 struct PhaseParameters {
     static constexpr KindInfo info{"phase", "What an entry of \"phases\" may have besides its material."};
 
@@ -22,7 +22,7 @@ struct PhaseParameters {
 };
 
 struct PhaseEntry {
-    // The member that is the material; nothing if the entry has none, or if only read_material() can say what it is.
+    // The member that is the material; nullopt if the entry has none, or if only read_material() can recognise it.
     std::optional<Value> material;
     bool has_parameters = false;
     PhaseParameters parameters;

@@ -117,7 +117,9 @@ std::vector<Chapter> scene_chapters() {
                         "`\"density_grid\": {parameters}` "
                         "and `\"temperature_grid\": {parameters}`.",
                         {page_of<Voxels>()}});
-    chapters.push_back({"Lights", "Radiance has no unit. The radiance of all lights and the exposure belong together.",
+    chapters.push_back({"Lights",
+                        "Radiance has no fixed unit: what counts is the radiance of each light relative to the others "
+                        "and to the exposure.",
                         pages_of(LightKinds())});
     chapters.push_back({"Meshes", "Meshes stand beside the object. They are opaque.", pages_of(MeshKinds())});
     chapters.push_back({"Cameras",

@@ -41,10 +41,11 @@ struct Voxels {
               "layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's "
               "number, such as \"layer_###.png\". Integer grey values are scaled to 0 … 1. The top row of an image has "
               "the greatest y and the left column the least x; the stack is centred on the origin."});
-        v(&P::grid, Parameter{"grid", "",
-                              "Name of the grid in an OpenVDB file; required if there are several of numbers. If "
-                              "several have the same name, append the index: \"density[0]\", \"density[1]\".",
-                              limits::any, true});
+        v(&P::grid,
+          Parameter{"grid", "",
+                    "Name of the grid in an OpenVDB file; required if the file has several grids of numbers. If "
+                    "several have the same name, append the index: \"density[0]\", \"density[1]\".",
+                    limits::any, true});
         v(&P::spacing,
           Parameter{"spacing", "m",
                     "Distance between voxels along x, y and z. Required for images; OpenVDB files have their own.",

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::uintmax_t most_bytes_of_font = std::uintmax_t{64} << 20;
 constexpr std::size_t most_bytes_of_text = 10'000;
-// HarfBuzz computes in integers. The outlines of a variable font lie between the points of its grid.
+// HarfBuzz computes in integers, so coordinates are scaled: outlines of a variable font lie between the points of its
+// grid.
 constexpr int parts_of_unit = 16;
 constexpr float farthest_of_letter = 1000;  // in ems; no letter is that large
 
@@ -110,7 +111,7 @@ class Typesetter {
         const Buffer buffer(hb_buffer_create());
         const int bytes = static_cast<int>(text.size());
         hb_buffer_add_utf8(buffer.get(), text.data(), bytes, 0, bytes);
-        // No language: that of the process would make the same text look different elsewhere.
+        // Sets no language, because that of the process would make the same text look different elsewhere.
         hb_buffer_set_language(buffer.get(), hb_language_from_string("und", -1));
         hb_buffer_guess_segment_properties(buffer.get());
         hb_shape(font_.get(), buffer.get(), nullptr, 0);

@@ -16,8 +16,8 @@ struct FilmLayer {
     std::size_t plane = 0;  ///< index in the order of Planes
 };
 
-/// All layers besides the picture that a film can have, given the names of its scene. Of a Cryptomatte plane, only the
-/// first layer is listed, which holds what covers most of a pixel.
+/// All layers besides the picture that a film can have, given the names of its scene. Only the first layer of a
+/// Cryptomatte plane is listed. It holds what covers most of a pixel.
 std::vector<FilmLayer> layers_of_film(const SceneNames& scene_names);
 
 /// The appearance of a layer of the image, in [0, 1]. Colours are displayed like the picture. Normals are mapped from

@@ -52,7 +52,7 @@ class TracedGeometry {
     const InterfaceCells& object() const { return *cells_.front(); }
     /// Every object, in the order of PlacedObjects::objects.
     const std::vector<std::shared_ptr<const InterfaceCells>>& objects() const { return cells_; }
-    /// Of all objects together; for numbers per cell, the maximum.
+    /// The sums over all objects; for numbers per cell, the maximum.
     CellStatistics statistics() const;
     /// A box around all objects.
     const Bounds& bounds() const { return placed_ ? placed_->bounds() : object().bounds(); }

@@ -11,20 +11,20 @@ namespace phasetree {
 /// Thrown by a build that CellOptions::cancelled has stopped.
 class BuildCancelled : public std::runtime_error {
   public:
-    BuildCancelled() : std::runtime_error("the building of cells was cancelled") {}
+    BuildCancelled() : std::runtime_error("building cells was cancelled") {}
 };
 
-/// How much time to spend on building cells, to make tracing faster. Rays find the same crossings with either.
+/// The trade-off between the time to build cells and the time to trace rays. Crossings are the same for both.
 enum class BuildQuality {
-    low,    ///< for objects that are rebuilt often: a quarter to three quarters of the build time, slower rays
+    low,    ///< for objects that are rebuilt often: builds in 25 to 75 % of the time of medium; rays are slower
     medium  ///< for most objects
 };
 
 /// Options for building cells.
 struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 for a default; see InterfaceTracer
-    /// The maximum number of divisions from the bounds to the smallest cell. If it is not less than the default, three
-    /// more are allowed where `mesh` or `balls` nodes would otherwise be searched at each sample.
+    /// The maximum number of divisions from the bounds to the smallest cell. From the default upwards, three more
+    /// divisions are allowed in boxes where each sample would otherwise search a `mesh` or `balls` node.
     int max_depth = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that rays never enter because they are opaque. Interfaces between two of them are not searched for and
@@ -41,8 +41,8 @@ struct CellOptions {
     std::size_t max_bytes = 0;
 };
 
-/// The default of CellOptions::max_bytes: 2 GiB, or a quarter of the memory of the machine or available to this process
-/// if that is less.
+/// The default of CellOptions::max_bytes: the smaller of 2 GiB and a quarter of the memory of the machine, or of what
+/// is available to this process if that is limited.
 std::size_t default_cell_bytes();
 
 /// Statistics of a build.

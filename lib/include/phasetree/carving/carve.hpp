@@ -14,15 +14,15 @@ namespace phasetree {
 /// Thrown if CarveOptions::cancelled returned true.
 class CarvingCancelled : public std::runtime_error {
   public:
-    CarvingCancelled() : std::runtime_error("the carving of bounds was cancelled") {}
+    CarvingCancelled() : std::runtime_error("carving was cancelled") {}
 };
 
 /// Options for carving.
 struct CarveOptions {
-    /// Outward normals of the planes, of any nonzero length, in addition to the six sides of the box: a k-DOP. If
-    /// empty, directions are chosen by the object's shape, as many as are worthwhile.
+    /// Outward normals of the planes to use in addition to the six sides of the box (a k-DOP), of any nonzero length.
+    /// If empty, carve() chooses the directions and their number from the object's shape.
     std::vector<glm::dvec3> directions{};
-    int max_planes = 40;      ///< maximum number of planes if chosen, including the six sides of the box; at least 6
+    int max_planes = 40;      ///< with the sides of the box, if `directions` is empty; at least 6
     double tolerance = 1e-3;  ///< target distance of the planes from the object, as a fraction of its diagonal
     /// Maximum number of evaluations, of eight points each. When they run out, the volume is larger than necessary, but
     /// it still contains the solid.
@@ -36,7 +36,7 @@ struct CarvedBounds {
     std::vector<HalfSpace> planes;    ///< each contains the solid; includes the sides of the box that matter
     ConvexPolyhedron::Mesh mesh;      ///< intersection of the planes, up to rounding
     double volume = 0, area = 0;      ///< of the mesh
-    std::size_t evaluations = 0;      ///< number used
+    std::size_t evaluations = 0;      ///< number of evaluations used
     bool is_within_tolerance = true;  ///< false if the evaluations ran out
 
     bool contains(const glm::dvec3& p) const;

@@ -17,8 +17,8 @@ struct CellsFile;
 /// An object divided into cells: boxes around its interfaces, each with the few instructions that matter there. A ray
 /// changes phase only inside a cell. The caller finds the cells along a ray, for example with Embree.
 ///
-/// In all of bounds(cell), the cell's program gives the labels of the whole object, and distances within which the
-/// label stays the same. Immutable; any thread may read it.
+/// Everywhere in bounds(cell), the cell's program returns the same labels (phases) as the program of the whole object,
+/// and a distance within which the label does not change. Immutable; any thread may read it.
 class InterfaceCells {
   public:
     /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too
@@ -28,8 +28,8 @@ class InterfaceCells {
 
     /// The number of cells.
     std::size_t size() const;
-    /// A cell's box: the part of space that the cell stands for (these parts do not overlap), enlarged by reach() so
-    /// that no ray passes between two cells.
+    /// A cell's box: the cell's share of space, enlarged by reach() on each side so that no ray passes between two
+    /// cells. Shares do not overlap.
     Bounds bounds(std::size_t cell) const;
     /// The box of the whole object, with a margin of vacuum.
     const Bounds& bounds() const;

@@ -35,9 +35,9 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 ///
 /// The file records the object's program (names and materials do not matter), the resolution, quality, divisions,
 /// memory limit and opaque phases for which the cells were built, the build of the library, and the processor
-/// architecture. It is rejected if any of these differ, except that a memory limit that had no effect may be raised. A
-/// file with a wrong size or checksum is rejected before anything of its size is allocated, and so is one with an index
-/// out of range.
+/// architecture. It is rejected if any of these differ, with one exception: a memory limit that had no effect may be
+/// raised. Files with a wrong size, a wrong checksum or an index out of range are rejected, too. Size and checksum are
+/// verified before memory for the content is allocated.
 ///
 /// Checksums detect accidents, not forgery. A forged file can describe wrong cells, but no ray reads memory outside
 /// them, because every index in the file is checked.
@@ -47,7 +47,7 @@ std::shared_ptr<const InterfaceCells> read_cells(const std::filesystem::path&, c
                                                  const CellOptions& options = {});
 
 /// Whether these are the cells that InterfaceCells(object, options) would build, so that they need not be rebuilt.
-/// Compares the same data as read_cells(), in about the time needed to record the object. Throws ModelError like
+/// Compares the same data as read_cells(), in about the time that record() takes. Throws ModelError like
 /// InterfaceCells.
 bool are_cells_of(const InterfaceCells&, const Phased& object, const CellOptions& options = {});
 

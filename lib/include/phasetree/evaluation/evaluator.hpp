@@ -33,11 +33,11 @@ class Evaluator {
         std::vector<BatchOfFloats> values_;
     };
 
-    /// Evaluate Φ at the points of a batch. `out` must have one batch per entry of program().outputs, and receives
-    /// their values in the same order.
+    /// Evaluate Φ, the object's distances (see Phases), at the points of a batch. `out` must have one batch per entry
+    /// of program().outputs, and receives their values in the same order.
     void evaluate(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, std::span<BatchOfFloats> out,
                   Workspace&) const;
-    /// Evaluate the phase and the interface distance at the points of a batch.
+    /// Evaluate the phase and the interface distance (see Samples) at the points of a batch.
     void sample(const BatchOfFloats& x, const BatchOfFloats& y, const BatchOfFloats& z, Samples& out, Workspace&) const;
     /// The same at the points origin + t·direction of a ray (a multiplication and an addition, each rounded).
     void sample_ray(const glm::vec3& origin, const glm::vec3& direction, const BatchOfFloats& t, Samples& out,

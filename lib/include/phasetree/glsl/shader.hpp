@@ -14,8 +14,8 @@ namespace phasetree {
 /// #version and no main(): put `#version 300 es` or `#version 330` before it, and your own shader after it.
 struct GlslShader {
     std::string text;
-    /// The numbers that the functions read, if there are too many for the text. They are then expected in the texture
-    /// `phasetree_numbers`, with four 32-bit floats per texel and 1,024 texels per row. They fill whole rows.
+    /// The constants of the functions, if there are too many for the text; otherwise empty. Upload them to the texture
+    /// `phasetree_numbers`, with four 32-bit floats per texel and 1,024 texels per row. They are padded to whole rows.
     std::vector<float> numbers;
     /// The number of boxes in the grid, and of distinct programs in them; 0 without a grid.
     std::size_t boxes = 0, programs = 0;
@@ -29,7 +29,7 @@ struct GlslOptions {
     /// If there are more numbers than this, they go into a texture.
     std::size_t max_numbers_in_text = 1024;
     /// Programs with at most this many instructions are written as calls, longer ones as a table that a loop
-    /// interprets. The time of shader compilers grows much faster than the length of the text.
+    /// interprets, because the time to compile a shader grows much faster than its length.
     std::size_t max_calls = 128;
     /// The number of boxes along the longest side of the bounds; 0 for no grid. The program is pruned in each box, so
     /// rays through large objects evaluate only what is near them.
@@ -43,8 +43,8 @@ struct GlslOptions {
 /// Generate GLSL from a program.
 ///
 /// bounds      in which rays are traced; must include a margin of vacuum.
-/// resolution  the length of the longest bracket. Shaders round more often, so it should be at least 10⁻⁵ of the
-///             bounds' diagonal.
+/// resolution  the maximum length of the bracket around a crossing (see Crossing). Shaders round more often than the
+///             CPU, so it should be at least 10⁻⁵ of the bounds' diagonal.
 ///
 /// prepare_to_trace() returns both. Throws ModelError if the program is longer than max_glsl_instructions.
 GlslShader make_glsl(const Program&, const Bounds&, float resolution, const GlslOptions& = {});

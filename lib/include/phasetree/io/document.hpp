@@ -128,7 +128,7 @@ class Document {
     /// nothing about the file, not even whether it exists. A name with # stands for several files; none of them may be
     /// a link that leads out of the folder.
     std::filesystem::path file(Value named) const;
-    /// Read another document, whose file name is a string in the text. It inherits the time, and the folder of
+    /// Read another document, whose file name is a string in the text. It inherits the time of at() and the folder of
     /// with_files_within().
     Document beside(Value named) const;
     /// The same text, restricted to files in this folder or below it, after following symbolic links. Use it to read

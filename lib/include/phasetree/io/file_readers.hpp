@@ -13,19 +13,19 @@
 
 namespace phasetree {
 
-/// Callbacks of a program that read one kind of file. They may throw any std::exception whose what() describes the
+/// Callbacks with which a program reads one kind of file. They may throw any std::exception whose what() describes the
 /// problem.
 template <class Content>
 struct FileReader {
-    /// `part` is the name of the content to read from a file that may hold several, such as a grid, or empty. For fonts
-    /// it is the text to lay out.
+    /// `part` names the content to read if a file may hold several, for example a grid; otherwise it is empty. For
+    /// fonts it is the text to lay out.
     std::function<Content(const std::filesystem::path&, const std::string& part)> read{};
     /// The files that a name stands for, such as the images of a stack. Without this callback, it stands for one file.
     std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> files{};
 };
 
-/// A program's readers of the files that nodes name, at most one for each type of content. Contents without a reader
-/// cannot be read, unless this library reads them itself (FileFormat).
+/// A program's readers for the files that nodes refer to, at most one per type of content. Content without a reader can
+/// be read only if this library reads it itself (FileFormat).
 class FileReaders {
   public:
     /// Adds a reader, or replaces the one for the same content.

@@ -32,7 +32,7 @@ class KeptNodes {
         std::string state;       ///< of the file
     };
 
-    /// Start a reading. It can take what earlier readings kept.
+    /// Start a reading, in which take() returns the nodes that earlier readings kept.
     void start();
     /// Finish a successful reading, and drop all nodes that it did not use.
     void finish();

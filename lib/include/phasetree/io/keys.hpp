@@ -22,16 +22,16 @@ class Keys {
     static bool are_in(Value value) { return value.find("keys").has_value(); }
 
     /// Check everything but the keyed values, which the caller reads. Throws SceneError. `what` names the value in
-    /// messages, as in as().
+    /// messages; see as().
     Keys(const Document&, Value value, std::string_view what);
 
     std::size_t count() const { return list_.size(); }
     double seconds(std::size_t i) const { return list_[i][0].number(); }
     Value value(std::size_t i) const { return list_[i][1]; }
 
-    /// The position of a time between two keys. The value is a fraction `share`, in [0, 1), of the way from key
-    /// `before` to the next one; "smooth" is already applied. Before the first key and from the last one on, the share
-    /// is 0.
+    /// The position of a time between two keys. The value lies the fraction `share`, in [0, 1), of the way from key
+    /// `before` to the next one; "smooth" is already applied to it. Before the first key and from the last one on,
+    /// `share` is 0.
     struct Place {
         std::size_t before;
         double share;

@@ -2,12 +2,17 @@
 // plain struct of its parameters, written {"sphere": {…}}:
 //
 //     struct SphereLightParameters {
-//         static constexpr KindInfo info{"sphere", "A ball that emits light."}; glm::vec3 centre{}; float radius = 1;
-//         glm::vec3 radiance{1.0f}; template <class V> static void parameters(V&& v) {
+//         static constexpr KindInfo info{"sphere", "A ball that emits light."};
+//         glm::vec3 centre{};
+//         float radius = 1;
+//         glm::vec3 radiance{1.0f};
+//
+//         template <class V>
+//         static void parameters(V&& v) {
 //             using P = SphereLightParameters;
-//             v(&P::centre, Parameter{"centre", "m", "Its centre."});
-//             v(&P::radius, Parameter{"radius", "m", "Its radius.", limits::positive});
-//             v(&P::radiance, ColourParameter{{"radiance", "", "What it emits.", limits::non_negative, true}});
+//             v(&P::centre, Parameter{"centre", "m", "Centre."});
+//             v(&P::radius, Parameter{"radius", "m", "Radius.", limits::positive});
+//             v(&P::radiance, ColourParameter{{"radiance", "", "Radiance emitted.", limits::non_negative, true}});
 //         }
 //     };
 //
@@ -45,7 +50,7 @@ struct DirectionParameter : Parameter {};
 /// unusable. The reader reports the parameter's position in the file, or that it is required if it is missing.
 class ParameterError : public std::runtime_error {
   public:
-    /// Whether to report the parameter's value, or its presence (at the key).
+    /// Where to report the error: at the parameter's value, or at its key if the parameter should not be there at all.
     enum class Place { value, key };
 
     ParameterError(std::string_view parameter, const std::string& message, Place place = Place::value)

@@ -10,7 +10,8 @@
 
 namespace phasetree {
 
-/// What other programs call a kind of node, material, light, mesh or camera, and its name here: {"cube", "box"}.
+/// Pairs of names of nodes, materials, lights, meshes and cameras: the one that other programs use, and the one used
+/// here, such as {"cube", "box"}.
 std::span<const std::pair<std::string_view, std::string_view>> names_elsewhere();
 
 /// The kind that an unknown name probably means: the one that another program calls by this name, otherwise the closest

@@ -15,8 +15,8 @@ namespace phasetree {
 template <class T>
 struct AtCorners {
     std::vector<T> values;
-    /// One entry per triangle. Empty if there is one value per vertex, in the same order; the triangles' own indices
-    /// are then those of the values.
+    /// One entry per triangle. Empty if there is one value per vertex, in the order of the vertices; the mesh's
+    /// triangles then index the values, too.
     std::vector<glm::uvec3> triangles;
 
     /// Whether there are no values.

@@ -13,12 +13,13 @@ namespace phasetree {
 /// Reads rows of numbers from text: CSV as written by spreadsheets, ParaView, R and NumPy, or plain lines of numbers.
 /// Reads line by line, so that rows from a pipe can be used as they arrive.
 ///
-/// Lines end with LF, CR LF or CR. A byte order mark, empty lines, lines of separators alone, and lines that begin with
-/// # are skipped. Numbers have a decimal point.
+/// Lines end with LF, CR LF or CR. A byte order mark, empty lines, lines that contain only separators, and lines that
+/// begin with # are skipped. Numbers have a decimal point.
 ///
 /// With a header, columns may be in any order, and other columns are ignored. Names are not case-sensitive. The
-/// separator is a comma, semicolon, tab or blank: the one that separates most of the columns in the header. Cells may
-/// be quoted ("" stands for a quote), but must end on the same line; blanks around cells and inside quotes are ignored.
+/// separator is a comma, semicolon, tab or blank: the one with which the header has the most of the expected columns.
+/// Cells may be quoted ("" stands for a quote), but must end on the same line; blanks around cells and inside quotes
+/// are ignored.
 ///
 /// Without a header, a row has the numbers of all columns in order, separated by commas, semicolons or blanks; # starts
 /// a comment after them.

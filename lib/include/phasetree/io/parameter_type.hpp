@@ -22,7 +22,7 @@ struct ValueType {
 ///
 ///     T read(const Document&, Value, std::string_view what, const P&);  // throws SceneError
 ///     ValueType describe(const P&);
-///     std::string written(const T&);  // JSON, as in a file, or a word instead
+///     std::string written(const T&);  // JSON as in a file, or a word such as "none"
 ///
 /// Programs specialise it for their own types. A parameter list with a member of any other type does not compile.
 template <class T, class P = Parameter>

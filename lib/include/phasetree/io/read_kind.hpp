@@ -10,17 +10,17 @@
 
 namespace phasetree {
 
-/// Return the single member of a choice between kinds, which is written {"kind": {…}} as nodes are. Throws SceneError
-/// unless its key is one of `kinds`. `what` names the choice in messages ("a material").
+/// Return the single member of an object that selects a kind, {"kind": {…}}. Nodes are written in the same way. Throws
+/// SceneError unless its key is one of `kinds`. `what` names the choice in messages ("a material").
 Value member_of_kind(const Document&, Value, std::string_view what, std::span<const std::string_view> kinds);
 
-/// Check that the key of a choice's member is one of `kinds`. Throws SceneError as member_of_kind() does.
+/// Check that the key of such a member is one of `kinds`. Throws SceneError as member_of_kind() does.
 void check_kind(const Document&, Value member, std::string_view what, std::span<const std::string_view> kinds);
 
 /// Whether a member is of the kind with this name, in either spelling (is_other_spelling).
 bool is_kind(Value member, std::string_view name);
 
-/// Read a choice between kinds, and call f.template operator()<Kind>(member) for the one found.
+/// Read an object that selects a kind, and call f.template operator()<Kind>(member) for the selected one.
 template <class... Kinds, class F>
 void with_kind(TypeList<Kinds...>, const Document& document, Value value, std::string_view what, F&& f) {
     const std::string_view names[] = {Kinds::info.name...};
@@ -45,8 +45,8 @@ void read_parameters(ObjectReader& reader, T& target) {
 /// Convert a ParameterError to a SceneError at the parameter's position in the object of `reader`.
 SceneError located(ObjectReader& reader, const ParameterError&);
 
-/// Call make(), which builds something from what `reader` has read. A ParameterError is reported at the parameter, a
-/// std::invalid_argument at the object; both as SceneError.
+/// Return make(), which builds something from what `reader` has read. If it throws ParameterError or
+/// std::invalid_argument, throw a SceneError instead: at the parameter, or at the object.
 template <class Make>
 decltype(auto) with_place(ObjectReader& reader, Make&& make) {
     try {

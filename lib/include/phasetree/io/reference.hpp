@@ -34,7 +34,8 @@ struct KindPage {
     std::string example;
     std::string snippet;  ///< the example's JSON, to be shown on the page; may be empty
     std::vector<ParameterPage> parameters;
-    /// Whether the only required parameter is a list or a text, which may be written instead of the parameters.
+    /// Whether the only required parameter is a list or a text. Its value may then be written instead of the
+    /// parameters.
     bool list_alone = false;
 };
 
@@ -93,9 +94,9 @@ std::string schema_reference(std::string_view definition);
 /// The schema of a value that may be written in two ways.
 std::string schema_of_either(const std::string& one, const std::string& other);
 
-/// Make a complete schema, with which editors complete and check scene files. `file` lists the keys of a file. In
-/// addition to the given definitions (name and schema), the schema defines "field" and "object", which are made by
-/// nodes, and "keys".
+/// Make the complete schema from which editors complete and check scene files. `file` lists the keys of a file. The
+/// schema contains the given definitions (name and schema), and defines "field" and "object" from the nodes, and
+/// "keys".
 std::string scene_schema(const KindPage& file, std::span<const std::pair<std::string, std::string>> definitions);
 
 }  // namespace phasetree

@@ -31,8 +31,8 @@ requires std::convertible_to<std::ranges::range_reference_t<const Strings>, std:
     return closest(word, std::span<const std::string_view>(views));
 }
 
-/// The end of a message about an unknown name that is close to none of the valid ones: "; the keys are "a", "b"" for
-/// the kind "key". Empty if there are no valid names, or more than twelve.
+/// The end of a message about an unknown name without a similar valid one. For the kind "key" and the names a and b it
+/// is "; the keys are "a", "b"". Empty if there are no valid names, or more than twelve.
 std::string valid_names(std::string_view kind, std::span<const std::string_view> names);
 
 /// The same for any range of strings that outlives the call.

@@ -44,7 +44,7 @@ struct Bounds {
     }
 };
 
-/// The smallest box around both. An empty argument must be Bounds{}.
+/// The smallest box around both. If one is empty, it must equal Bounds{}.
 inline Bounds unite(const Bounds& a, const Bounds& b) {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }

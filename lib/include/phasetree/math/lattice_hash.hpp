@@ -2,8 +2,8 @@
 //
 // Numbers are integers modulo 289 = 17², and are permuted by x ↦ (34x + 5)x. (A polynomial permutes the residues modulo
 // p² for a prime p if it permutes those modulo p and its derivative does not vanish modulo p. Modulo 17 this polynomial
-// is 5x.) Intermediate numbers are kept between −144 and 144, so that the sum of two and a bit more can be hashed
-// without reduction.
+// is 5x.) Intermediate numbers are kept between −144 and 144, so that the sum of two of them plus a small integer can
+// be hashed without reduction.
 //
 // Floats compute all of this exactly, with any instruction set: all intermediate results are integers below 2²², and
 // every argument of floor() is farther from an integer than its rounding error.

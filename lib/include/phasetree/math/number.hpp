@@ -100,8 +100,8 @@ T far_bound_inside(const T& f, const T& bound) {
 }
 
 /// The part of solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than
-/// b, and as steep as the steeper of the two. If both are infinite it is a, because max() returns its second operand if
-/// the first is NaN.
+/// b. Its slope is at most the larger of theirs. If both are infinite, the result is a, because max() returns its
+/// second operand if the first is NaN.
 template <class T>
 T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
@@ -156,9 +156,9 @@ template <class Yes, class No>
 }
 
 /// Return f. Number types that bound values in a box (Enclosure) may instead return a second expression that equals f
-/// under a condition, if the condition is true throughout the box. `other` is called with a function `certainly`, which
-/// returns whether a comparison is true throughout the box. It returns a pair: whether the condition is, and the
-/// expression.
+/// under a condition, if the condition is true throughout the box. They call other(certainly), which returns a pair:
+/// whether the condition is true throughout the box, and the expression. certainly(c) returns whether the comparison c
+/// is true throughout the box.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;

@@ -47,13 +47,13 @@ struct MeasuredPhase {
 };
 
 struct MeasureOptions {
-    /// Measuring ends once the interval of each phase's volume is at most this fraction of the volume, or of a
-    /// thousandth of the volume of everything that is not vacuum if that is more. Positive.
+    /// Measuring ends once the interval of each phase's volume is no wider than this fraction of the volume. For phases
+    /// that make up less than a thousandth of the object, it is a fraction of that thousandth instead. Positive.
     double tolerance = 1e-3;
     /// Measuring ends after this time, whatever is known by then. Positive.
     double seconds = std::numeric_limits<double>::infinity();
-    /// Measuring ends once a division of the object takes more than about this many boxes. Unlike the time, this limit
-    /// gives equal results on all machines.
+    /// Measuring ends once it would take more than about this many boxes to divide the object. Unlike the time, this
+    /// limit gives equal results on all machines.
     std::size_t max_boxes = std::size_t{1} << 26;
     /// Densities of phases, in units of mass per cubed unit of length. Not negative.
     std::vector<std::pair<Phase, double>> densities{};
@@ -78,7 +78,7 @@ struct MeasureResult {
     Bounds bounds;                      ///< a box around the object, with a margin of vacuum
     std::vector<MeasuredPhase> phases;  ///< in ascending order, without the vacuum
     Measured vacuum;                    ///< the volume of the vacuum in the bounds
-    /// The phases with densities as one body. Nothing if no densities are given.
+    /// The phases with densities as one body; nullopt if no densities are given.
     std::optional<Body> all;
     MeasureEnd end = MeasureEnd::tolerance;
     /// The number of boxes that were examined for this result. Divisions that a finer one has replaced do not count.

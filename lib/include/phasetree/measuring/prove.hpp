@@ -27,7 +27,7 @@ struct IsConnected {
 struct IsClosed {
     PhaseSet walls, inside;
 };
-/// Both phases are somewhere, they do not touch, and no point of the first is closer than this to a point of the
+/// Both phases are somewhere, they do not touch, and no point of the first is closer than `at_least` to a point of the
 /// second.
 struct AreApart {
     Phase first, second;
@@ -40,10 +40,10 @@ struct AreTouching {
 /// The phase is somewhere, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
 /// centre of a ball of this diameter that lies in the phase.
 ///
-/// With a reach of half the diameter, which is the least, each point would have to be in such a ball; then no object
-/// with a sharp edge has walls. With the default, edges and corners count as thick if they are no sharper than 60
-/// degrees. But then a dent that is narrower than about twice the diameter, or a point where a wall is slightly too
-/// thin, may be passed over.
+/// A reach of half the diameter, the smallest that makes sense, would require each point to be in such a ball. No
+/// object with a sharp edge satisfies that. With the default, edges and corners count as thick if they are no sharper
+/// than 60 degrees. The price is that a dent narrower than about twice the diameter, or a point where a wall is
+/// slightly too thin, may go unnoticed.
 struct IsThick {
     Phase phase;
     double at_least = 0;  ///< in the scene's unit of length. Positive
@@ -73,7 +73,7 @@ struct Proof {
     std::string reason{};
     /// Points that show the verdict; see prove(). Empty if none are needed, or none are known.
     std::vector<Witness> witnesses{};
-    double resolution = 0;  ///< the side of the smallest boxes that were looked at
+    double resolution = 0;  ///< the side of the smallest boxes that were examined
     Measured measured{};    ///< HasVolume: the sum of the volumes times their weights
 };
 
@@ -82,7 +82,8 @@ struct ProveOptions {
     /// undecided.
     double resolution = 0;
     double seconds = std::numeric_limits<double>::infinity();  ///< end after this time. Positive
-    /// End once more than this many boxes are needed. Unlike the time, this limit gives equal results on all machines.
+    /// End when more than this many boxes would be needed. Unlike the time, this limit gives equal results on all
+    /// machines.
     std::size_t max_boxes = std::size_t{1} << 25;
     std::function<bool()> cancelled{};      ///< polled from any thread; return true to get what is known so far
     std::function<void(float)> progress{};  ///< receives a guess of the share of the work that is done
@@ -110,8 +111,9 @@ struct ProveOptions {
 /// A phase that certainly is nowhere refutes a statement without a witness.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
-/// cancelled. Volumes may use a quarter of the time before boxes are divided, and all that boxes leave of it, at least
-/// a quarter. Throws ModelError if the object is empty or unbounded, or if an argument is out of its range.
+/// cancelled. HasVolume may use a quarter of the time before boxes are divided for the other statements, and afterwards
+/// what is left, which is at least a quarter. Throws ModelError if the object is empty or unbounded, or if an argument
+/// is out of its range.
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
 
 }  // namespace phasetree

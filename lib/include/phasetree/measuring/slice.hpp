@@ -13,8 +13,9 @@
 
 namespace phasetree {
 
-/// A plane across an axis. Points in it have two coordinates: those of the other two axes, in ascending order. So
-/// outlines across z are seen from above, across x from +x, and across y from −y.
+/// A plane perpendicular to an axis. Its points have two coordinates: those along the other two axes, in ascending
+/// order. Outlines perpendicular to z are therefore seen from above, those perpendicular to x from +x, and those
+/// perpendicular to y from −y.
 struct SlicePlane {
     int axis = 2;  ///< 0, 1 or 2 for x, y or z
     float at = 0;
@@ -32,10 +33,10 @@ class SlicingCancelled : public std::runtime_error {
 };
 
 struct SliceOptions {
-    /// How far outlines may be from where phases change, in the scene's unit of length; 0 for a thousandth of the
-    /// object's longest side. Not negative.
+    /// Maximum distance of the outlines from the true interfaces, in the scene's unit of length; 0 for a thousandth of
+    /// the object's longest side. Not negative.
     double tolerance = 0;
-    std::size_t max_squares = std::size_t{1} << 20;  ///< the maximum number of squares in doubt
+    std::size_t max_squares = std::size_t{1} << 20;  ///< maximum number of squares in doubt; see slice()
     std::function<bool()> cancelled{};               ///< polled from any thread; return true to cancel
 };
 
@@ -51,9 +52,9 @@ struct Slice {
     std::vector<glm::vec2> vertices;
     std::vector<Loop> loops;  ///< sorted by phase
     double tolerance = 0;     ///< in use
-    std::size_t squares = 0;  ///< that are in doubt
-    /// The number of squares in doubt that no outline is near, and the centre of one: a detail smaller than the
-    /// tolerance may be missing there. Usually 0.
+    std::size_t squares = 0;  ///< number of squares in doubt
+    /// The number of squares in doubt without an outline nearby, usually 0, and the centre of one of them. A detail
+    /// smaller than the tolerance may be missing there.
     std::size_t unexplained = 0;
     std::optional<glm::vec2> first_unexplained{};
 
@@ -67,7 +68,7 @@ struct Slice {
 /// a square is in one phase, as for measure(). What is left are *squares in doubt*, with sides of a third of the
 /// tolerance. Labels are evaluated at their corners. Where two neighbouring corners differ, bisection finds a vertex on
 /// the edge between them. Vertices are joined by one segment through a square with two phases, and by segments to the
-/// centre of a square with more. Vertices that are nearly on a straight line are then left out.
+/// centre of a square with more. Then vertices that are nearly on a straight line are removed.
 ///
 /// *What is guaranteed*, up to the rounding errors that measure() allows for: a point that is farther than the
 /// tolerance from every outline is in the phase drawn there, unless it is in one of the `unexplained` squares. Each

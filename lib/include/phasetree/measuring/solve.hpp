@@ -13,17 +13,17 @@
 
 namespace phasetree {
 
-/// Makes the object for a number, such as the level of a liquid.
+/// Returns the object for a number, such as the level of a liquid.
 using ObjectOf = std::function<Phased(double)>;
 
-/// What is to have which value: the sum of the volumes of these phases, each times its weight. A weight is a density,
-/// or 1 for a volume. Not negative, and at least one is positive.
+/// The quantity, and the value that it is to have. The quantity is the sum of the volumes of these phases, each times
+/// its weight. A weight is a density, or 1 for a volume. Weights are not negative, and at least one is positive.
 struct SolveTarget {
     std::vector<std::pair<Phase, double>> weights;
     double value = 0;
 };
 
-/// A number, and the measure of the object for it.
+/// A number, and the quantity of the object for that number.
 struct SolvePoint {
     double at = 0;
     Measured measure;
@@ -49,7 +49,7 @@ struct SolveOptions {
 /// Why solving ended.
 enum class SolveEnd {
     width,      ///< the bracket is as narrow as requested
-    undecided,  ///< no measurement says on which side of the target any of the numbers tried next is
+    undecided,  ///< for none of the numbers tried next could a measurement decide the side of the target
     same_side,  ///< there is no bracket, because both of its ends are certainly on the same side of the target
     seconds,    ///< the time is over
     cancelled   ///< SolveOptions::cancelled returned true
@@ -60,26 +60,28 @@ std::string_view name_of(SolveEnd);
 
 struct SolveResult {
     SolveEnd end = SolveEnd::width;
-    /// The ends of the bracket. A certain interval that does not contain the target was found for each. Without a
-    /// bracket, the ends that were measured.
+    /// The ends of the bracket. For each, the certain interval of the quantity does not contain the target. If there is
+    /// no bracket, the ends that were measured.
     std::optional<SolvePoint> low, high;
-    /// A number in the bracket with few digits, for which the measure is about the target; measured if there was time.
+    /// A number in the bracket with few digits, for which the quantity is close to the target. Measured if there was
+    /// time.
     std::optional<SolvePoint> best;
-    /// For SolveEnd::undecided: the number that was tried first, and its interval, which contains the target.
+    /// For SolveEnd::undecided: the first number that was tried, and the interval of its quantity, which contains the
+    /// target.
     std::optional<SolvePoint> undecided;
     std::size_t measurements = 0;
 
-    /// Whether the target certainly lies between the measures at both ends.
+    /// Whether the target certainly lies between the quantities at both ends.
     bool has_bracket() const { return low && high && end != SolveEnd::same_side; }
 };
 
-/// Find a number for which a measure has a value, by bisection of a bracket.
+/// Find a number for which the quantity has its target value, by bisection of a bracket.
 ///
 /// object     called from the calling thread. Its exceptions are passed on.
 /// low, high  the first bracket; low < high, both finite.
 ///
-/// A number becomes an end of the bracket only if the certain interval of its measure proves on which side of the
-/// target it is. So the measure is certainly below the target at one end and above it at the other. If it is a
+/// A number becomes an end of the bracket only if the certain interval of its quantity proves on which side of the
+/// target it is. So the quantity is certainly below the target at one end and above it at the other. If it is a
 /// continuous function of the number, it has the value somewhere in between, once or several times; one place is found.
 /// If it jumps across the target, the bracket closes in on a jump. Intervals are narrowed only as far as the decision
 /// needs. If the middle of the bracket is too close to the target for that, numbers beside it are tried.

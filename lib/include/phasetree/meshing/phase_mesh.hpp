@@ -59,9 +59,9 @@ struct PhaseMesh {
     std::vector<glm::vec3> vertices;
     std::vector<Triangle> triangles;
     float spacing = 0;  ///< in use
-    /// The number of crossings along the lines of the grid, and the number of those missing from the mesh. The mesh
-    /// shows one crossing of each edge of the grid whose ends have different labels after mesh_of has changed labels
-    /// (see there). All other crossings are missing.
+    /// The number of crossings along the lines of the grid, and how many of them the mesh does not show. For each edge
+    /// of the grid, it shows one crossing if the labels at both ends differ after mesh_of() has changed labels (see
+    /// there), and otherwise none.
     std::size_t crossings = 0, skipped = 0;
 
     /// The phases that have triangles.

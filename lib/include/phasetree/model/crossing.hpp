@@ -16,10 +16,10 @@ namespace phasetree {
 /// The bracket is no longer than the resolution, with one exception: where solids abut, rounding can leave a sliver of
 /// a third phase between them. A bracket may span such a sliver, and is then up to 2.75 resolutions long.
 ///
-/// If the phase that the caller says the ray is in (`carried` in first_crossing()) occurs nowhere near the start of the
-/// search, a crossing is reported there. The search starts where the ray is first in the box that is searched: the
-/// object's bounds for InterfaceTracer, the cell's box for InterfaceCells. This crossing has zero length: p_in and
-/// p_out are that point, which is in `to`, and `from` is the carried phase.
+/// The caller may say which phase the ray is in (`carried` in first_crossing()). If that phase occurs nowhere near the
+/// start of the search, a crossing is reported there. The search starts where the ray enters, or starts in, the
+/// searched box: the object's bounds for InterfaceTracer, the cell's box for InterfaceCells. This crossing has zero
+/// length: p_in and p_out are that point, which is in `to`, and `from` is the carried phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out

@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <typeinfo>
 #include <utility>
 
@@ -75,6 +76,13 @@ class Phased {
 Bounds bounds(const Field&);
 /// A box around everything that is not vacuum.
 Bounds bounds(const Phased&);
+
+namespace detail {
+/// Throw ModelError because a part of a node must be bounded but is not. The message names the nodes that make it
+/// unbounded. `what` starts the message: "twist: the child". `end` ends it; by default, it says how to bound the part.
+[[noreturn]] void throw_unbounded(std::string_view what, const Field& part, std::string_view end = {});
+[[noreturn]] void throw_unbounded(std::string_view what, const Phased& part, std::string_view end = {});
+}  // namespace detail
 
 /// The phases that can occur in the object. Bit 0 is set if the vacuum is one of them.
 PhaseSet phases(const Phased&);

@@ -28,8 +28,8 @@ class InterfaceTracer {
   public:
     /// Prepare an object for tracing.
     ///
-    /// `resolution`, in the scene's unit of length, is the smallest thickness of a phase along a ray that is found.
-    /// Thinner phases may be missed. There are two exceptions, in which a thicker phase may be missed as well:
+    /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are certain
+    /// to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
     ///   - at most 2.75 resolutions of the ray are in the phase, and of these at most one resolution is deeper inside
     ///     than a sixteenth of a resolution;
     ///   - the ray grazes the phase: it is nowhere deeper inside than a sixteenth of a resolution.

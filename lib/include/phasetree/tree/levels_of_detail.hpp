@@ -7,8 +7,8 @@ namespace phasetree {
 /// The view for which levels of detail are chosen.
 struct DetailView {
     glm::vec3 position{0};  ///< of the camera, in the object's space
-    /// The acceptable error as a fraction of the distance from the camera at which it is seen: the acceptable number of
-    /// pixels, times the size of a pixel at distance 1. Must be positive.
+    /// The largest acceptable error, as a fraction of its distance from the camera. To accept n pixels, use n times the
+    /// size of a pixel at distance 1. Must be positive.
     float angle = 1e-3f;
 };
 

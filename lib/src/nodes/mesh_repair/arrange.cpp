@@ -124,8 +124,8 @@ class Arrangement {
     }
 
   private:
-    // All contacts of new triangles; nullopt if there are too many. Where surfaces lie on each other within rounding,
-    // their parts get thinner from round to round, and each meets more of the others.
+    // All contacts of new triangles; nullopt if there are too many. If surfaces coincide within rounding, their parts
+    // get thinner from round to round, and each part meets more and more others.
     std::optional<Contacts> find() {
         const std::size_t n = chain_.triangles.size();
         std::vector<std::uint32_t> fresh;
@@ -168,7 +168,7 @@ class Arrangement {
         }
         return result;
     }
-    // The contacts of near[i], which is new, with triangles behind it. Returns the cost.
+    // The contacts of near[i], which is new, with later triangles. Returns the cost.
     std::uint64_t contacts_of(std::size_t i, std::span<const std::uint32_t> near, std::span<const Bounds> boxes,
                               const BoxTree& tree, Contacts& found) const {
         constexpr std::uint64_t steps_of_pair = 4;
@@ -260,7 +260,7 @@ class Arrangement {
         std::ranges::sort(dividers, [](const Divider& x, const Divider& y) { return x.key() < y.key(); });
         return dividers;
     }
-    // The parts of a triangle; none if it stays whole.
+    // The parts of a triangle; empty if it is not divided.
     std::vector<ChainTriangle> divided(const ChainTriangle& t, const std::vector<Divider>& dividers,
                                        std::span<const Inner> within, std::span<const Segment> along) const {
         Subdivision parts(chain_.points, t.corners);

@@ -10,12 +10,12 @@ namespace phasetree::mesh {
 /// have become equal. Afterwards corners are in ascending order.
 ///
 /// In each round, edges and triangles are divided where they touch others. An edge is divided in all its triangles at
-/// once, so a closed chain stays closed. As new vertices are rounded to the lattice, parts may touch again and are
-/// divided in the next round.
+/// once, so a closed chain stays closed. Because new vertices are rounded to the lattice, parts may touch again; they
+/// are then divided in the next round.
 ///
-/// Slivers about as thin as the lattice can touch again and again. So this stops after some rounds, and returns the
-/// triangles that still touch others; usually none. Throws ModelError if it takes more work than a node may; `name` is
-/// the mesh's name in messages. The result does not depend on the number of threads.
+/// Slivers about as thin as the lattice spacing can touch again and again. So this stops after some rounds, and returns
+/// the triangles that still touch others, usually none. Throws ModelError if the work exceeds a node's budget; `name`
+/// is the mesh's name in messages. The result does not depend on the number of threads.
 std::vector<std::uint32_t> arrange(Chain&, const std::string& name);
 
 }  // namespace phasetree::mesh

@@ -56,8 +56,8 @@ void for_each_sector(const Chain& chain, std::span<const EdgeOfChain> uses, F&& 
     }
 }
 
-// Sides of triangles, 2 t in front of triangle t and 2 t + 1 behind it, in connected sets. The winding number of each
-// is known relative to that of its set's root.
+// Disjoint sets of connected sides of triangles: side 2 t is in front of triangle t, side 2 t + 1 behind it. The
+// winding number on each side is known relative to that of its set's root.
 class ConnectedSides {
   public:
     explicit ConnectedSides(std::size_t n) : parent_(n), more_(n, 0) {
@@ -113,7 +113,7 @@ bool is_inside(std::int64_t winding, WindingRule rule) {
 
 std::vector<SideWinding> windings_of(const Chain& chain) {
     const auto n = static_cast<std::uint32_t>(chain.triangles.size());
-    // First the cells, so that no contradiction can come between two sides of the same sector.
+    // First join the sides that face the same sector, so that no later contradiction can separate them.
     ConnectedSides sides(2 * std::size_t{n});
     for_each_edge(edges_of(chain), [&](std::span<const EdgeOfChain> uses) {
         for_each_sector(chain, uses, [&](const EdgeOfChain& one, const EdgeOfChain& next, double) {

@@ -1,4 +1,4 @@
-// Repairing a mesh that is no clean surface.
+// Repairs a mesh that is not a clean surface.
 //
 // The mesh becomes a chain: triangles with integer multiplicities, whose vertices are points of a lattice. Every step
 // below maps chains to chains, and keeps a closed chain closed, whatever is rounded:
@@ -27,7 +27,7 @@
 
 namespace phasetree::mesh {
 
-/// A triangle of a chain, which counts `times` times; if this is negative, with the opposite orientation.
+/// A triangle of a chain, which counts `times` times. If this is negative, it counts with the opposite orientation.
 struct ChainTriangle {
     std::array<std::uint32_t, 3> corners;
     std::int32_t times = 1;
@@ -58,8 +58,9 @@ struct Chain {
     }
 };
 
-/// What is closer than this counts as touching, in lattice steps. It is larger than the distances by which points are
-/// rounded, and than the rounding errors of the node's distances, so that no walls remain that these cannot resolve.
+/// Anything closer than this, in lattice steps, counts as touching. It exceeds both the distances by which points are
+/// rounded and the rounding errors of the node's distances. So no walls remain that are too thin for these distances to
+/// resolve.
 inline constexpr double touching = 4;
 
 /// A triangle's use of an edge, and whether the triangle traverses it from the low to the high vertex.
@@ -80,8 +81,8 @@ void for_each_edge(std::span<const EdgeOfChain> edges, F&& f) {
     }
 }
 
-/// Round vertices to the lattice, and join those that touch. Of equal triangles one remains, or none if as many face
-/// either way. The result does not depend on the order of vertices and triangles.
+/// Round vertices to the lattice, and join those that touch. Of several equal triangles, one remains, or none if
+/// equally many face each way. The result does not depend on the order of vertices and triangles.
 Chain welded(const TriangleMesh&);
 
 /// Add up equal triangles, remove those that count zero times, and sort.

@@ -34,7 +34,8 @@ class ChainWinding {
             const glm::dvec3 d = direction(attempt);
             if (const auto found = along_ray(p, glm::dot(d, n) < 0 ? -d : d, counts)) return *found;
         }
-        // A point on a triangle sees none of its solid angle; the whole jump is half in front of it and half behind.
+        // A point on a triangle sees none of its solid angle. So the sum lies halfway between the winding numbers in
+        // front and behind, which differ by `times`.
         return std::llround(by_solid_angles(p, counts) - 0.5 * chain_.triangles[triangle].times);
     }
 
@@ -50,7 +51,7 @@ class ChainWinding {
         for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = chain.box(t);
         return boxes;
     }
-    // Nothing if the ray comes too close to an edge for a reliable result.
+    // Returns nullopt if the ray comes too close to an edge for a reliable result.
     template <class Counts>
     std::optional<std::int64_t> along_ray(const glm::dvec3& p, const glm::dvec3& d, const Counts& counts) const {
         std::int64_t winding = 0;
@@ -77,7 +78,8 @@ class ChainWinding {
         if (is_in_doubt) return std::nullopt;
         return winding;
     }
-    // 1 if the ray leaves through the triangle, −1 if it enters, 0 if it misses it; nothing if that is in doubt.
+    // 1 if the ray leaves through the triangle, −1 if it enters, 0 if it misses the triangle; nullopt if that is in
+    // doubt.
     std::optional<int> crossing_of(std::uint32_t t, const glm::dvec3& p, const glm::dvec3& d) const {
         std::array<glm::dvec3, 3> q;
         for (std::size_t k = 0; k < 3; ++k) q[k] = chain_.corner(t, k) - p;

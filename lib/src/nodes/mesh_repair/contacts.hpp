@@ -27,12 +27,12 @@ struct Contacts {
     std::size_t size() const { return edges.size() + faces.size() + segments.size(); }
 };
 
-/// Find where two triangles cross or touch, other than in vertices and edges that they share: vertices of one close to
-/// an edge or the inside of the other, edges that pass each other closely, and edges that go through the inside.
-/// All results are lattice points. Numerical errors are far less than `touching`.
+/// Find where two triangles cross or touch outside the vertices and edges that they share: vertices close to an edge or
+/// to the interior of the other triangle, edges that pass each other closely, and edges that pierce the interior. All
+/// results are lattice points. Numerical errors are far less than `touching`.
 void find_contacts(const Chain&, std::uint32_t one, std::uint32_t other, Contacts&);
 
-/// Find out whether a triangle is so thin that a corner touches the opposite edge.
+/// Whether a triangle is so thin that a corner touches the opposite edge.
 void find_own_contact(const Chain&, std::uint32_t triangle, Contacts&);
 
 }  // namespace phasetree::mesh

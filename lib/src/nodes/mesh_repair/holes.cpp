@@ -64,8 +64,8 @@ std::vector<Loop> loops_of(std::span<const OpenEdge> open, std::vector<std::uint
     return loops;
 }
 
-// Cuts a loop into triangles. Whatever is cut first, their boundary is the loop; ears that are free of other vertices
-// and have a short diagonal are preferred.
+// Cuts a loop into triangles. In whatever order ears are cut off, the triangles' boundary is the loop. Ears without
+// other vertices inside and with a short diagonal are preferred.
 class EarClipping {
   public:
     EarClipping(const Chain& chain, const Loop& loop) : loop_(loop), at_(loop.size()) {

@@ -4,17 +4,18 @@
 
 namespace phasetree::mesh {
 
-/// What close_holes did.
+/// The result of close_holes.
 struct ClosedHoles {
     std::size_t holes = 0;
     std::size_t sheets = 0;  ///< shells that were removed
 };
 
-/// Make the chain closed: add triangles between the boundary edges of each shell, and their numbers to `shells`. Their
-/// loops are cut into triangles as polygons in the plane that fits them best, ear by ear.
+/// Make the chain closed: add triangles between the boundary edges of each shell, and append their shell numbers to
+/// `shells`. Each loop of boundary edges is projected to the plane that fits it best, and cut into triangles ear by
+/// ear.
 ///
-/// A shell is a sheet if that takes more than `largest_patch` of its own area. A sheet hardly encloses anything: it is
-/// removed.
+/// A shell is a sheet if the added area exceeds the fraction `largest_patch` of its own area. A sheet hardly encloses
+/// anything, and is removed.
 ClosedHoles close_holes(Chain&, std::vector<std::uint32_t>& shells);
 
 inline constexpr double largest_patch = 0.8;

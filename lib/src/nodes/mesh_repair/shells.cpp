@@ -10,7 +10,7 @@ namespace phasetree::mesh {
 
 namespace {
 
-// Disjoint sets of triangles, which know of each triangle whether it faces the other way than the root of its set.
+// Disjoint sets of triangles that also store, for each triangle, whether it faces the opposite way to its set's root.
 class OrientedSets {
   public:
     explicit OrientedSets(std::size_t n) : parent_(n), turned_(n, 0) {
@@ -35,7 +35,8 @@ class OrientedSets {
         }
         return {top, turned};
     }
-    // Two triangles of which one has to be turned for both to face the same way, or not. A contradiction is ignored.
+    // Joins two triangles. `is_opposite` says whether one of them has to be turned for both to face the same way. A
+    // contradiction to what is already known is ignored.
     void join(std::uint32_t a, std::uint32_t b, bool is_opposite) {
         const auto [p, p_turned] = root(a);
         const auto [q, q_turned] = root(b);

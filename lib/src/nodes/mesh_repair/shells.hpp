@@ -4,15 +4,16 @@
 
 namespace phasetree::mesh {
 
-/// Turn triangles so that any two that share an edge with no third face the same way, where that is possible. The
+/// Turn triangles so that, where possible, two of them face the same way if they share an edge with no third one. The
 /// larger part, by area, keeps its orientation.
 void orient(Chain&);
 
 /// For each triangle, the number of its shell. A shell is a set of triangles connected by edges.
 std::vector<std::uint32_t> shells_of(const Chain&);
 
-/// Turn shells that are inside out. If that is most of the volume, turn all. Then, a shell that encloses a negative
-/// volume is a cavity if it is within larger shells, and is turned otherwise. The chain must be closed.
+/// Turn shells that are inside out. If most of the volume is inside out, turn all shells first. Then a shell that
+/// encloses a negative volume is left as a cavity if it lies within larger shells, and turned otherwise. The chain must
+/// be closed.
 void turn_shells(Chain&, std::span<const std::uint32_t> shells);
 
 }  // namespace phasetree::mesh

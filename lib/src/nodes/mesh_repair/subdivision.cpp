@@ -21,7 +21,7 @@ void Subdivision::add_on_side(std::size_t side, std::span<const std::uint32_t> v
     const int end = static_cast<int>((side + 1) % 3);
     int from = static_cast<int>(side);
     for (const std::uint32_t v : vertices) {
-        // The triangle at the rest of the side.
+        // The triangle on the remaining part of the side.
         int triangle = static_cast<int>(small_.size()) - 1;
         std::size_t of_triangle = 3;
         for (; of_triangle == 3; --triangle)
@@ -73,8 +73,8 @@ double Subdivision::turn(int a, int b, int c) const {
     return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
 }
 
-// Whether the edge from a to b, with c on its left and d on its right, should rather go from c to d: because d is in
-// the circle through the others, or on it and the lowest vertex is c or d.
+// Whether the edge from a to b, with c on its left and d on its right, should be flipped to go from c to d. This is so
+// if d is inside the circle through the others, or on it while the lowest vertex is c or d.
 bool Subdivision::should_flip(int a, int b, int c, int d) const {
     const glm::dvec2& origin = xy_[static_cast<std::size_t>(d)];
     const glm::dvec2 p = xy_[static_cast<std::size_t>(a)] - origin, q = xy_[static_cast<std::size_t>(b)] - origin,
@@ -176,7 +176,8 @@ void Subdivision::flip(int t, std::size_t i) {
 }
 
 void Subdivision::flip_while_needed() {
-    // Flips come to an end; the limit is for those that undo what rounding has turned over.
+    // Flipping terminates by itself, except perhaps for flips that undo what rounding has turned over. The limit is for
+    // these.
     for (std::size_t left = 100 + 20 * small_.size(); !doubtful_.empty() && left > 0; --left) {
         const auto [t, side] = doubtful_.back();
         doubtful_.pop_back();
@@ -238,7 +239,7 @@ std::optional<Subdivision::Side> Subdivision::find_side(int a, int b) const {
     return found;
 }
 
-// Whether the segment between two vertices passes another one within rounding.
+// Whether the segment between two vertices passes through another one, within rounding.
 bool Subdivision::is_passed(int from, int to, int vertex) const {
     if (vertex == from || vertex == to) return false;
     const glm::dvec2 a = xy_[static_cast<std::size_t>(from)], e = xy_[static_cast<std::size_t>(to)] - a,

@@ -17,8 +17,8 @@ namespace phasetree::mesh {
 /// small triangles between consecutive vertices. The triangulation is constrained Delaunay in a projection, with ties
 /// decided by the numbers of vertices, so triangles in the same plane are divided alike where they overlap.
 ///
-/// Vertices may be off the triangle by rounding. The boundary of the small triangles is always that of the triangle
-/// with the vertices on its sides.
+/// Rounding may put vertices slightly outside the triangle. Regardless, the boundary of the small triangles is that of
+/// the triangle, divided at the vertices on its sides.
 class Subdivision {
   public:
     using Corners = std::array<std::uint32_t, 3>;
@@ -27,11 +27,11 @@ class Subdivision {
 
     Subdivision(std::span<const glm::dvec3> points, const Corners&);
 
-    /// The vertices on the side from a corner to the next, in this order. Call this first.
+    /// Adds the vertices on the side from a corner to the next, in this order. Call this first.
     void add_on_side(std::size_t side, std::span<const std::uint32_t> vertices);
     void add_within(std::uint32_t vertex);
-    /// Make the segment between two of the vertices an edge, or several if it passes other vertices closely. It is left
-    /// out where it crosses an earlier one. Call this last.
+    /// Make the segment between two of the vertices an edge, or several edges if it passes other vertices closely.
+    /// Parts that cross an earlier segment are left out. Call this last.
     void add_segment(std::uint32_t from, std::uint32_t to);
     std::vector<Corners> triangles() const;
 

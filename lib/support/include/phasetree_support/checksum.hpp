@@ -7,9 +7,9 @@
 
 namespace phasetree::support {
 
-/// A checksum of bytes, eight at a time. Each step is a bijection both of the sum so far and of the bytes that are put
-/// in, so a change within eight bytes is always found, and any other except for one in 2⁶⁴. It is no protection
-/// against forgery.
+/// A checksum of bytes, eight at a time. Each step is a bijection of the sum so far, and also of the bytes put in. So a
+/// change within eight bytes is always detected, and any other change is missed with a probability of 2⁻⁶⁴. It does not
+/// protect against forgery.
 class Checksum {
   public:
     void put(const void* bytes, std::size_t count) {

@@ -6,7 +6,7 @@
 
 namespace phasetree::support {
 
-/// What the system has against a file. Whoever opened it knows its name.
+/// An error that the system reports for a file. The message does not name the file; the caller knows its name.
 class FileError : public std::runtime_error {
   public:
     explicit FileError(int code) : FileError(code, std::generic_category().message(code)) {}

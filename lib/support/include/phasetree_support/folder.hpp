@@ -1,5 +1,5 @@
-// What is in a folder, by POSIX: the directory iterator of libstdc++ 12 takes memory where nothing may be thrown, so
-// when that runs out the process would end.
+// Lists a folder with POSIX functions. The directory iterator of libstdc++ 12 allocates memory in functions that must
+// not throw, so it ends the process if memory runs out.
 #pragma once
 
 #include <dirent.h>
@@ -12,8 +12,8 @@
 
 namespace phasetree::support {
 
-/// Calls `f` with the path of each entry, in any order, until it returns false. Returns what went wrong with the
-/// folder, if anything did; throws what `f` throws, and std::bad_alloc.
+/// Calls `f` with the path of each entry, in any order, until it returns false. Returns the error if the folder cannot
+/// be read. Throws what `f` throws, and std::bad_alloc.
 template <class F>
 std::error_code each_entry(const std::filesystem::path& folder, F&& f) {
     struct Close {

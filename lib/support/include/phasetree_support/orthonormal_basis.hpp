@@ -4,9 +4,9 @@
 
 namespace phasetree::support {
 
-/// Two unit vectors across a unit normal and each other: the same for the same normal (Duff, Burgess, Christensen,
-/// Hery, Kensler, Liani and Villemin, "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017). `Vector` is
-/// glm::vec3 or glm::dvec3.
+/// Two unit vectors perpendicular to a unit normal and to each other; a function of the normal alone (Duff, Burgess,
+/// Christensen, Hery, Kensler, Liani and Villemin, "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
+/// `Vector` is glm::vec3 or glm::dvec3.
 template <class Vector>
 struct OrthonormalBasis {
     Vector tangent, bitangent;

@@ -1,5 +1,5 @@
-// How far the reading of large files is: whoever shows progress listens, and readers tell, without knowing each other.
-// Between the two lie a dozen functions that neither read bytes nor show anything.
+// Progress of reading large files. Readers report it, and code that displays it listens. Neither knows the other,
+// because a dozen functions lie between them that need not know about progress.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace phasetree::support {
 
-/// While it lives it hears what its thread reads. Of several the newest does.
+/// While it exists, receives the progress of all reading on its thread. If there are several, only the newest receives
+/// it.
 class ReadingListener {
   public:
-    /// `hear` is called with numbers of bytes that have been read and understood since the last call.
+    /// `hear` is called with the number of bytes that have been read and parsed since the last call.
     explicit ReadingListener(std::function<void(std::uint64_t)> hear)
         : hear_(std::move(hear)), before_(std::exchange(newest(), this)) {}
     ~ReadingListener() { newest() = before_; }
@@ -24,7 +25,7 @@ class ReadingListener {
     }
 
   private:
-    // One per thread.
+    // The listener of this thread; null if there is none.
     static ReadingListener*& newest() {
         thread_local ReadingListener* listener = nullptr;
         return listener;

@@ -11,7 +11,7 @@
 
 namespace phasetree::support {
 
-/// An empty directory of its own, removed at the end.
+/// A new, empty directory, which the destructor removes with its content.
 class TemporaryDirectory {
   public:
     explicit TemporaryDirectory(const std::filesystem::path& within = std::filesystem::temp_directory_path()) {
@@ -29,7 +29,7 @@ class TemporaryDirectory {
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
 
-    /// How many entries there are, hidden ones too.
+    /// The number of entries, including hidden ones.
     auto size() const {
         return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
     }

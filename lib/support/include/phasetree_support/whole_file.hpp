@@ -8,10 +8,11 @@
 
 namespace phasetree::support {
 
-/// A file that appears whole or not at all: it is written under a temporary name in the same directory and renamed by
-/// finish(). Without that the temporary file vanishes, and a file that was there is untouched. A symbolic link stays
-/// one, and what it points at is replaced or, if it is not there, made; a directory, a device or a pipe never is. What
-/// a process left that was killed while it wrote the same file is taken away. All functions throw FileError.
+/// A file that appears complete or not at all. It is written under a temporary name in the same directory, and finish()
+/// renames it. If finish() is not called, the temporary file is removed, and an existing file stays unchanged. If the
+/// path is a symbolic link, the link stays, and the file that it points to is replaced or created. A directory, a
+/// device or a pipe is never replaced. Temporary files left by processes that were killed while writing the same file
+/// are removed. All functions throw FileError.
 class WholeFile {
   public:
     explicit WholeFile(const std::filesystem::path&);
@@ -20,11 +21,11 @@ class WholeFile {
     WholeFile& operator=(const WholeFile&) = delete;
 
     void write(std::span<const std::byte>);
-    /// Ends the writing, but does not rename the file yet. A closed file uses no descriptor, so there can be many.
-    /// Closed files are not locked: another process that writes the same file removes the temporary file.
+    /// Ends writing, but does not rename the file yet. A closed file uses no descriptor, so there can be many. Closed
+    /// files are not locked: another process that writes the same file removes the temporary file.
     void close();
     void finish();
-    /// The same, and the file is on the disk and not only in the system's memory, so that it outlives a loss of power.
+    /// Like finish(), but also waits until the file is on the disk, so that it survives a power failure.
     void finish_on_disk();
 
   private:

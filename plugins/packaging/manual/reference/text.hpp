@@ -23,7 +23,7 @@ inline std::vector<std::string> split(std::string_view text, char separator) {
     }
 }
 
-// Of a list of parameters: commas within parentheses part nothing.
+// Splits a list of parameters at its commas, except for commas within parentheses.
 inline std::vector<std::string> split_parameters(std::string_view text) {
     std::vector<std::string> parts(1);
     int depth = 0;

@@ -2,7 +2,8 @@
 // reflectance and, for a rough surface, the energy that its BSDF must restore for multiple scattering
 // (lost_energy.hpp).
 //
-// Of the multiply scattered light of a lossless metal with that roughness, a real one reflects
+// A real metal reflects the following fraction of the light that a lossless metal of the same roughness scatters more
+// than once:
 //     c = F̄² q / (1 − F̄ (1 − q)),   q = 1 / (1 + α/2 + α²/5),
 // the sum over the second, third … scattering. Each multiplies the light by F̄, Fresnel's reflectance under uniform
 // light, and the part q of the light then leaves the surface. So the colour of a rough metal is more saturated than

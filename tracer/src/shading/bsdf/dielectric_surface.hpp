@@ -2,12 +2,12 @@
 // its reflectance and, for a rough interface, the energy that its BSDF must restore for multiple scattering
 // (lost_energy.hpp).
 //
-// Of the light that is scattered several times on one side, a, the part t_ab leaves through the surface to the other,
-// b. Reciprocity requires t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side. It
-// leaves the sum t_ab + t_ba free. It is set to (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform
-// light, as if each further scattering transmitted that much: a model, not a derivation. Neither part exceeds 1.
-// A random walk on the microsurface transmits more than this from outside (η = 1.5), by up to 7 % of the light, and up
-// to 30 % more or less from inside where α is 1.
+// A fraction t_ab of the light that is scattered several times on one side, a, leaves through the surface to the other
+// side, b. Reciprocity requires t_ab/t_ba = n_b² L̄_b / (n_a² L̄_a), with L̄ the loss of lost_energy.hpp of each side.
+// It leaves the sum t_ab + t_ba free. It is set to (1 − F̄_a) + (1 − F̄_b), with F̄ Fresnel's reflectance under uniform
+// light, as if each further scattering transmitted that much: a model, not a derivation. Neither part exceeds 1. A
+// random walk on the microsurface transmits more than this from outside (η = 1.5), by up to 7 % of the light, and up to
+// 30 % more or less from inside where α is 1.
 #pragma once
 
 #include <memory>

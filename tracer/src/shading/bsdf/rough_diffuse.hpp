@@ -6,9 +6,9 @@
 //     A = 1/(1 + (1/2 − 2/(3π)) r)
 //
 // f_once is single scattering (Fujii's form of Oren and Nayar's model), with the roughness r in [0, 1], where 0 is
-// Lambert's law. Of light at an angle θ, a white surface reflects by it
+// Lambert's law. By single scattering, a white surface reflects this fraction of light that arrives at an angle θ,
 //     E(θ) = A + r A G(θ)/π,   G = sin θ (θ − sin θ cos θ) + 2/3 (tan θ (1 − sin³θ) − sin θ)
-// and of uniform light Ē = A (1 + r (2/3 − 28/(15 π))). The rest has been scattered more than once:
+// and this fraction of uniform light: Ē = A (1 + r (2/3 − 28/(15 π))). The rest has been scattered more than once:
 //     f_ms = ρ′/π (1 − E(o)) (1 − E(i))/(1 − Ē),   ρ′ = ρ² Ē/(1 − ρ (1 − Ē))
 // so that a white surface reflects all light, and a coloured one is the more saturated the rougher it is.
 //

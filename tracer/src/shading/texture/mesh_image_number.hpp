@@ -48,7 +48,7 @@ struct MeshImageNumber {
 
     // A mesh without coordinates is rejected where the scene is read.
     float at(const TexturePoint& p) const { return number_of(image->at(coordinates.at(p) * repeat)[channel]); }
-    // Of an image that is not read yet it is taken that it has both black and white.
+    // An image that has not been read yet is assumed to have both black and white.
     float least() const { return std::min(number_of(of_image.x), number_of(of_image.y)); }
     float greatest() const { return std::max(number_of(of_image.x), number_of(of_image.y)); }
 

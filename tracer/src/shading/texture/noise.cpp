@@ -111,7 +111,7 @@ Cell cellular_noise(const glm::vec3& p, std::uint32_t seed) {
             next = squared;
         }
     };
-    // The cubes next to p first. Of the others, few are as near as the second point found there.
+    // First the cubes next to p. Few of the others are as near as the second point found there.
     const auto side = [](float inside) { return inside < 0.5f ? -1 : 1; };
     const int si = side(l.inside.x), sj = side(l.inside.y), sk = side(l.inside.z);
     for (int corner = 0; corner < 8; ++corner) look_in(corner & 1 ? si : 0, corner & 2 ? sj : 0, corner & 4 ? sk : 0);

@@ -52,9 +52,9 @@ struct FoldedBox {
     }
 };
 
-/// Endless copies, at little more than the instructions of a single one. Let b be the distance to the copies' boxes,
-/// and g the smallest clearance between a box and its cell's face. Then b ≥ g on the faces, where the folded field
-/// jumps, and
+/// Endless copies, which take few more instructions than a single one. Let b be the distance to the copies' boxes, and
+/// g the smallest clearance between a box and its cell's face. Then b ≥ g on the faces, where the folded field jumps,
+/// and
 ///     max(b, min(f, 2g − b))
 /// is b wherever b ≥ g. It is therefore continuous and 1-Lipschitz, and has the sign of f. This is why copies must not
 /// touch their cells' faces; see "Fields above a discontinuity" in lib/README.md.
@@ -82,7 +82,7 @@ struct EndlessGrid {
     void prepare() {
         const Bounds b = phasetree::bounds(of);
         if (b.empty()) throw ModelError("endless_grid: the child is empty");
-        if (!b.finite()) throw ModelError("endless_grid: the child must be bounded");
+        if (!b.finite()) detail::throw_unbounded("endless_grid: the child", of);
         boxes.fold = {b.centre(), spacing, glm::vec3(0)};
         boxes.half = b.extent() * (0.5f * (1 + 1e-6f));
         clearance = Bounds::infinity;

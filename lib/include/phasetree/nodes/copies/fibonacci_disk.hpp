@@ -15,10 +15,10 @@ inline double golden_turn(std::size_t i) {
 /// direction.
 template <class Child>
 struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
-    static constexpr NodeInfo info{"fibonacci_disk", "7.7",
-                                   "copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); of objects, the later over the "
-                                   "earlier",
-                                   "Copies spread evenly over a disk about the z axis, on a Fibonacci spiral."};
+    static constexpr NodeInfo info{
+        "fibonacci_disk", "7.7",
+        "copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones",
+        "Copies spread evenly over a disk about the z axis, on a Fibonacci spiral."};
     int count = 10;
     float radius = 1;
     int turned = 0;
@@ -26,7 +26,7 @@ struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
     template <class V>
     static void parameters(V&& v) {
         v(&FibonacciDisk::of, detail::copied);
-        v(&FibonacciDisk::count, Parameter{"count", "", "How many.", {.low = 1, .high = 100'000}});
+        v(&FibonacciDisk::count, Parameter{"count", "", "Number of copies.", {.low = 1, .high = 100'000}});
         v(&FibonacciDisk::radius,
           Parameter{"radius", "m", "Radius of the disk of the copies' origins.", limits::positive});
         v(&FibonacciDisk::turned, Parameter{"turned",

@@ -10,7 +10,7 @@ struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
     static constexpr NodeInfo info{
         "fibonacci_sphere", "7.7",
         "copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis "
-        "along nᵢ; of objects, the later over the earlier",
+        "along nᵢ; for objects, later copies replace earlier ones",
         "Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it."};
     int count = 10;
     float radius = 1;
@@ -18,7 +18,7 @@ struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
     template <class V>
     static void parameters(V&& v) {
         v(&FibonacciSphere::of, detail::copied);
-        v(&FibonacciSphere::count, Parameter{"count", "", "How many.", {.low = 1, .high = 100'000}});
+        v(&FibonacciSphere::count, Parameter{"count", "", "Number of copies.", {.low = 1, .high = 100'000}});
         v(&FibonacciSphere::radius,
           Parameter{"radius", "m", "Radius of the sphere of the copies' origins.", limits::positive});
     }

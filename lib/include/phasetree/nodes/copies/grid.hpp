@@ -7,7 +7,7 @@ namespace phasetree {
 template <class Child>
 struct Grid : Copies<Grid<Child>, Child> {
     static constexpr NodeInfo info{
-        "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); of objects, the later over the earlier",
+        "grid", "", "min over i, j, k of φ(p − (i dx, j dy, k dz)); for objects, later copies replace earlier ones",
         "Copies in rows along x, y and z; the first stays in place. They may overlap. They are ordered by k, then j, "
         "then i."};
     glm::vec3 spacing{1};

@@ -6,9 +6,9 @@ namespace phasetree {
 
 template <class Child>
 struct Instances : Copies<Instances<Child>, Child> {
-    static constexpr NodeInfo info{"instances", "",
-                                   "min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); of objects, the later over the earlier",
-                                   "Copies at the given positions, optionally rotated about the z axis and scaled."};
+    static constexpr NodeInfo info{
+        "instances", "", "min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones",
+        "Copies at the given positions, optionally rotated about the z axis and scaled."};
     std::vector<glm::vec3> positions{};
     std::vector<float> turns{};
     std::vector<float> scales{};

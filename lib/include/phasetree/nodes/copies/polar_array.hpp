@@ -7,7 +7,7 @@ namespace phasetree {
 template <class Child>
 struct PolarArray : Copies<PolarArray<Child>, Child> {
     static constexpr NodeInfo info{"polar_array", "",
-                                   "min over i < n of φ(R(−i a/n) p); of objects, the later over the earlier",
+                                   "min over i < n of φ(R(−i a/n) p); for objects, later copies replace earlier ones",
                                    "Copies rotated about the z axis by equal angles."};
     int count = 6;
     float angle = 360;
@@ -15,7 +15,7 @@ struct PolarArray : Copies<PolarArray<Child>, Child> {
     template <class V>
     static void parameters(V&& v) {
         v(&PolarArray::of, detail::copied);
-        v(&PolarArray::count, Parameter{"count", "", "How many.", {.low = 1, .high = 10000}});
+        v(&PolarArray::count, Parameter{"count", "", "Number of copies.", {.low = 1, .high = 10000}});
         v(&PolarArray::angle,
           Parameter{"angle", "degrees", "Total angle: copy i is rotated by i/count of it. Default: a full turn.",
                     limits::any, true});

@@ -25,8 +25,8 @@ template <class Child>
 struct Scatter : Copies<Scatter<Child>, Child> {
     static constexpr NodeInfo info{
         "scatter", "",
-        "copies at random points of the surface f = 0, their z axis along ∇f; of objects, "
-        "the later over the earlier",
+        "copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace "
+        "earlier ones",
         "Copies scattered over the surface of a field, standing on it, with random rotations."};
     Field surface{};
     int count = 10;

@@ -56,12 +56,13 @@ struct Tree {
         double farthest;
         std::size_t most;  ///< maximum number of balls
     };
-    /// Append the ShortList of these balls. Returns false if there are too many. The balls are taken from the tree, or
-    /// from the list `around` of an enclosing box unless that is empty; with a list there are never too many. The
-    /// result has at least one ball.
+    /// Append the ShortList of these balls, which has at least one ball. They are taken from `around`, the list of an
+    /// enclosing box, or from the tree if `around` is empty. Returns false if there are too many, which never happens
+    /// with a list.
     static bool balls_in(const float* tree, const Wanted&, std::span<const float> around, std::vector<float>& floats);
 
-    /// The side of a cube such that as many cubes as there are balls fill the box around the balls.
+    /// The side of a cube with a ball's share of the box around all balls: its volume is that of the box divided by the
+    /// number of balls.
     static float spacing(const float* data);
 
     /// The maximum of d·p over all balls, with radii increased by `more`.

@@ -67,7 +67,7 @@ struct Balls {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
-        /// A few balls, one by one.
+        /// Encloses the values in a box by those of a few balls.
         static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
                                                             const std::array<double, 3>& half);
         static std::size_t floats(const float* data) { return balls::ShortList::floats(data); }
@@ -83,7 +83,7 @@ struct Balls {
     using Parts = TypeList<Specialised>;
     /// The approximate distance between the centres of neighbours, assuming that the balls fill their box.
     static float spacing(const float* data) { return balls::Tree::spacing(data); }
-    /// A rough estimate of the cost of a search for each of eight points, in halves of that of a simple instruction.
+    /// A rough estimate of the cost of searching for the eight points of a batch; see HasConstantCost for the unit.
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {

@@ -64,7 +64,8 @@ struct Blob {
         v(&Blob::points, Parameter{"points", "m", "Point skeletons.", limits::any, true});
         v(&Blob::polyline,
           Parameter{"polyline", "m", "A chain of segments, which is a single skeleton.", limits::any, true});
-        v(&Blob::of, Parameter{"of", "", "Fields as skeletons: their distance, zero inside.", limits::any, true});
+        v(&Blob::of,
+          Parameter{"of", "", "Fields that serve as skeletons. The distance is 0 inside them.", limits::any, true});
         v(&Blob::radii, Parameter{"radii", "m",
                                   "Radius of influence of each skeleton: one number for all, or one for each of the "
                                   "points, then the polyline, then the fields.",

@@ -5,9 +5,9 @@
 
 namespace phasetree {
 
-/// The wall is everything nearer than t/2 to the part z ≤ c of a sphere's surface. In (ρ, z), ρ = |pxy|, that part is
-/// an arc up to the rim (w, c), w = √(R² − c²). The nearest point of the whole circle, R p/|p|, is on the arc where R
-/// pz ≤ c |p|; elsewhere the rim is nearest.
+/// The wall is the set of points within t/2 of the part of a sphere's surface with z ≤ c. In (ρ, z), ρ = |pxy|, that
+/// part is an arc up to the rim (w, c), w = √(R² − c²). The nearest point of the whole circle, R p/|p|, is on the arc
+/// where R pz ≤ c |p|; elsewhere the rim is nearest.
 struct Bowl {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"bowl", "", "(R pz ≤ c |p| ? ||p| − R| : |(|pxy| − w, pz − c)|) − t/2",

@@ -100,14 +100,14 @@ struct Mesh {
         static bool is_sound(std::span<const float>);
     };
     using Parts = TypeList<Specialised>;
-    /// The approximate distance between the middles of two triangles, assuming that they cover as much as a sphere in
-    /// the mesh's box would.
+    /// The approximate distance between the centres of neighbouring triangles, assuming that their total area is about
+    /// that of a sphere that fits in the mesh's box.
     static float spacing(const float* data) {
         const float* box = data + mesh::piece_kinds;
         const auto triangles = static_cast<float>(mesh::PieceList::count(data, mesh::PieceKind::face));
         return 2 * portable::hypot(box[3], box[4], box[5]) / std::sqrt(triangles);
     }
-    /// A rough estimate of the cost of a search for each of eight points, in halves of that of a simple instruction.
+    /// A rough estimate of the cost of searching for the eight points of a batch; see HasConstantCost for the unit.
     static constexpr unsigned search_half_instructions = 3000;
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,
                            std::vector<float>& floats) {

@@ -1,4 +1,4 @@
-// What a mesh states about itself, beside its own files: how it is read, and how it is enclosed in a box.
+// Traits of meshes that are defined outside mesh.hpp: how they are read, and how their values are enclosed in a box.
 #pragma once
 
 #include "phasetree/model/from_file.hpp"
@@ -11,7 +11,7 @@ struct FileFormat<TriangleMesh> {
     static TriangleMesh read(const std::filesystem::path&);
 };
 
-/// By the normals of the few pieces in a small box.
+/// Encloses the values in a small box by the normals of the few pieces that matter there.
 struct MeshEnclosing {
     static std::optional<enclosure::Enclosure> enclosed(const float* pieces, const Vec3<enclosure::Enclosure>& q,
                                                         const std::array<double, 3>& half);

@@ -57,9 +57,9 @@ struct Polyhedron {
         }
         return farthest;
     }
-    /// From the corners of the planes moved outward by the level, within a cube many times as large as their distance
-    /// from the origin. The farthest point in a direction is either a corner of the solid, or a corner on the cube; in
-    /// the latter case the solid is unbounded there.
+    /// The planes are moved outward by the level, and their intersection is cut to a cube much larger than their
+    /// distance from the origin. The farthest point in a direction is then either a corner of the solid, or a corner
+    /// on the cube; in the latter case the solid is unbounded there.
     Bounds bounds(BoundsQuery& q, float level) const {
         float far = 1e-6f;
         std::vector<HalfSpace> planes;

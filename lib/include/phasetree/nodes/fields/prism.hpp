@@ -11,11 +11,11 @@ namespace phasetree {
 struct Prism {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{"prism", "",
-                                   "fold to one sector;  q = (polygon, |pz| − h/2);  "
-                                   "|max(q, 0)| + min(max(qx, qy), 0)",
-                                   "A prism about the z axis on a regular polygon with an edge across the x axis; "
-                                   "exact."};
+    static constexpr NodeInfo info{
+        "prism", "",
+        "fold to one sector;  q = (polygon, |pz| − h/2);  "
+        "|max(q, 0)| + min(max(qx, qy), 0)",
+        "A prism about the z axis, whose base is a regular polygon with an edge perpendicular to the x axis; exact."};
     float sides = 6;
     float radius = 1;
     float height = 2;

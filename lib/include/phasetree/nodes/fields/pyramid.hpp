@@ -15,7 +15,7 @@ struct Pyramid {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"pyramid", "", "± min(distance to the base, distance to the nearest slanted face)",
-                                   "A pyramid on a square, centred at half its height on the z axis; exact."};
+                                   "A pyramid with a square base, centred at half its height on the z axis; exact."};
     float base = 1;
     float height = 1;
     float slant = 1;  ///< s, derived

@@ -26,7 +26,7 @@ struct Siren {
 
         std::span<const float> data() const { return values; }
         static constexpr bool is_best_in_small_boxes = true;  ///< see OpTraits
-        /// Inside the cube, by Taylor polynomials.
+        /// Encloses the values in a box inside the cube by Taylor polynomials.
         static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
                                                             const std::array<double, 3>& half);
         static unsigned half_instructions(const float* data) {

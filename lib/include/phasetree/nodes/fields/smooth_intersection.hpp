@@ -6,8 +6,9 @@ namespace phasetree {
 
 struct SmoothIntersection {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"smooth_intersection", "9.3", "−smin(−a, −b)",
-                                   "Intersection with rounded edges; folded from the first field to the last."};
+    static constexpr NodeInfo info{
+        "smooth_intersection", "9.3", "−smin(−a, −b)",
+        "Intersection with rounded edges; applied pairwise, from the first field to the last."};
     std::vector<Field> of{};
     float radius = 0.1f;
 

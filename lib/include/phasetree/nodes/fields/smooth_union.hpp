@@ -7,7 +7,7 @@ namespace phasetree {
 struct SmoothUnion {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"smooth_union", "9.3", "smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³",
-                                   "Union with filleted seams; folded from the first field to the last."};
+                                   "Union with filleted seams; applied pairwise, from the first field to the last."};
     std::vector<Field> of{};
     float radius = 0.1f;
 

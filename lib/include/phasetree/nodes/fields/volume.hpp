@@ -29,7 +29,7 @@ struct Volume {
     /// The primitive f/λ.
     struct Samples {
         static constexpr unsigned half_instructions = 120;
-        /// By the voxels that are near.
+        /// Encloses the values in a box by the voxels near it.
         static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
                                                             const std::array<double, 3>& half);
         static float period(const float* data) { return voxels::feature_size(data); }

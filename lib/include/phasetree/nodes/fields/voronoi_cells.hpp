@@ -35,7 +35,7 @@ struct VoronoiCells {
     template <class V>
     static void parameters(V&& v) {
         v(&VoronoiCells::size, detail::voronoi_size);
-        v(&VoronoiCells::gap, Parameter{"gap", "m", "Between blocks.", limits::positive});
+        v(&VoronoiCells::gap, Parameter{"gap", "m", "Width of the gap between blocks.", limits::positive});
         v(&VoronoiCells::rounding,
           Parameter{"rounding", "m", "Rounding c of the edges; 0 for sharp ones.", limits::non_negative, true});
         v(&VoronoiCells::jitter, detail::voronoi_jitter);

@@ -93,7 +93,7 @@ struct VoronoiSites {
     /// Find these sites, in the order in which for_each() visits them. If the list is empty, all sites are searched,
     /// otherwise those of the list, which must contain the result.
     void find(const Search&, std::span<const float> list, std::vector<Site>& found) const;
-    /// The number of floats per site in a list.
+    /// The number of floats per site in a list of sites.
     static constexpr unsigned site_floats = 7;
 };
 

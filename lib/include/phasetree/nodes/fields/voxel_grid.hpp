@@ -44,7 +44,7 @@ struct VoxelGrid {
 
     VoxelLattice lattice{};
     std::vector<float> table{};
-    /// The original values, divided by this number, are those in the table.
+    /// The values in the table are the original ones divided by this number.
     double divided_by = 1;
 
     /// Make a grid from the values of its blocks, which are requested in order. `fill` receives the voxel before the
@@ -95,8 +95,8 @@ namespace voxels {
 
 /// Offsets in the table.
 inline constexpr std::size_t size = 0, blocks = 3, first = 6, inverse_spacing = 9, head = 12, entry = 3;
-/// Offsets in a block's entry in the directory, whose first number locates the block's values: the minimum and the
-/// maximum of the values that its points are interpolated from.
+/// Offsets in the directory entry of a block: the minimum and the maximum of the values from which its points are
+/// interpolated. (The first number of an entry locates the block's values.)
 inline constexpr std::size_t least_of_block = 1, greatest_of_block = 2;
 
 /// The table, prepared for looking up voxels by integer indices.

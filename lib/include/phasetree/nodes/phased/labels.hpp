@@ -42,7 +42,7 @@ struct Labels {
     /// The primitive Dₖ.
     struct Depth {
         static constexpr unsigned half_instructions = 250;
-        /// By the voxels that are near.
+        /// Encloses the values in a box by the voxels near it.
         static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
                                                             const std::array<double, 3>& half);
         static float period(const float* data) { return voxels::feature_size(data); }
@@ -95,11 +95,11 @@ struct Labels {
           Parameter{"smoothing", "voxels",
                     "Standard deviation σ of the blur; at 0, interfaces show the steps of the voxels.",
                     Limits{.low = 0, .high = 4}, true});
-        v(&Labels::grid,
-          Parameter{"grid", "",
-                    "Name of the grid in an OpenVDB file; required if there are several of whole numbers. If several "
-                    "have the same name, append the index: \"name[0]\", \"name[1]\".",
-                    limits::any, true});
+        v(&Labels::grid, Parameter{"grid", "",
+                                   "Name of the grid in an OpenVDB file; required if the file has several grids of "
+                                   "whole numbers. If several "
+                                   "have the same name, append the index: \"name[0]\", \"name[1]\".",
+                                   limits::any, true});
     }
     /// The part of the file that is read.
     std::string part_of_file() const { return grid; }

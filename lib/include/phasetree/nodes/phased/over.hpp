@@ -7,8 +7,8 @@ namespace phasetree {
 struct Over {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"over", "4.3", "A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))",
-                                   "Combines objects; where they overlap, earlier ones replace later ones. Folded from "
-                                   "the last object to the first."};
+                                   "Combines objects; where they overlap, earlier ones replace later ones. Applied "
+                                   "pairwise, from the last object to the first."};
     std::vector<Phased> of{};
 
     template <class V>

@@ -40,8 +40,8 @@ inline constexpr Parameter objects{"of", "", "The objects, at least one."};
 struct Under {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"under", "4.3", "φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)",
-                                   "Combines objects; where they overlap, later ones replace earlier ones. Folded from "
-                                   "the first object to the last."};
+                                   "Combines objects; where they overlap, later ones replace earlier ones. Applied "
+                                   "pairwise, from the first object to the last."};
     std::vector<Phased> of{};
 
     template <class V>

@@ -73,8 +73,8 @@ struct OutlineInBox {
                    }) -
                data[1];
     }
-    /// A rough estimate of the cost of a letter with forty pieces for eight points, in halves of that of a simple
-    /// instruction.
+    /// A rough estimate of the cost of a letter with forty pieces for the eight points of a batch; see HasConstantCost
+    /// for the unit.
     static constexpr unsigned search_half_instructions = 6000;
     /// The mean length of a piece.
     static float spacing(const float* data);

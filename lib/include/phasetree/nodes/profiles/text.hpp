@@ -52,7 +52,8 @@ struct Text {
         v(&Text::size,
           Parameter{"size", "m", "Em size of the font; capitals are about 0.7 em high.", limits::positive, true});
         v(&Text::align,
-          Parameter{"align", "", "Alignment: the point of each line at x = 0, from 0, its beginning, to 1, its end.",
+          Parameter{"align", "",
+                    "Alignment: which point of each line is at x = 0. 0 is its beginning, 0.5 its middle, 1 its end.",
                     limits::fraction, true});
         v(&Text::spacing,
           Parameter{

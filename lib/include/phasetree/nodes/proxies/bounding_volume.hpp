@@ -31,7 +31,7 @@ struct BoundingVolume {
         const Bounds b = phasetree::bounds(of);
         if (b.empty()) throw ModelError("bounding_volume: the child is empty");
         if (!b.finite())
-            throw ModelError("bounding_volume: the child is unbounded, so it has no bounding box; give \"volume\"");
+            detail::throw_unbounded("bounding_volume: the child", of, ", so it has no bounding box; give a \"volume\"");
         box = {b.centre(), b.extent() * (0.5f * (1 + 1e-6f))};
     }
     template <class D>

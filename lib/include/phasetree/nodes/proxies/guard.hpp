@@ -57,6 +57,6 @@ Phases<float> object_guarded_by(float b, float margin, PhaseSet there, int k, co
 }
 
 inline constexpr Parameter guard_margin{
-    "margin", "m", "Distance from the volume beyond which its distance replaces the child.", limits::positive};
+    "margin", "m", "Distance from the volume beyond which the volume's distance is used instead.", limits::positive};
 
 }  // namespace phasetree::detail

@@ -79,7 +79,7 @@ struct Warped {
         phasetree::prepare(warp);
         if constexpr (LocalWarp<Warp>) {
             const Bounds inner = phasetree::bounds(of);
-            if (!inner.finite()) throw ModelError(std::string(info.name) + ": the child must be bounded");
+            if (!inner.finite()) detail::throw_unbounded(std::string(info.name) + ": the child", of);
             warp.fit(inner);
             const Bounds outer = warp.image(inner);
             bound = {outer.centre(), outer.extent() * 0.5f};

@@ -39,7 +39,7 @@ static inline void phasetreeInitCarveOptions(PhasetreeCarveOptions* options) {
 
 /* Properties of carved bounds, besides the planes. */
 typedef struct PhasetreeCarvedBounds {
-    struct RTCBounds box; /* lower > upper if the phases are empty */
+    struct RTCBounds box; /* lower > upper if the phases have no points */
     float volume, area;   /* of the polyhedron; 0 if the phases are empty */
     size_t evaluations;   /* number of evaluations used */
     bool isWithinTolerance;
@@ -52,7 +52,7 @@ typedef struct PhasetreeCarvedBounds {
  *             must have at least one of them.
  * options     NULL for the defaults.
  * planes      receives up to options->maxPlanes planes, or NULL. The phases lie behind every plane.
- * planeCount  receives the number of planes, 0 if the phases are empty. May be NULL if planes is NULL.
+ * planeCount  receives the number of planes, 0 if the phases have no points. May be NULL if planes is NULL.
  * bounds      receives the other properties, or NULL.
  *
  * Runs on the calling thread. Slower than phasetreeGetTreeBounds: milliseconds if the tree's distances are exact, up to

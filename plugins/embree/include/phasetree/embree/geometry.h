@@ -69,11 +69,11 @@ typedef struct PhasetreeGeometryOptions {
      * Used only during the call. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
-    /* Receives the fraction of cells built, an estimate that never decreases and is 1 when the cells are complete;
-     * Embree's BVH over them is built after that. Return false to cancel with PHASETREE_ERROR_CANCELLED,
-     * as with Embree's progress monitor; the function is then not called again. Called from any building thread, one at
-     * a time, while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the
-     * call, and not at all if cells are read from a file. */
+    /* Receives an estimate of the fraction of cells built. It never decreases, and is 1 when the cells are complete;
+     * Embree's BVH over them is built after that. Return false to cancel with PHASETREE_ERROR_CANCELLED, as with
+     * Embree's progress monitor; the function is then not called again. Called from any building thread, one at a time,
+     * while the others wait: return quickly, and do not build anything in it. May be NULL. Used only during the call,
+     * and not at all if cells are read from a file. */
     RTCProgressMonitorFunction progress;
     void* progressUserPtr;
 } PhasetreeGeometryOptions;
@@ -184,8 +184,8 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  *
  * transforms     timeStepCount matrices from the tree's space to geometry space, 12 floats each, 3×4 column-major
  *                (RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR), affine and invertible. Copied. Entries are interpolated linearly
- *                between time steps, as for Embree's instances, so a rotation needs enough steps. Halfway between two
- *                steps that are half a turn apart the matrix has no inverse, and nothing is hit.
+ *                between time steps, as for Embree's instances, so a rotation needs enough steps. If two steps are half
+ *                a turn apart, the matrix halfway between them has no inverse, and nothing is hit.
  * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT. 1 for a transform without motion; 0, with transforms NULL, to return to
  *                the tree's own space.
  * startTime, endTime   the times of the first and the last step, in the unit of the rays' time, in which the shutter
