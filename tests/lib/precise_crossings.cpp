@@ -244,7 +244,7 @@ TEST_CASE("distances are in units of the direction, and t_max ends the search") 
         if (bad != 0.0 && bad != 1e-320) CHECK_FALSE(tracer.first_crossing({.origin = {bad, 0, 0}}));
     }
     CHECK_FALSE(tracer.first_crossing({.origin = {-3, 0, 0}, .direction = {4, 0, 0}, .t_max = nan}));
-    // Far away, the ray is rounded where it enters the bounds, and no more.
+    // From far away, the ray is only rounded where it enters the bounds.
     const auto far = tracer.first_crossing({.origin = {-1e9, 0.25, 0}, .direction = {1, 0, 0}});
     REQUIRE(far);
     CHECK(glm::length(far->p_out) == doctest::Approx(1).epsilon(1e-14));

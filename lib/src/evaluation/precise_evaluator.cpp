@@ -128,11 +128,11 @@ PreciseSample PreciseEvaluator::sample(const glm::dvec3& p) const {
     return evaluation::sample_for(*program_, p, vacuum);
 }
 
-double PreciseEvaluator::safe_distance(const glm::dvec3& p) const {
+double PreciseEvaluator::safe_distance(const glm::dvec3& p, double error) const {
     const double s = sample(p).interface_distance;
     if (!(s < std::numeric_limits<double>::infinity())) return s;
     const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), s});
-    return std::max(s * (1 - lipschitz_excess()) - value_error(farthest), 0.0);
+    return std::max(s * (1 - lipschitz_excess()) - std::max(value_error(farthest), error), 0.0);
 }
 
 double PreciseEvaluator::component(const glm::dvec3& p, Phase phase) const {
@@ -160,11 +160,11 @@ bool PreciseEvaluator::locate(std::span<const glm::dvec3> points, std::span<Phas
     });
 }
 
-bool PreciseEvaluator::safe_distances(std::span<const glm::dvec3> points, std::span<double> distances,
+bool PreciseEvaluator::safe_distances(std::span<const glm::dvec3> points, std::span<double> distances, double error,
                                       const std::function<bool()>& cancelled) const {
     if (distances.size() != points.size()) throw std::invalid_argument("there must be as many distances as points");
     return in_blocks(points.size(), precise_block, cancelled, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) distances[i] = safe_distance(points[i]);
+        for (std::size_t i = begin; i < end; ++i) distances[i] = safe_distance(points[i], error);
     });
 }
 

@@ -46,9 +46,11 @@ class PreciseEvaluator {
     /// there.
     PreciseSample sample(const glm::dvec3& p) const;
     Phase label(const glm::dvec3& p) const { return sample(p).phase; }
-    /// A radius around a point within which the phase does not change, certified: s(p), less the allowances
-    /// value_error() and lipschitz_excess(). At least 0, and infinite if there is only one phase.
-    double safe_distance(const glm::dvec3& p) const;
+    /// A radius around a point within which the phase does not change: s(p), less allowances for lipschitz_excess() and
+    /// for the error of values, which is the larger of value_error() and `error`. At least 0, and infinite if there is
+    /// only one phase. Pass PreciseTracer::value_error() as `error` if the object is bounded: it is larger for objects
+    /// with cones and a few other nodes, whose constants do not fit each other exactly.
+    double safe_distance(const glm::dvec3& p, double error = 0) const;
     /// The component of a phase; infinite if the object does not have the phase.
     double component(const glm::dvec3& p, Phase) const;
     /// Its gradient, by forward-mode differentiation; zero if the object does not have the phase.
@@ -59,7 +61,7 @@ class PreciseEvaluator {
     bool locate(std::span<const glm::dvec3> points, std::span<Phase> phases,
                 const std::function<bool()>& cancelled = {}) const;
     /// The same for safe distances.
-    bool safe_distances(std::span<const glm::dvec3> points, std::span<double> distances,
+    bool safe_distances(std::span<const glm::dvec3> points, std::span<double> distances, double error = 0,
                         const std::function<bool()>& cancelled = {}) const;
 
     /// How far rounding may move a component, in the scene's unit, for points no farther from the origin than

@@ -33,7 +33,7 @@
 //
 // * Between two crossings, φ of the phase between them exceeds η nowhere over a length of r or more. So no crossing is
 //   lost if the phases on both sides are deeper than η over a length of at least r, and none is found twice. Thinner
-//   phases may be missed; crossings chain all the same.
+//   phases may be missed, but crossings still chain.
 // * By default, r is 2⁻³⁰ (9·10⁻¹⁰) of the object's diagonal, and η is 2⁻⁴⁴ (6·10⁻¹⁴) of the farthest coordinate of its
 //   bounds. A ray within η of a face crosses it anywhere along the face, or not at all.
 // * For objects that search in floats (meshes, balls, volumes, labels; see PreciseEvaluator), η is 2⁻²² of the farthest
