@@ -2,7 +2,7 @@
 // coincident and re-entrant rays; against analytic roots and Boolean set algebra (support/precise_walks.hpp).
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
+#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <bit>
@@ -87,6 +87,19 @@ void check_scene(const Scene& scene, Random& rng, int rays, bool is_exact, Total
     }
 }
 
+// Checks rays through 100 scenes, which scene(number, random numbers) makes.
+template <class MakeScene>
+Totals check_scenes(std::uint64_t seed, int rays, bool is_exact, MakeScene&& scene) {
+    std::vector<Totals> each(100);
+    tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t n) {
+        Random rng(1000 * seed + n);
+        check_scene(scene(static_cast<int>(n), rng), rng, rays, is_exact, each[n]);
+    });
+    Totals all;
+    for (const Totals& t : each) all.add(t);
+    return all;
+}
+
 void report(const char* what, const Totals& t) {
     for (const std::string& c : t.complaints) MESSAGE(c);
     MESSAGE(what, ": ", t.rays, " rays, ", t.crossings, " crossings, ", t.normals, " normals; ", t.wrong, " wrong, ",
@@ -96,11 +109,11 @@ void report(const char* what, const Totals& t) {
 
 }  // namespace
 
+// The long form has 10⁸ crossings, counting those of restarted walks, and takes about three hours of processor time.
+// Run it outside CTest on a machine with few cores, because CTest ends after an hour.
 TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
-    Random rng(401);
-    Totals totals;
-    const int scenes = 100, rays = long_tests() ? 20'000 : 50;
-    for (int n = 0; n < scenes; ++n) check_scene(exact_scene(rng), rng, rays, true, totals);
+    const Totals totals =
+        check_scenes(401, long_tests() ? 120'000 : 50, true, [](int, Random& rng) { return exact_scene(rng); });
     report("exact constants", totals);
     CHECK(totals.errors() == 0);
     CHECK(totals.crossings > totals.rays);
@@ -108,19 +121,15 @@ TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
 }
 
 TEST_CASE("nor in trees with rotations, scales, junctions, thin walls and vessels") {
-    Random rng(402);
-    Totals totals;
-    const int scenes = 100, rays = long_tests() ? 20'000 : 40;
-    for (int n = 0; n < scenes; ++n) {
-        const Scene scene = n % 10 == 0   ? traced::junction(rng, false)
-                            : n % 10 == 1 ? traced::junction(rng, true)
-                            : n % 10 == 2 ? traced::abutting(rng, false)
-                            : n % 10 == 3 ? traced::abutting(rng, true)
-                            : n % 10 == 4 ? traced::thin(rng)
-                            : n % 10 == 5 ? traced::vessel(rng)
-                                          : traced::random_scene(rng);
-        check_scene(scene, rng, rays, false, totals);
-    }
+    const Totals totals = check_scenes(402, long_tests() ? 120'000 : 40, false, [](int n, Random& rng) {
+        return n % 10 == 0   ? traced::junction(rng, false)
+               : n % 10 == 1 ? traced::junction(rng, true)
+               : n % 10 == 2 ? traced::abutting(rng, false)
+               : n % 10 == 3 ? traced::abutting(rng, true)
+               : n % 10 == 4 ? traced::thin(rng)
+               : n % 10 == 5 ? traced::vessel(rng)
+                             : traced::random_scene(rng);
+    });
     report("rounded constants", totals);
     CHECK(totals.errors() == 0);
     CHECK(totals.crossings > totals.rays);

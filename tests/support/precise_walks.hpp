@@ -34,10 +34,17 @@ inline Field exact_solid(Random& rng) {
         return rng.chance(0.5) ? std::max(std::round(v * 4) / 4, 0.25f) : v;
     };
     const float a = size(0.1f, 0.8f), b = size(0.1f, 0.8f), c = size(0.1f, 0.8f);
-    switch (rng.below(3)) {
+    switch (rng.below(7)) {
         case 0:
-            return Sphere{.radius = a};
         case 1:
+            return Sphere{.radius = a};
+        case 2: {  // a wall, 6·10⁻⁸ to 4·10⁻³ thick
+            Box wall{.size = {2 * a, 2 * b, 2 * c}};
+            wall.size[rng.below(3)] = std::exp2(-rng.uniform(8, 24));
+            return wall;
+        }
+        case 3:
+        case 4:
             return Box{.size = {2 * a, 2 * b, 2 * c}};
         default:
             return Cylinder{.radius = a, .height = 2 * b};
@@ -80,6 +87,17 @@ struct Totals {
     std::vector<std::string> complaints{};
 
     std::size_t errors() const { return wrong + unchained + uncertified + wide + bad_normals; }
+    void add(const Totals& t) {
+        rays += t.rays;
+        crossings += t.crossings;
+        wrong += t.wrong;
+        unchained += t.unchained;
+        uncertified += t.uncertified;
+        wide += t.wide;
+        bad_normals += t.bad_normals;
+        normals += t.normals;
+        complaints.insert(complaints.end(), t.complaints.begin(), t.complaints.end());
+    }
     void complain(const std::string& what, const dvec3& o, const dvec3& d) {
         if (complaints.size() >= 10) return;
         std::ostringstream s;
