@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "phasetree/math/portable.hpp"
 
@@ -83,9 +84,7 @@ double PreciseMarch::step_from(const Sample& s) const {
 std::optional<PreciseCrossing> PreciseMarch::next() {
     if (!(t_ <= end_)) return std::nullopt;
     Sample a = at(t_);
-    if (!is_in(a)) {
-        return passed(a, a);
-    }
+    if (!is_in(a)) return passed(a, a);
     labelled_.reset();
     if (a.is_labelled()) labelled_ = a;
     slope_ = -1;
@@ -122,7 +121,7 @@ PreciseMarch::Sample PreciseMarch::step_surely(const Sample& a, double step) con
     return at(std::min(a.t + step, end_));
 }
 
-// Makes the steps of a ray longer that makes no headway.
+// Lengthens the steps of a ray that makes no headway.
 void PreciseMarch::count_slow_steps(double step) {
     if (step >= slow_in_resolutions * resolution_) {
         slow_steps_ = 0;
