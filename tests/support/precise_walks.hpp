@@ -198,7 +198,8 @@ inline void check_brackets(const PreciseTracer& tracer, const Walk& walk, const 
             std::ostringstream text;
             text.precision(17);
             text << what << " from " << int(c.from.index) << " to " << int(c.to.index) << " at " << c.t_in << " … "
-                 << c.t_out << ", " << glm::distance(c.p_in, c.p_out) << " long";
+                 << c.t_out << ", " << glm::distance(c.p_in, c.p_out) << " long, with the normal (" << c.normal.x
+                 << ", " << c.normal.y << ", " << c.normal.z << ")";
             totals.complain(text.str(), o, d);
         };
         if (c.from != phase || c.to == c.from || c.t_in < t - 1e-12 * farthest || c.t_out < c.t_in)
@@ -208,7 +209,8 @@ inline void check_brackets(const PreciseTracer& tracer, const Walk& walk, const 
             (e.label(c.p_in) != c.from && c.t_in != c.t_out && e.component(c.p_in, c.from) > tracer.value_error()))
             complain("not certified", totals.uncertified);
         if (glm::distance(c.p_in, c.p_out) > 0x1p-48 * farthest) complain("wide bracket", totals.wide);
-        if (!(std::abs(glm::length(c.normal) - 1) < 1e-9 && glm::dot(c.normal, d) >= 0))
+        // Along a face, the angle to the ray is 90° up to rounding errors.
+        if (!(std::abs(glm::length(c.normal) - 1) < 1e-9 && glm::dot(c.normal, d) > -1e-14))
             complain("normal", totals.bad_normals);
         phase = c.to;
         t = c.t_out;

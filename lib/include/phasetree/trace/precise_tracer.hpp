@@ -78,12 +78,14 @@ struct PreciseRay {
 
 /// A change of phase along a ray in double precision; see the top of this file.
 struct PreciseCrossing {
-    double t_in = 0;       ///< p_in is origin + t_in · direction, up to rounding
-    double t_out = 0;      ///< the same for p_out
-    glm::dvec3 p_in{0};    ///< the bracket's end in `from`
-    glm::dvec3 p_out{0};   ///< the bracket's end in `to`
-    Phase from, to;        ///< the phases before and after the crossing
-    glm::dvec3 normal{0};  ///< of unit length, from `from` into `to`: the gradient of the component of `from`
+    double t_in = 0;      ///< p_in is origin + t_in · direction, up to rounding
+    double t_out = 0;     ///< the same for p_out
+    glm::dvec3 p_in{0};   ///< the bracket's end in `from`
+    glm::dvec3 p_out{0};  ///< the bracket's end in `to`
+    Phase from, to;       ///< the phases before and after the crossing
+    /// Of unit length, from `from` into `to`, at most at a right angle to the ray: the gradient of the component of
+    /// `from`, or minus that of `to` if the first does not point along the ray.
+    glm::dvec3 normal{0};
 };
 
 /// Every crossing along some rays. Those of ray i have the indices offsets[i] to offsets[i + 1] − 1.
