@@ -59,6 +59,7 @@ def examples():
         "Expression": [x, pt.sqrt(x**2 + y * y) - 1.5, (x**2 + z - 1).within(-2, (1, 2, 3)), chain],
         "Field": [BALL, BALL.smooth(0.2), pt.sphere(1) | pt.box((1, 2, 3)), pt.extrude(pt.polygon([(0, 0), (1, 0), (0, 1)]), 1)],
         "Hits": [BOTTLE.intersect(POINTS, UP)],
+        "NextCrossings": [BOTTLE.next_crossing(POINTS, UP)],
         "Image": [SCENE.render(planes=["depth"])],
         "Measures": [BOTTLE.measure(tolerance=0.3)],
         "Object": [BOTTLE, pt.phase("bare")(BALL), BOTTLE.with_phases(WATER, GLASS)],

@@ -190,6 +190,83 @@ class Rays(unittest.TestCase):
         self.assertEqual(len(ball.trace([(0, 0, 0)], [(0, 0, 0)]).t), 0)
 
 
+class DoublePrecision(unittest.TestCase):
+    def test_points(self):
+        ball = pt.phase("ball")(pt.sphere(1))
+        self.assertEqual(ball.locate((0, 0, 1 - 1e-15)), 1)
+        self.assertEqual(ball.locate((0, 0, 1 + 1e-15)), 0)
+        self.assertEqual(ball.locate(np.zeros((2, 4, 3))).shape, (2, 4))
+        self.assertEqual(ball.locate(np.zeros((2, 4, 3))).dtype, np.uint8)
+        self.assertEqual(ball.locate([(np.nan, 0, 0), (0, 0, 0)]).tolist(), [0, 1])
+        points = np.random.default_rng(9).uniform(-2, 2, (500, 3))
+        exact, safe = np.abs(np.linalg.norm(points, axis=1) - 1), ball.safe_distance(points)
+        self.assertEqual(safe.dtype, np.float64)
+        self.assertTrue((safe <= exact).all() and (safe > exact * (1 - 1e-5) - 1e-12).all())
+        self.assertTrue(np.isnan(ball.safe_distance((np.inf, 0, 0))))
+        endless = pt.phase("a")(pt.plane())
+        self.assertEqual(endless.locate((0, 0, -1e-12)), 1)
+        self.assertAlmostEqual(endless.safe_distance((0, 0, -2)), 2, 4)
+        with self.assertRaisesRegex(pt.Error, "the shape"):
+            ball.locate(np.zeros(3)[:2])
+
+    def test_crossings(self):
+        glass, water = pt.phase("glass"), pt.phase("water")
+        shown = pt.sphere(1).thin_shell(glass, water, 0.1)
+        origins = np.array([(0, 0, -3), (0, 3, -3), (0, 0, 0)])
+        found = shown.crossings(origins, (0, 0, 2))
+        self.assertEqual(found.start.tolist(), [0, 0, 2])
+        self.assertEqual(found.offsets.tolist(), [0, 4, 4, 6])
+        self.assertEqual(found.before.tolist(), [0, 1, 2, 1, 2, 1])
+        self.assertEqual(found.after.tolist(), [1, 2, 1, 0, 1, 0])
+        wall = float(np.float32(0.1))
+        exact = [(3 - 1 - wall) / 2, (3 - 1 + wall) / 2, (3 + 1 - wall) / 2, (3 + 1 + wall) / 2, (1 - wall) / 2, (1 + wall) / 2]
+        self.assertTrue(np.allclose(found.t, exact, rtol=0, atol=1e-14))
+        self.assertEqual((found.t.dtype, found.normal.dtype), (np.float64, np.float64))
+        self.assertTrue(np.allclose(found.normal, (0, 0, 1), atol=1e-12))
+        self.assertEqual(len(shown.crossings(origins, (0, 0, 2), limit=1).t), 3)
+        self.assertEqual(len(shown.crossings(origins, (0, 0, 2), limit=[1, 1, 0.5]).t), 2)
+        self.assertLess(shown.precise_resolution, 1e-8)
+
+    def test_a_walk_chains(self):
+        shown = pt.load(SCENES / "hourglass.json").object
+        points = random_points(shown, 300, 10).astype(np.float64)
+        directions = np.random.default_rng(11).normal(size=(300, 3))
+        at_once = shown.crossings(points, directions)
+        phase, found = shown.locate(points), [[] for _ in points]
+        going = np.arange(len(points))
+        while len(going):
+            hit = shown.next_crossing(points[going], directions[going], phase[going])
+            self.assertTrue(np.array_equal(hit.before, phase[going]))
+            crosses = np.isfinite(hit.t)
+            self.assertTrue(np.array_equal(shown.locate(hit.far[crosses]), hit.after[crosses]))
+            self.assertTrue(np.isnan(hit.far[~crosses]).all())
+            going = going[crosses]
+            points[going], phase[going] = hit.far[crosses], hit.after[crosses]
+            for i, after in zip(going, hit.after[crosses]):
+                found[i].append(after)
+        for i in range(len(points)):
+            self.assertEqual(at_once.of_ray(i).after.tolist(), found[i])
+        self.assertGreater(len(at_once.t), 300)
+
+    def test_phases_of_rays(self):
+        ball = pt.phase("ball")(pt.sphere(1))
+        on = ball.next_crossing((0, 0, 1), (0, 0, -1), "ball")
+        self.assertAlmostEqual(float(on.t), 2, 14)
+        self.assertEqual(int(on.before), 1)
+        shapes = [a.shape for a in ball.next_crossing(np.zeros((2, 4, 3)), (0, 0, 1), 1)]
+        self.assertEqual(shapes, [(2, 4), (2, 4), (2, 4), (2, 4, 3), (2, 4, 3), (2, 4, 3)])
+        none = ball.next_crossing((0, 0, 5), (0, 0, 1))
+        self.assertEqual((float(none.t), int(none.before), int(none.after)), (np.inf, 0, 0))
+        for phases, part in (([1, 2, 1], "phases must be 0 … 1"), (1.5, "integers"), ([1, 1], "have the shape"), ("glass", "no phase")):
+            with self.assertRaisesRegex(pt.Error, part):
+                ball.crossings(np.zeros((3, 3)), (0, 0, 1), phases)
+        with self.assertRaisesRegex(pt.Error, "limit must be a number"):
+            ball.crossings(np.zeros((3, 3)), (0, 0, 1), limit=[1, 2])
+        with self.assertRaisesRegex(pt.Error, "unbounded"):
+            pt.phase("a")(pt.plane()).crossings((0, 0, 1), (0, 0, -1))
+        self.assertEqual(len(ball.crossings([(0, 0, 0), (np.nan, 0, 0)], [(0, 0, 0), (0, 0, 1)]).t), 0)
+
+
 class LongCalls(unittest.TestCase):
     def test_a_signal_ends_a_call(self):
         shown = pt.load(SCENES / "tentacle.json").object
@@ -199,6 +276,7 @@ class LongCalls(unittest.TestCase):
         for call in (
             lambda: [shown.label(points) for _ in range(100)],
             lambda: [shown.trace(points, directions) for _ in range(20)],
+            lambda: [shown.crossings(points, directions) for _ in range(20)],
         ):
             was = signal.signal(signal.SIGALRM, signal.default_int_handler)
             began = time.monotonic()

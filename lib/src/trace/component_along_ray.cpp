@@ -12,7 +12,7 @@ namespace phasetree::trace {
 using bounding::enclose_long_primitive, bounding::enclose_primitive;
 using enclosure::Enclosure, enclosure::Interval;
 using evaluation::interpret, evaluation::RoutineSteps, evaluation::StepAction;
-using kernel::RayCrossing, kernel::Routine, kernel::Step, kernel::Visit;
+using kernel::Routine, kernel::Step;
 using program::first_map, program::is_fold;
 using rewriting::ArenaScope;
 
@@ -71,27 +71,28 @@ void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, doub
 
 }  // namespace
 
-ComponentAlongRay::ComponentAlongRay(const Visit& visit, const RayCrossing& c)
-    : routine_(*visit.routine), direction_(visit.ray->direction), origin_(c.origin[0], c.origin[1], c.origin[2]) {
+ComponentAlongRay::ComponentAlongRay(const Routine& routine, const glm::dvec3& origin, const glm::dvec3& direction,
+                                     float phase)
+    : routine_(routine), direction_(direction), origin_(origin) {
     for (std::size_t i = 0; i < routine_.output_count; ++i)
-        if (routine_.outputs[i].phase == c.from) output_ = &routine_.outputs[i];
+        if (routine_.outputs[i].phase == phase) output_ = &routine_.outputs[i];
     std::uint32_t slots = 3;
     for (std::size_t i = 0; i < routine_.count; ++i) slots = std::max(slots, routine_.steps[i].to + 3);
     registers_.resize(slots);
 }
 
-double ComponentAlongRay::upper_bound(float t_low, float t_high, double precision) {
-    if (!output_) return Interval::most;
-    const double middle = 0.5 * (double{t_low} + double{t_high}), half = 0.5 * (double{t_high} - double{t_low});
+// Runs the routine over a stretch of the ray. Returns false if it stops at a fold. Appends the values in the middle to
+// `centres`, if given.
+bool ComponentAlongRay::run(double t_low, double t_high, double precision, std::vector<double>* centres) {
+    const double middle = 0.5 * (t_low + t_high), half = 0.5 * (t_high - t_low);
     for (int i = 0; i < 3; ++i) {
-        const auto along = static_cast<double>(direction_[i]);
-        const double centre = static_cast<double>(origin_[i]) + middle * along, half_width = half * std::abs(along);
+        const double along = direction_[i], centre = origin_[i] + middle * along, half_width = half * std::abs(along);
         registers_[static_cast<std::size_t>(i)] =
             Enclosure(centre, {centre - half_width, centre + half_width}, {Interval{along, along}}, {along}, {});
     }
     // The first axis of the enclosures' box represents t; the others are unused.
     const Enclosure::Vector extent{half, 0, 0};
-    const bool is_complete = interpret(
+    return interpret(
         StepsUpToJump(routine_, registers_.data()), registers_.data(),
         [&]<class P, class Point>(std::size_t, const float* constants, const Point& q, Enclosure& result) {
             if constexpr (LongPrimitive<P>) {
@@ -105,12 +106,25 @@ double ComponentAlongRay::upper_bound(float t_low, float t_high, double precisio
                         tighten_by_convexity<P>(constants, q, half, result);
             }
             result.tighten(extent);
+            if (centres) centres->push_back(result.centre);
         },
-        [&](Enclosure& e) { e.tighten(extent); });
-    if (!is_complete) return Interval::most;
+        [&](Enclosure& e) {
+            e.tighten(extent);
+            if (centres) centres->push_back(e.centre);
+        });
+}
+
+double ComponentAlongRay::upper_bound(double t_low, double t_high, double precision) {
+    if (!output_ || !run(t_low, t_high, precision, nullptr)) return Interval::most;
     const Interval& value = registers_[output_->slot].value;
     const double most = output_->sign < 0 ? -value.low : value.high;
     return std::isnan(most) ? Interval::most : most;
+}
+
+std::vector<double> centres_at(const Routine& routine, const glm::dvec3& p) {
+    std::vector<double> centres;
+    ComponentAlongRay(routine, p, glm::dvec3(0), -1).run(0, 0, Interval::most, &centres);
+    return centres;
 }
 
 }  // namespace phasetree::trace

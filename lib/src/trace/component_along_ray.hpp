@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "enclosure/enclosure.hpp"
@@ -12,20 +13,28 @@ namespace phasetree::trace {
 /// routine is run with Enclosures (intervals with derivatives) of the single variable t.
 class ComponentAlongRay {
   public:
-    /// For a search that was left unfinished in the phase RayCrossing::from. The visit's routine must outlive this
+    /// The ray starts at `origin`; `phase` is the one that it is in, as in OutputSlot. The routine must outlive this
     /// object.
-    ComponentAlongRay(const kernel::Visit&, const kernel::RayCrossing&);
+    ComponentAlongRay(const kernel::Routine&, const glm::dvec3& origin, const glm::dvec3& direction, float phase);
 
     /// An upper bound of the component between two distances along the ray; Interval::most if none is known. The caller
     /// does not need a bound that is tighter than `precision`.
-    double upper_bound(float t_low, float t_high, double precision);
+    double upper_bound(double t_low, double t_high, double precision);
 
   private:
+    bool run(double t_low, double t_high, double precision, std::vector<double>* centres);
+
+    friend std::vector<double> centres_at(const kernel::Routine&, const glm::dvec3&);
+
     const kernel::Routine& routine_;
-    glm::vec3 direction_, origin_;
+    glm::dvec3 direction_, origin_;
     const kernel::OutputSlot* output_ = nullptr;  ///< null if the phase is absent
     std::vector<enclosure::Enclosure> registers_;
     rewriting::Arena scratch_;
 };
+
+/// The numbers that the steps of a routine compute at a point, as enclosures of the point compute them: in the order of
+/// the steps, the coordinates of a point as three numbers.
+std::vector<double> centres_at(const kernel::Routine&, const glm::dvec3&);
 
 }  // namespace phasetree::trace

@@ -31,7 +31,12 @@ constexpr float step_length = 0.95f;
 class Creep {
   public:
     Creep(const Visit& visit, RayCrossing& c, TraceCounters& counters)
-        : visit_(visit), crossing_(c), counters_(counters), component_(visit, c), t_(c.t_in) {}
+        : visit_(visit),
+          crossing_(c),
+          counters_(counters),
+          component_(*visit.routine, glm::dvec3(c.origin[0], c.origin[1], c.origin[2]),
+                     glm::dvec3(visit.ray->direction), c.from),
+          t_(c.t_in) {}
 
     // Alternates enclosed stretches, walks and searches by the kernel until one of them finishes.
     bool finish() {
@@ -95,7 +100,8 @@ class Creep {
             spend(batches_to_enclose);
             const double rounding_error = static_cast<double>(resolution) / 16;
             // The bound is below the rounding error: no change of label counts before `next`.
-            const bool is_free = component_.upper_bound(end, next, 0.1 * rounding_error) < rounding_error;
+            const bool is_free =
+                component_.upper_bound(double{end}, double{next}, 0.1 * rounding_error) < rounding_error;
             if (is_free) end = next;
             step *= is_free ? 2 : 0.5f;
         }

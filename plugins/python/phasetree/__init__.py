@@ -22,7 +22,7 @@ from phasetree._phases import Phase, phase, vacuum
 from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
 from phasetree._solve import Solution, solve
-from phasetree._trees import Closest, Crossings, Field, Hits, Measures, Object, PhaseMesh, Proof
+from phasetree._trees import Closest, Crossings, Field, Hits, Measures, NextCrossings, Object, PhaseMesh, Proof
 from phasetree._view import View, view
 
 __version__ = _phasetree.version
@@ -40,7 +40,7 @@ voxels = _parts.voxels
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Measures", "Object", "Phase", "PhaseMesh", "Places", "Proof", "Scene", "SceneError", "Solution", "View",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Measures", "NextCrossings", "Object", "Phase", "PhaseMesh", "Places", "Proof", "Scene", "SceneError", "Solution", "View",
     "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "solve", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.

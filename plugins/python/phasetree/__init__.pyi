@@ -84,6 +84,18 @@ class Hits(NamedTuple):
     after: np.ndarray
     normal: np.ndarray
 
+class NextCrossings(NamedTuple):
+    r"""The next crossing along each ray in double precision; see Object.next_crossing.
+
+    If there is none, t is infinite, `near` and `far` are NaN, the normal is zero, and `before` and `after` are the phase
+    that the ray is in."""
+    t: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    normal: np.ndarray
+    near: np.ndarray
+    far: np.ndarray
+
 class Closest(NamedTuple):
     r"""The closest interface to each point. If there is none, the distance is infinite and the point NaN."""
     distance: np.ndarray
@@ -567,6 +579,34 @@ progress: called with "preparing" and the fraction done, up to 1."""
         r"""The closest interface to each point, within a radius. Returns Closest.
 
 tolerance: the accepted relative error of the distance."""
+    @property
+    def precise_resolution(self):
+        r"""The thickness of a phase along a ray that `crossings` and `next_crossing` are certain to find."""
+    def locate(self, points):
+        r"""The phase at points in double precision: uint8 (…), an index into `phases`.
+
+points: of shape (…, 3), in the unit of the object. A contiguous float64 array is not copied. The equations are
+those of `label`, evaluated in double precision. A point with a coordinate that is not finite is in the vacuum."""
+    def safe_distance(self, points):
+        r"""A radius around each point within which the phase certainly does not change: float64 (…).
+
+points: of shape (…, 3), in the unit of the object, like the radius. It is 0 at interfaces, at most the distance
+to the closest one, infinite if the object has only one phase, and NaN for a point that is not finite."""
+    def crossings(self, origins, directions, phases=..., limit=...):
+        r"""Every crossing along rays in double precision, as Crossings with float64 arrays.
+
+origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of it. phases: the
+phase that each ray is in (an integer array, a phase, or its name), by default that at its origin. A ray that is
+in another phase than its origin crosses there, at t = 0. limit: the largest t, a number or one per ray.
+
+Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is always
+`before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need `prepare`.
+Raises Error if the object is empty or unbounded."""
+    def next_crossing(self, origins, directions, phases=..., limit=...):
+        r"""The first crossing along each ray in double precision, as NextCrossings.
+
+Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
+reflected, at `near` with `before`. No offset is needed, and no crossing is found twice."""
     def measure(self, tolerance=..., seconds=..., densities=..., progress=...):
         r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 

@@ -156,7 +156,7 @@ def text():
     out += "class Phase:\n    name: str\n    material: Material | None\n    density: float | None\n"
     out += "    def __call__(self, *fields: Field | Expression) -> Object: ...\n\n"
     out += "vacuum: Phase\n\ndef phase(name: str, material: Material | None = ..., density: float | None = ...) -> Phase: ...\n\n"
-    for cls in (_trees.Crossings, _trees.Hits, _trees.Closest, _trees.PhaseMesh, _trees.Measures, _trees.Proof, _solve.Solution):
+    for cls in (_trees.Crossings, _trees.Hits, _trees.NextCrossings, _trees.Closest, _trees.PhaseMesh, _trees.Measures, _trees.Proof, _solve.Solution):
         out += _class(cls).replace(f"class {cls.__name__}:", f"class {cls.__name__}(NamedTuple):") + "\n"
     out += _class(_trees.Field, _methods(_trees.Field)) + "\n"
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])

@@ -15,9 +15,9 @@ from phasetree._registry import classes, functions
 from phasetree._values import Value
 
 
-def _points(values, what="the points"):
-    """The points as a contiguous float array (N, 3), without a copy if possible, and the leading shape."""
-    array = np.ascontiguousarray(values, dtype=np.float32)
+def _points(values, what="the points", dtype=np.float32):
+    """The points as a contiguous array (N, 3), without a copy if possible, and the leading shape."""
+    array = np.ascontiguousarray(values, dtype=dtype)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise Error(f"{what} must have the shape (…, 3), but have {array.shape}")
     return array.reshape(-1, 3), array.shape[:-1]
@@ -28,10 +28,10 @@ class Crossings(NamedTuple):
 
     start: np.ndarray  #: uint8 (N): the phase at each ray's origin
     offsets: np.ndarray  #: int64 (N + 1)
-    t: np.ndarray  #: float32 (M): the crossing is at origin + t·direction
+    t: np.ndarray  #: float32 (M), or float64 by Object.crossings: the crossing is at origin + t·direction
     before: np.ndarray  #: uint8 (M): the phase that the ray leaves
     after: np.ndarray  #: uint8 (M): the phase that the ray enters
-    normal: np.ndarray  #: float32 (M, 3): the unit normal, from `before` into `after`
+    normal: np.ndarray  #: (M, 3), of the type of t: the unit normal, from `before` into `after`
 
     @property
     def ray(self):
@@ -56,6 +56,21 @@ class Hits(NamedTuple):
     before: np.ndarray
     after: np.ndarray
     normal: np.ndarray
+
+
+class NextCrossings(NamedTuple):
+    """The next crossing along each ray in double precision; see Object.next_crossing.
+
+    If there is none, t is infinite, `near` and `far` are NaN, the normal is zero, and `before` and `after` are the phase
+    that the ray is in.
+    """
+
+    t: np.ndarray  #: float64 (…): the crossing is at origin + t·direction
+    before: np.ndarray  #: uint8 (…): the phase that the ray leaves
+    after: np.ndarray  #: uint8 (…): the phase that the ray enters
+    normal: np.ndarray  #: float64 (…, 3): the unit normal, from `before` into `after`
+    near: np.ndarray  #: float64 (…, 3): the point before the crossing, where a reflected ray starts, in `before`
+    far: np.ndarray  #: float64 (…, 3): the point behind the crossing, where the ray goes on, in `after`
 
 
 class Closest(NamedTuple):
@@ -278,7 +293,7 @@ class Object(Value):
     their index in `phases`.
     """
 
-    __slots__ = ("_evaluator_", "_handle", "_prepared_", "phases")
+    __slots__ = ("_evaluator_", "_handle", "_precise_", "_precise_evaluator_", "_prepared_", "phases")
     __array_ufunc__ = None
 
     def __init__(self, handle, phases):
@@ -286,6 +301,8 @@ class Object(Value):
         self.phases = phases
         self._evaluator_ = None
         self._prepared_ = None
+        self._precise_ = None
+        self._precise_evaluator_ = None
 
     @property
     def _phases(self):
@@ -363,6 +380,12 @@ class Object(Value):
             self._evaluator_ = _phasetree.Evaluator(self._handle)
         return self._evaluator_
 
+    @property
+    def _precise_evaluator(self):
+        if self._precise_evaluator_ is None:
+            self._precise_evaluator_ = _phasetree.PreciseEvaluator(self._handle)
+        return self._precise_evaluator_
+
     def label(self, points):
         """The phase at points given as an array of shape (…, 3): uint8, an index into `phases`.
 
@@ -433,6 +456,77 @@ class Object(Value):
         array, shape = _points(points)
         distance, point, here, there = self._prepared.closest(array, radius, tolerance)
         return Closest(distance.reshape(shape), point.reshape(*shape, 3), here.reshape(shape), there.reshape(shape))
+
+    @property
+    def _precise(self):
+        if self._precise_ is None:
+            self._precise_ = _phasetree.PreciseTracer(self._handle, 0)
+        return self._precise_
+
+    @property
+    def precise_resolution(self):
+        """The thickness of a phase along a ray that `crossings` and `next_crossing` are certain to find."""
+        return self._precise.resolution
+
+    def locate(self, points):
+        """The phase at points in double precision: uint8 (…), an index into `phases`.
+
+        points: of shape (…, 3), in the unit of the object. A contiguous float64 array is not copied. The equations are
+        those of `label`, evaluated in double precision. A point with a coordinate that is not finite is in the vacuum.
+        """
+        array, shape = _points(points, dtype=np.float64)
+        return self._precise_evaluator.locate(array).reshape(shape)[()]
+
+    def safe_distance(self, points):
+        """A radius around each point within which the phase certainly does not change: float64 (…).
+
+        points: of shape (…, 3), in the unit of the object, like the radius. It is 0 at interfaces, at most the distance
+        to the closest one, infinite if the object has only one phase, and NaN for a point that is not finite.
+        """
+        array, shape = _points(points, dtype=np.float64)
+        try:
+            error = self._precise.value_error
+        except Error:  # rays cannot be traced through unbounded objects, but points have distances
+            error = 0
+        return self._precise_evaluator.safe_distance(array, error).reshape(shape)[()]
+
+    def crossings(self, origins, directions, phases=None, limit=float("inf")):
+        """Every crossing along rays in double precision, as Crossings with float64 arrays.
+
+        origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of it. phases: the
+        phase that each ray is in (an integer array, a phase, or its name), by default that at its origin. A ray that is
+        in another phase than its origin crosses there, at t = 0. limit: the largest t, a number or one per ray.
+
+        Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is always
+        `before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need `prepare`.
+        Raises Error if the object is empty or unbounded.
+        """
+        arrays, _ = self._precise_rays(origins, directions, phases, limit)
+        return Crossings(*self._precise.crossings(*arrays))
+
+    def next_crossing(self, origins, directions, phases=None, limit=float("inf")):
+        """The first crossing along each ray in double precision, as NextCrossings.
+
+        Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
+        reflected, at `near` with `before`. No offset is needed, and no crossing is found twice.
+        """
+        arrays, shape = self._precise_rays(origins, directions, phases, limit)
+        t, before, after, *vectors = self._precise.next_crossing(*arrays)
+        vectors = (v.reshape(*shape, 3) for v in vectors)
+        return NextCrossings(t.reshape(shape), before.reshape(shape), after.reshape(shape), *vectors)
+
+    def _precise_rays(self, origins, directions, phases, limit):
+        origins, directions, shape = _rays(origins, directions, np.float64)
+        if phases is not None:
+            if isinstance(phases, (str, Phase)):
+                phases = self.index(phases)
+            phases = np.asarray(phases)
+            if phases.dtype.kind not in "iu":
+                raise Error(f"phases must be integers, but are {phases.dtype}")
+            if phases.size and not (0 <= phases.min() and phases.max() < len(self.phases)):
+                raise Error(f"phases must be 0 … {len(self.phases) - 1}, the indices of the object's phases")
+            phases = _per_ray(phases, shape, np.uint8, "phases")
+        return (origins, directions, phases, _per_ray(limit, shape, np.float64, "limit")), shape
 
     def mesh(self, spacing=0, progress=None):
         """The interfaces of the phases as triangles. Returns a PhaseMesh.
@@ -531,14 +625,23 @@ def _named(value):
     return f"an object of {_listed(value.names[1:])}" if isinstance(value, Object) else f"a {type(value).__name__}"
 
 
-def _rays(origins, directions):
-    origins = np.asarray(origins, dtype=np.float32)
-    directions = np.asarray(directions, dtype=np.float32)
+def _rays(origins, directions, dtype=np.float32):
+    origins = np.asarray(origins, dtype=dtype)
+    directions = np.asarray(directions, dtype=dtype)
     if origins.shape != directions.shape:
         origins, directions = np.broadcast_arrays(origins, directions)
-    origins, shape = _points(origins, "the origins")
-    directions, _ = _points(directions, "the directions")
+    origins, shape = _points(origins, "the origins", dtype)
+    directions, _ = _points(directions, "the directions", dtype)
     return origins, directions, shape
+
+
+def _per_ray(values, shape, dtype, what):
+    """One number per ray, as a contiguous array."""
+    try:
+        values = np.broadcast_to(np.asarray(values, dtype=dtype), shape)
+    except ValueError:
+        raise Error(f"{what} must be a number or have the shape {shape}, but have {np.shape(values)}") from None
+    return np.ascontiguousarray(values).reshape(-1)
 
 
 _A = {"field": "a field", "object": "an object of phases", "list of fields": "fields", "list of objects": "objects"}

@@ -10,6 +10,7 @@ PYBIND11_MODULE(_phasetree, module) {
     add_nodes(module);
     add_points(module);
     add_rays(module);
+    add_precise(module);
     add_meshes(module);
     add_measures(module);
     add_proofs(module);

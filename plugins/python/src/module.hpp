@@ -15,6 +15,7 @@ void add_reference(pybind11::module_&);
 void add_nodes(pybind11::module_&);
 void add_points(pybind11::module_&);
 void add_rays(pybind11::module_&);
+void add_precise(pybind11::module_&);
 void add_meshes(pybind11::module_&);
 void add_measures(pybind11::module_&);
 void add_proofs(pybind11::module_&);

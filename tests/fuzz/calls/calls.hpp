@@ -85,6 +85,7 @@ class Calls {
     void new_edited_tree();
     void count_tree();
     void ask_tree();
+    void ask_tree_precisely(PhasetreeTree);
 
     // geometries.cpp
     PhasetreeGeometryOptions options();

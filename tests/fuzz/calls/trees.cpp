@@ -96,6 +96,28 @@ void Calls::ask_tree() {
     PhasetreeCarvedBounds carved;
     check_with(of, phasetreeCarveTree(of, c_.below(16), &options, c_.or_null(planes), c_.or_null(&count),
                                       c_.or_null(&carved)));
+    ask_tree_precisely(of);
+}
+
+// Numbers of any size, and some that are not finite.
+void Calls::ask_tree_precisely(PhasetreeTree of) {
+    double points[6];
+    for (double& x : points) x = static_cast<double>(c_.number());
+    unsigned phases[2];
+    double distances[2];
+    check_with(of, phasetreeLocate(of, c_.or_null(points), c_.below(3), c_.or_null(phases)));
+    check_with(of, phasetreeGetSafeDistances(of, c_.or_null(points), c_.below(3), c_.or_null(distances)));
+    PhasetreePreciseRay ray{};
+    for (int i = 0; i < 3; ++i) {
+        ray.origin[i] = static_cast<double>(c_.number());
+        ray.direction[i] = static_cast<double>(c_.number());
+    }
+    ray.tMax = static_cast<double>(c_.number());
+    ray.carried = c_.below(2) == 0 ? PHASETREE_UNKNOWN_PHASE : c_.below(5);
+    PhasetreePreciseCrossing crossing;
+    const auto stop = [](void*) { return true; };
+    check_with(of, phasetreeFindCrossings(of, c_.or_null(&ray), c_.below(2), c_.or_null(&crossing),
+                                          c_.rarely() ? +stop : nullptr, nullptr));
 }
 
 }  // namespace phasetree::fuzz

@@ -45,6 +45,7 @@
 #include "phasetree/embree/hit.h"
 #include "phasetree/embree/mesh.h"
 #include "phasetree/embree/point.h"
+#include "phasetree/embree/precise.h"
 #include "phasetree/embree/tree.h"
 
 #endif

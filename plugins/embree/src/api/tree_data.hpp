@@ -1,12 +1,28 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "phasetree/io/tree.hpp"
+#include "phasetree/trace/precise_tracer.hpp"
 
 namespace phasetree::embree::api {
+
+/// A tree in double precision, prepared by the first call that uses it. Any thread may use it.
+class PreciseTree {
+  public:
+    const PreciseEvaluator& evaluator(const Phased& object);
+    /// Throws ModelError if the object cannot be traced.
+    const PreciseTracer& tracer(const Phased& object);
+
+  private:
+    std::once_flag evaluator_made_, tracer_made_;
+    std::optional<PreciseEvaluator> evaluator_;
+    std::optional<PreciseTracer> tracer_;
+};
 
 /// The data behind a PhasetreeTree: the model, and the text that it was read from, for edits.
 struct TreeData {
@@ -14,6 +30,7 @@ struct TreeData {
     std::optional<PhasetreeFileReader> reader;
     SceneTree tree;
     std::vector<std::optional<std::string>> materials;  ///< per phase, as JSON
+    std::unique_ptr<PreciseTree> precise = std::make_unique<PreciseTree>();
 };
 
 using TreeTable = HandleTable<TreeData, 0x5054>;

@@ -1,0 +1,81 @@
+// Evaluation of an object in double precision.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+
+#include "phasetree/model/handle.hpp"
+
+namespace phasetree {
+
+namespace evaluation {
+struct PreciseProgram;
+}
+
+/// What is known of an object at a point.
+struct PreciseSample {
+    /// The phase of the smallest component, including the vacuum; among equal components, the lowest index.
+    Phase phase;
+    /// The smallest component, at most 0 up to rounding errors.
+    double own = 0;
+    /// The second smallest component, s(p): within about this distance, the phase does not change.
+    double interface_distance = 0;
+};
+
+/// Evaluates the components Φ of an object in double precision.
+///
+/// *What is evaluated.* The same recorded program as for floats: the equations of the nodes are templates over the
+/// number type, and this is one more number type. The constants of the program (radii, matrices, weights, voxels) are
+/// the same floats, exactly converted. So both precisions evaluate one function; they differ by the rounding errors of
+/// floats. Sines, exponentials and angles are those of the standard library instead of polynomials for floats, and are
+/// exact to a double.
+///
+/// *Limits.* Meshes, balls, volumes and labels search for the data near a point with the point rounded to floats, and
+/// evaluate what they find in double precision. Their values may jump by a rounding error of floats where the search
+/// finds other data. value_error() depends on whether an object has such nodes.
+///
+/// Immutable; any thread may use it. Results do not depend on the number of threads.
+class PreciseEvaluator {
+  public:
+    /// Throws ModelError if the object's program is too long (see record()).
+    explicit PreciseEvaluator(const Phased& object);
+
+    /// Points with a coordinate that is not finite, or is beyond ±10¹⁰⁰, are in the vacuum; all distances are NaN
+    /// there.
+    PreciseSample sample(const glm::dvec3& p) const;
+    Phase label(const glm::dvec3& p) const { return sample(p).phase; }
+    /// A radius around a point within which the phase does not change: s(p), less allowances for lipschitz_excess() and
+    /// for the error of values, which is the larger of value_error() and `error`. At least 0, and infinite if there is
+    /// only one phase. Pass PreciseTracer::value_error() as `error` if the object is bounded: it is larger for objects
+    /// with cones and a few other nodes, whose constants do not fit each other exactly.
+    double safe_distance(const glm::dvec3& p, double error = 0) const;
+    /// The component of a phase; infinite if the object does not have the phase.
+    double component(const glm::dvec3& p, Phase) const;
+    /// Its gradient, by forward-mode differentiation; zero if the object does not have the phase.
+    glm::dvec3 gradient(const glm::dvec3& p, Phase) const;
+
+    /// The phases at many points. `phases` must be as long as `points`. Uses the threads of TBB's arena. `cancelled` is
+    /// polled by any thread. Returns false if it returned true; some phases are then not written.
+    bool locate(std::span<const glm::dvec3> points, std::span<Phase> phases,
+                const std::function<bool()>& cancelled = {}) const;
+    /// The same for safe distances.
+    bool safe_distances(std::span<const glm::dvec3> points, std::span<double> distances, double error = 0,
+                        const std::function<bool()>& cancelled = {}) const;
+
+    /// How far rounding may move a component, in the scene's unit, for points no farther from the origin than
+    /// `farthest`: 2⁻⁴⁴ of that distance, or 2⁻²² of it for an object that searches in floats. An estimate with a large
+    /// margin for programs of usual length, not a proof.
+    double value_error(double farthest) const;
+    /// By how much components may exceed the slope 1, because the constants of nodes (unit vectors, matrices, factors)
+    /// are rounded to floats.
+    double lipschitz_excess() const;
+
+    const evaluation::PreciseProgram& program() const { return *program_; }
+
+  private:
+    std::shared_ptr<const evaluation::PreciseProgram> program_;
+};
+
+}  // namespace phasetree

@@ -1,0 +1,70 @@
+/* Double precision, for simulations of particles, light and sound: phases, safe distances and crossings of a tree, in
+ * the tree's own space and without Embree. See phasetree_embree.h for the conventions, and
+ * phasetree/trace/precise_tracer.hpp for what is guaranteed. */
+#ifndef PHASETREE_EMBREE_PRECISE_H
+#define PHASETREE_EMBREE_PRECISE_H
+
+#include "phasetree/embree/tree.h"
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* All calls below use the threads of TBB's default arena; results do not depend on their number. The first call for a
+ * tree prepares it. Points are arrays of 3 · count coordinates x, y, z, x, y, z, …, all of which must be finite. */
+
+/* Returns the phases at points: the phase of the smallest of the tree's distances in double precision, the lowest phase
+ * among equal ones.
+ *
+ * phases  receives `count` phases.
+ *
+ * PHASETREE_ERROR_INVALID_ARGUMENT  a coordinate is not finite; the message names the point */
+PHASETREE_API PhasetreeError phasetreeLocate(PhasetreeTree tree, const double* points, size_t count,
+                                             unsigned int* phases);
+
+/* Returns, for each point, a radius within which the phase certainly does not change; 0 at interfaces.
+ *
+ * distances  receives `count` radii.
+ *
+ * Errors are those of phasetreeLocate. */
+PHASETREE_API PhasetreeError phasetreeGetSafeDistances(PhasetreeTree tree, const double* points, size_t count,
+                                                       double* distances);
+
+/* A ray in double precision. */
+typedef struct PhasetreePreciseRay {
+    double origin[3];
+    double direction[3];  /* of any length but zero */
+    double tMax;          /* crossings beyond are not found; INFINITY for no limit */
+    unsigned int carried; /* the phase that the ray is in; PHASETREE_UNKNOWN_PHASE for the one at its origin */
+} PhasetreePreciseRay;
+
+/* The next change of phase along a ray. If there is none, tIn and tOut are infinite, both phases are the one that the
+ * ray is in, and all other members are 0. */
+typedef struct PhasetreePreciseCrossing {
+    double tIn, tOut;      /* of pointIn and pointOut, in units of the length of the ray's direction */
+    double pointIn[3];     /* in `from`; a reflected ray starts here and carries `from` */
+    double pointOut[3];    /* in `to`; the ray goes on from here and carries `to` */
+    double normal[3];      /* of unit length, from `from` into `to` */
+    unsigned int from, to; /* the phases before and after the crossing */
+} PhasetreePreciseCrossing;
+
+/* Finds the next crossing of each ray. A walk that restarts at pointOut and carries `to` neither loses nor repeats a
+ * crossing: `to` of each is `from` of the next.
+ *
+ * crossings         receives `count` crossings.
+ * cancelled         polled from any thread; return true to cancel. May be NULL.
+ * cancelledUserPtr  passed to cancelled.
+ *
+ * PHASETREE_ERROR_INVALID_ARGUMENT  a ray is not finite, has a zero direction or carries a phase that the tree does not
+ *                                   have; the message names the ray
+ * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded
+ * PHASETREE_ERROR_CANCELLED         cancelled returned true. Nothing is written */
+PHASETREE_API PhasetreeError phasetreeFindCrossings(PhasetreeTree tree, const PhasetreePreciseRay* rays, size_t count,
+                                                    PhasetreePreciseCrossing* crossings,
+                                                    bool (*cancelled)(void* userPtr), void* cancelledUserPtr);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif
