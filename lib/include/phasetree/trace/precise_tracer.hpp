@@ -25,9 +25,8 @@
 //    bounds φ of c over whole stretches of it. Stretches on which φ of c stays below η − δ are in c, and are passed; δ
 //    is explained below.
 // 4. *Bracketing.* Once a sample is not in c, bisection and interpolation bracket where the label of that sample
-// begins,
-//    between it and the last sample labelled c. Phases that are shallower than η there, as on the face that two solids
-//    have in common, are passed over. If a deeper phase lies before, that phase is bracketed instead.
+//    begins, between it and the last sample labelled c. Phases that are shallower than η there, as on the face that
+//    two solids have in common, are passed over. If a deeper phase lies before, that phase is bracketed instead.
 //
 // WHAT IS GUARANTEED, AND WHAT IS NOT
 //
@@ -39,14 +38,12 @@
 // * For objects that search in floats (meshes, balls, volumes, labels; see PreciseEvaluator), η is 2⁻²² of the farthest
 //   coordinate, and r is at least 2·10⁻⁶ of the diagonal. These objects are as exact as with floats.
 // * The constants of some nodes do not fit each other exactly, because each is rounded to a float; others are enclosed
-// in
-//   floats (cones, sines, polygons, networks). Their enclosures differ from doubles, usually by less than 10⁻⁷. The
+//   in floats (cones, sines, polygons, networks). Their enclosures differ from doubles, usually by less than 10⁻⁷. The
 //   difference is measured at some points of the object when a tracer is made. η is at least four times the largest
 //   difference found, and δ is twice it; δ is 0 for all other objects. r is at least 2 η.
 // * Where stretches cannot be enclosed (outlines, patterns and images have no known derivatives), a ray along an
-// interface
-//   takes steps of r. After 65,536 steps shorter than 1,024 r, the shortest step doubles with every 256 further ones,
-//   so that every ray ends. Phases thicker than r may be missed there, and only there.
+//   interface takes steps of r. After 65,536 steps shorter than 1,024 r, the shortest step doubles with every 256
+//   further ones, so that every ray ends. Phases thicker than r may be missed there, and only there.
 // * Positions far from the object cost precision: a ray is moved to where it enters the object's bounds, which rounds
 //   that point to doubles as large as the origin is far.
 // * The whole program runs at each sample. Unlike InterfaceCells, this tracer does not prune it, so the cost grows with
