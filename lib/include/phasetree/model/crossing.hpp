@@ -17,9 +17,9 @@ namespace phasetree {
 /// a third phase between them. A bracket may span such a sliver, and is then up to 2.75 resolutions long.
 ///
 /// If the phase that the caller says the ray is in (`carried` in first_crossing()) occurs nowhere near the start of the
-/// search, a crossing is reported there. The search starts where the ray is first in the box that is searched: the
-/// object's bounds for InterfaceTracer, the cell's box for InterfaceCells. This crossing has zero length: p_in and
-/// p_out are that point, which is in `to`, and `from` is the carried phase.
+/// search, a crossing of zero length is reported there: p_in and p_out are that point, which is in `to`, and `from` is
+/// the carried phase. The search starts where the ray is first in the box: the object's for InterfaceTracer, the cell's
+/// for InterfaceCells. In a cell of a mesh alone, a ray that enters in a wrong phase and meets no face keeps it.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out
