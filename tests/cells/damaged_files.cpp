@@ -34,7 +34,7 @@ std::optional<Crossing> nearest(const InterfaceCells& cells, const glm::vec3& fr
 // Corrects the checksums of a changed file.
 void forge(Bytes& file) {
     CellsFileHeader h = header_of(file);
-    constexpr std::array<std::size_t, CellsFileHeader::sections> size{64, 24, 16, 12, 4, 16, 4, 4};
+    constexpr std::array<std::size_t, CellsFileHeader::sections> size{64, 24, 16, 12, 4, 16, 4, 288, 4, 4};
     Checksum sum;
     std::size_t at = sizeof h;
     for (std::size_t i = 0; i < size.size(); ++i) {

@@ -140,6 +140,25 @@ class CandidateSearch {
     Encloser encloser_;
 };
 
+// Turns a node's cell into one of faces, if its program is a single mesh of which few faces touch the box. Returns
+// false if none does.
+bool use_faces(BuildNode& node, const BuildContext& context, Worker& worker) {
+    if (!context.program.has_local_primitives) return true;
+    const auto mesh = lone_mesh(node.program, context.program.constants);
+    if (!mesh) return true;
+    Candidate& cell = node.cell;
+    const auto found = faces_in_box(*mesh, cell.facts.box, worker.programs);
+    if (!found) return true;
+    if (found->faces.empty()) return false;
+    cell.facts.box = intersect(cell.facts.box, found->box.inflated(context.reach));
+    cell.faces = found->faces;
+    cell.specialisations = {};
+    cell.is_searched = false;
+    cell.work_of_parts = 0;
+    cell.cost = cost_of_faces(cell.facts.box, cell.faces.size());
+    return true;
+}
+
 }  // namespace
 
 bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
@@ -151,9 +170,10 @@ bool prepare(BuildNode& node, const BuildContext& context, Worker& worker) {
     node.specialisations = whole->specialisations;
     node.policy = SubdivisionPolicy(node.program, whole->work.all);
     node.cell = *whole;
-    node.box = intersect(node.box, whole->facts.box);
+    if (!use_faces(node, context, worker)) return false;
+    node.box = intersect(node.box, node.cell.facts.box);
     if (node.box.empty()) return false;
-    if (!context.program.has_far_bounds) return true;
+    if (!context.program.has_far_bounds || !node.cell.faces.empty()) return true;
     // A cell may be cheaper without far bounds. The node keeps them, because its children may need them.
     if (const auto near = without_far_bounds(node.program, context.program, worker.arenas())) {
         const auto other = search.find(*near);

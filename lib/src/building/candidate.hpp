@@ -4,6 +4,7 @@
 
 #include "building/build_context.hpp"
 #include "building/cost_model.hpp"
+#include "building/lone_mesh.hpp"
 #include "building/subdivision_policy.hpp"
 #include "building/worker_pool.hpp"
 
@@ -25,6 +26,9 @@ struct Candidate {
     /// The work of its lists of balls or of mesh pieces (PrimitiveOfParts), if that is a large part of its work and
     /// none of them is searched; otherwise 0.
     float work_of_parts = 0;
+    /// If the program is a single mesh (lone_mesh.hpp), the faces that touch the box; empty if there are too many. Rays
+    /// then intersect these, and the program is not specialised.
+    std::span<const FaceCorners> faces{};
 };
 
 /// A box of the recursive subdivision, with the part of the object's program that is left in it.

@@ -15,7 +15,9 @@ std::size_t CellBuffer::bytes(const Mark& from, const Mark& to) {
     return 2 * sizeof(Cell) * (to.cells - from.cells) + 2 * sizeof(Instruction) * (to.code - from.code) +
            2 * sizeof(ProgramOutput) * (to.outputs - from.outputs) +
            2 * sizeof(CertificateStep) * (to.certificates - from.certificates) +
-           3 * sizeof(float) * (to.specialised_data - from.specialised_data);
+           3 * sizeof(float) * (to.specialised_data - from.specialised_data) +
+           2 * sizeof(CellFaces) * (to.cell_faces - from.cell_faces) +
+           3 * sizeof(FaceCorners) * (to.faces - from.faces);
 }
 
 // Calls f with each vector and its size at the mark.
@@ -26,6 +28,8 @@ void CellBuffer::for_each_vector(const Mark& m, F&& f) {
     f(outputs, m.outputs);
     f(certificates, m.certificates);
     f(specialised_data, m.specialised_data);
+    f(cell_faces, m.cell_faces);
+    f(faces, m.faces);
 }
 
 void CellBuffer::discard_from(const Mark& m) {
@@ -36,7 +40,8 @@ void CellBuffer::reserve(const Mark& m) {
     for_each_vector(m, [](auto& vector, std::size_t count) { vector.reserve(count); });
 }
 
-void CellBuffer::add(Cell cell, const WorkingProgram& program, std::span<const CertificateStep> certificate) {
+void CellBuffer::add(Cell cell, const WorkingProgram& program, std::span<const CertificateStep> certificate,
+                     std::span<const FaceCorners> faces_in_box) {
     cell.first_instruction = narrow(code.size());
     cell.instructions = narrow(program.code.size());
     cell.first_output = narrow(outputs.size());
@@ -46,6 +51,9 @@ void CellBuffer::add(Cell cell, const WorkingProgram& program, std::span<const C
     append_to(code, program.code);
     append_to(outputs, program.outputs);
     append_to(certificates, certificate);
+    if (!faces_in_box.empty())
+        cell_faces.push_back({narrow(cells.size()), narrow(faces.size()), narrow(faces_in_box.size())});
+    append_to(faces, faces_in_box);
     cells.push_back(cell);
 }
 

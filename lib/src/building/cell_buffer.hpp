@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bounding/sign_certificate.hpp"
+#include "building/lone_mesh.hpp"
 #include "kernel/linear_bound.hpp"
 #include "rewriting/working_program.hpp"
 
@@ -26,18 +27,25 @@ struct CellBuffer {
         std::uint32_t first_output = 0, outputs = 0;
         std::uint32_t first_certificate_step = 0, certificate_steps = 0;
     };
+    /// The faces of a cell whose program is a single mesh, as a range of the vector below.
+    struct CellFaces {
+        std::uint32_t cell, first, count;
+    };
     std::vector<Cell> cells;
     std::vector<Instruction> code;
     std::vector<ProgramOutput> outputs;
     std::vector<CertificateStep> certificates;
     std::vector<float> specialised_data;  ///< the data of specialised instructions
+    std::vector<CellFaces> cell_faces;    ///< in the order of the cells
+    std::vector<FaceCorners> faces;
 
     /// The sizes of these vectors at some point.
     struct Mark {
-        std::size_t cells, code, outputs, certificates, specialised_data;
+        std::size_t cells, code, outputs, certificates, specialised_data, cell_faces, faces;
     };
     Mark mark() const {
-        return {cells.size(), code.size(), outputs.size(), certificates.size(), specialised_data.size()};
+        return {cells.size(),      code.size(), outputs.size(), certificates.size(), specialised_data.size(),
+                cell_faces.size(), faces.size()};
     }
     /// The approximate number of bytes that the cells between two marks take during their lifetime, including Embree's
     /// tree over them. It consists of the cells as found; another copy of their boxes and bounds; their routines, or
@@ -47,7 +55,7 @@ struct CellBuffer {
     void reserve(const Mark&);
 
     /// Appends a cell. `cell` contains its box and what is known in it; this function sets its other members.
-    void add(Cell cell, const WorkingProgram&, std::span<const CertificateStep>);
+    void add(Cell cell, const WorkingProgram&, std::span<const CertificateStep>, std::span<const FaceCorners>);
 
     std::span<const Instruction> code_of(const Cell& c) const {
         return std::span(code).subspan(c.first_instruction, c.instructions);
@@ -57,6 +65,10 @@ struct CellBuffer {
     }
     std::span<const CertificateStep> certificate_of(const Cell& c) const {
         return std::span(certificates).subspan(c.first_certificate_step, c.certificate_steps);
+    }
+
+    std::span<const FaceCorners> faces_of(const CellFaces& c) const {
+        return std::span(faces).subspan(c.first, c.count);
     }
 
   private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/linear_bound.hpp"
+#include "phasetree/program/batch.hpp"
 #include "rewriting/specialise.hpp"
 
 /// The surface area heuristic for cells: the expected time that rays spend in a cell. The number of rays that enter a
@@ -24,6 +25,8 @@ inline constexpr float traversal = 12;
 inline constexpr float visit = 60;          ///< entering a cell
 inline constexpr float batch = 25;          ///< a batch of samples
 inline constexpr float instruction = 2.4f;  ///< each simple instruction in a batch
+/// Entering a cell of a mesh's faces, and intersecting eight of them:
+inline constexpr float visit_of_faces = 30, batch_of_faces = 20;
 // In batches:
 inline constexpr float batches_of_linear_field = 1.8f;   ///< for a linear field
 inline constexpr float batches_by_slack = 0.7f;          ///< additional, times the share of the box within the slack
@@ -69,6 +72,12 @@ float cost(const CellFacts&, const WorkingProgram&, const Work&, PhaseSet opaque
 inline float least_cost(const Bounds& box) {
     return surface(box) *
            (cost_model::visit + cost_model::batches_of_linear_field * (cost_model::batch + cost_model::instruction));
+}
+
+/// The cost of a cell in which rays intersect a mesh's faces.
+inline float cost_of_faces(const Bounds& box, std::size_t faces) {
+    const auto batches = static_cast<float>((faces + batch_size - 1) / batch_size);
+    return surface(box) * (cost_model::visit_of_faces + cost_model::batch_of_faces * batches);
 }
 
 }  // namespace phasetree::building

@@ -70,7 +70,7 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
         for (CertificateStep& step : certificate) step.value = ordered.renumbered[step.value];
     CellBuffer::Cell found{cell.facts.box, cell.facts.bound, cell.facts.curvature};
     found.leading = ordered.leading;
-    cells.add(found, ordered.program, certificate);
+    cells.add(found, ordered.program, certificate, cell.faces);
     worker.account.add(CellBuffer::bytes(before, cells.mark()), worker.pool.budget());
     return {cell.cost, interface_area(cell.facts.box)};
 }
@@ -79,6 +79,11 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
 bool may_pay_off(const BuildNode& node, const BuildContext& context) {
     const Candidate& cell = node.cell;
     const float diagonal = node.box.diagonal();
+    // More faces than this are expensive to intersect. With fewer, Embree's traversal costs more than is saved.
+    constexpr std::size_t few_faces = 24;
+    if (!cell.faces.empty())
+        return cell.faces.size() > few_faces && node.depth < context.options.max_depth &&
+               !(diagonal < 64 * context.reach);
     const float saving = required_saving(
         context.options.quality,
         {diagonal / context.size, cell.program.outputs.size() > 2, cell.facts.curvature.bound[0] < Curvature::unknown});
@@ -97,6 +102,7 @@ bool may_pay_off(const BuildNode& node, const BuildContext& context) {
 
 // The most that rays could save if a node is divided.
 float largest_saving(const BuildNode& node) {
+    if (!node.cell.faces.empty()) return node.cell.cost - cost_of_faces(node.cell.facts.box, 1);
     return node.cell.cost - least_cost(node.cell.facts.box);
 }
 

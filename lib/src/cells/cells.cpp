@@ -26,6 +26,11 @@ const Bounds& InterfaceCells::bounds() const {
 
 CrossingNormal InterfaceCells::normal(std::size_t cell, const Crossing& crossing, const glm::vec3& direction) const {
     const Data::Cell& c = data_->cells[cell];
+    if (const auto faces = data_->faces_of(cell); !faces.empty()) {
+        const auto normal =
+            trace::normal_of_face(data_->faces_of_cell(c, faces), crossing, direction, data_->resolution);
+        if (normal) return {*normal, *normal};
+    }
     const auto component_at = [&](const glm::vec3& p, Phase phase) {
         return component(data_->routine(c), data_->slots(c), p, phase);
     };
@@ -76,7 +81,9 @@ CellStatistics InterfaceCells::statistics() const {
     s.routines = data_->routine_count;
     s.bytes = data_->cells.size() * sizeof(Data::Cell) + data_->routines.bytes() +
               data_->certificates.size() * sizeof(PackedCertificateStep) +
-              data_->first_certificate.size() * sizeof(data_->first_certificate[0]) + data_->whole->bytes();
+              data_->first_certificate.size() * sizeof(data_->first_certificate[0]) +
+              data_->faces.size() * sizeof(data_->faces[0]) +
+              data_->first_faces.size() * sizeof(data_->first_faces[0]) + data_->whole->bytes();
     s.build_seconds = data_->build_seconds;
     s.is_coarser = data_->is_coarser;
     if (data_->cells.empty()) return s;

@@ -5,6 +5,7 @@
 #include "cells/cells_file.hpp"
 #include "cells/curvature_code.hpp"
 #include "phasetree/cells/cells.hpp"
+#include "trace/faces.hpp"
 
 namespace phasetree {
 
@@ -36,6 +37,12 @@ struct InterfaceCells::Data : cells::CellTables {
         r.is_by_first = c.is_by_first;
         return r;
     }
+    /// The faces of a cell that has any.
+    trace::FacesOfCell faces_of_cell(const Cell& c, std::span<const kernel::FaceBatch> faces) const {
+        const kernel::OutputSlot* outputs = routines.outputs.data() + routines.shapes[c.shape].first_output;
+        const auto phase = [&](int i) { return Phase{static_cast<std::uint8_t>(outputs[i].phase)}; };
+        return {faces, c.box, phase(0), phase(1)};
+    }
     std::uint32_t slots(const Cell& c) const { return routines.shapes[c.shape].slots; }
 
     /// The arguments of a search along a ray within one cell.
@@ -50,6 +57,8 @@ struct InterfaceCells::Data : cells::CellTables {
     inline std::optional<Crossing> first_crossing(std::size_t cell, const Search&, TraceCounters&) const;
 
   private:
+    /// Whether the cell's program gives the carried phase at the start of a ray that starts in the cell.
+    inline bool starts_in_phase(const Cell&, const Search&, TraceCounters&) const;
     /// Whether the ray may be in a phase for which the cell has no bound of curvature, so that the search needs the
     /// certificate.
     inline bool needs_certificate(const Cell&, const kernel::Routine&, const std::optional<Phase>& carried) const;

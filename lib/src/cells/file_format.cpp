@@ -8,13 +8,13 @@
 
 namespace phasetree::cells {
 
-using kernel::few_slots, kernel::most_certificate_steps;
+using kernel::few_slots, kernel::most_certificate_steps, kernel::most_faces;
 using program::first_placed, program::placed_floats;
 
 namespace {
 
 static_assert(sizeof(StoredCell) == 64 && sizeof(Step) == 16 && sizeof(OutputSlot) == 12 &&
-              sizeof(PackedCertificateStep) == 16 && sizeof(RoutineTables::Shape) == 24);
+              sizeof(PackedCertificateStep) == 16 && sizeof(RoutineTables::Shape) == 24 && sizeof(FaceBatch) == 288);
 
 std::array<char, 24> as_chars(std::string_view text) {
     std::array<char, 24> chars{};
@@ -27,8 +27,8 @@ std::array<char, 24> as_chars(std::string_view text) {
 std::uint64_t layout_of_tables() {
     Checksum sum;
     const auto put = [&](std::uint64_t n) { sum.put(&n, sizeof n); };
-    for (const std::size_t n :
-         {batch_size, std::size_t{few_slots}, most_certificate_steps, placed_floats, std::size_t{first_placed}})
+    for (const std::size_t n : {batch_size, std::size_t{few_slots}, most_certificate_steps, most_faces, placed_floats,
+                                std::size_t{first_placed}})
         put(n);
     const auto put_type = [&]<class T>() {
         put(sizeof(T));

@@ -26,8 +26,11 @@ struct StoredCell {
 
 /// The size in bytes of an item of each section, in the order of CellsFileHeader::Section.
 inline constexpr std::array<std::uint64_t, CellsFileHeader::sections> item_bytes{
-    sizeof(StoredCell),    sizeof(RoutineTables::Shape),  sizeof(Step),          sizeof(OutputSlot),
-    sizeof(std::uint32_t), sizeof(PackedCertificateStep), sizeof(std::uint32_t), sizeof(float)};
+    sizeof(StoredCell),    sizeof(RoutineTables::Shape),
+    sizeof(Step),          sizeof(OutputSlot),
+    sizeof(std::uint32_t), sizeof(PackedCertificateStep),
+    sizeof(std::uint32_t), sizeof(FaceBatch),
+    sizeof(std::uint32_t), sizeof(float)};
 
 /// The processor architecture. The instruction set is not part of it, because the tables are the same for all of them.
 std::string_view machine();

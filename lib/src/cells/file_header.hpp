@@ -20,11 +20,13 @@ struct CellsFileHeader {
         data,
         certificates,
         first_certificates,
+        faces,
+        first_faces,
         constants,
         sections
     };
     static constexpr std::array<char, 8> known_magic{'p', 'h', 't', 'c', 'e', 'l', 'l', 's'};
-    static constexpr std::uint32_t known_format = 1, own_byte_order = 0x01020304, other_byte_order = 0x04030201;
+    static constexpr std::uint32_t known_format = 2, own_byte_order = 0x01020304, other_byte_order = 0x04030201;
 
     std::array<char, 8> magic;
     std::uint32_t format, byte_order;

@@ -1,10 +1,12 @@
 #include "cells/make_tables.hpp"
 
+#include <algorithm>
+
 #include "phasetree/building/options.hpp"
 
 namespace phasetree::cells {
 
-using building::CellBuffers, building::narrow;
+using building::CellBuffers, building::FaceCorners, building::narrow;
 
 namespace {
 
@@ -18,6 +20,24 @@ void add_cells(const CellBuffer& buffer, const CurvatureCode& code, RoutineBuild
                                 buffer.outputs_of(c)[0].phase.index, c.curvature.is_by_own, c.curvature.is_by_first});
         tables.first_certificate.push_back(narrow(tables.certificates.size()));
         routines.pack_certificate(r, buffer.certificate_of(c), tables.certificates);
+    }
+}
+
+// Adds the faces of a buffer's cells, which have been added last.
+void add_faces(const CellBuffer& buffer, CellTables& tables) {
+    if (buffer.cell_faces.empty()) return;
+    const std::size_t before = tables.cells.size() - buffer.cells.size();
+    for (const CellBuffer::CellFaces& of_cell : buffer.cell_faces) {
+        tables.first_faces.resize(before + of_cell.cell + 1, narrow(tables.faces.size()));
+        const std::span<const FaceCorners> corners = buffer.faces_of(of_cell);
+        for (std::size_t i = 0; i < corners.size(); i += batch_size) {
+            FaceBatch batch;
+            for (std::size_t lane = 0; lane < batch_size; ++lane) {
+                const FaceCorners& face = corners[std::min(i + lane, corners.size() - 1)];
+                for (std::size_t k = 0; k < 9; ++k) batch.at[k][lane] = face.corner[k / 3][static_cast<int>(k % 3)];
+            }
+            tables.faces.push_back(batch);
+        }
     }
 }
 
@@ -38,7 +58,11 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
         if (cancelled && cancelled()) throw BuildCancelled();
         routines.intern_specialised_data(buffer);
         add_cells(buffer, code, routines, tables);
+        add_faces(buffer, tables);
     }
+    if (!tables.faces.empty()) tables.first_faces.resize(tables.cells.size() + 1, narrow(tables.faces.size()));
+    tables.faces.shrink_to_fit();
+    tables.first_faces.shrink_to_fit();
     tables.first_certificate.push_back(narrow(tables.certificates.size()));
     tables.certificates.shrink_to_fit();
     tables.routine_count = routines.count();

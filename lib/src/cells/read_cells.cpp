@@ -42,6 +42,8 @@ class CellsReader {
         read(t.routines.data, h.counts[data]);
         read(t.certificates, h.counts[certificates]);
         read(t.first_certificate, h.counts[first_certificates]);
+        read(t.faces, h.counts[faces]);
+        read(t.first_faces, h.counts[first_faces]);
         std::vector<float> added;
         read(added, h.counts[constants]);
         if (sum_.get() != h.tables_checksum)

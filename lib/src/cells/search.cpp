@@ -1,12 +1,15 @@
 // The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so everything
 // between the caller and the kernel is a single function.
 #include "cells/data.hpp"
+#include "evaluation/target.hpp"
 #include "trace/march.hpp"
 
 namespace phasetree {
 
 using cells::CurvatureCode;
-using kernel::few_slots, kernel::Routine, kernel::Visit;
+using evaluation::active_kernel;
+using kernel::FaceBatch, kernel::few_slots, kernel::Routine, kernel::Visit;
+using trace::FaceAnswer;
 
 inline bool InterfaceCells::Data::needs_certificate(const Cell& c, const Routine& r,
                                                     const std::optional<Phase>& carried) const {
@@ -14,6 +17,18 @@ inline bool InterfaceCells::Data::needs_certificate(const Cell& c, const Routine
                is_other_known = c.other_curvature != CurvatureCode::unknown;
     if (!carried || r.output_count > 2) return !is_known || !is_other_known;
     return !(carried->index == c.first_phase ? is_known : is_other_known);
+}
+
+inline bool InterfaceCells::Data::starts_in_phase(const Cell& c, const Search& search, TraceCounters& counters) const {
+    ++counters.batches;
+    const Routine r = routine(c);
+    const BatchOfFloats t{{search.t_min, search.t_min, search.t_min, search.t_min, search.t_min, search.t_min,
+                           search.t_min, search.t_min}};
+    Samples samples;
+    Evaluator::Workspace& w = search.workspace ? *search.workspace : Evaluator::thread_workspace();
+    active_kernel().sample_ray(r, &search.ray.origin.x, &search.ray.direction.x, t.lane.data(), w.registers(slots(c)),
+                               samples.label.lane.data(), samples.distance.lane.data());
+    return samples.label[0] == trace::carried_by(search.carried);
 }
 
 inline std::optional<Crossing> InterfaceCells::Data::first_crossing(std::size_t cell, const Search& search,
@@ -24,6 +39,14 @@ inline std::optional<Crossing> InterfaceCells::Data::first_crossing(std::size_t 
     __builtin_prefetch(cells.data() + cell + 1);
     __builtin_prefetch(cells.data() + (cell > 0 ? cell - 1 : 0));
     Routine r = routine(c);
+    if (const std::span<const FaceBatch> faces = faces_of(cell); !faces.empty()) {
+        Crossing crossing;
+        const FaceAnswer answer = trace::first_crossing(
+            faces_of_cell(c, faces), {search.ray, search.t_min, search.t_max, resolution, search.carried}, crossing);
+        if (answer == FaceAnswer::crossing) return crossing;
+        if (answer == FaceAnswer::none) return std::nullopt;
+        if (answer == FaceAnswer::none_if_in_phase && starts_in_phase(c, search, counters)) return std::nullopt;
+    }
     // Prefetch these now: they are needed only after the ray is clipped.
     __builtin_prefetch(r.data);
     __builtin_prefetch(r.data + r.count);

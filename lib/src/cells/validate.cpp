@@ -11,7 +11,7 @@
 
 namespace phasetree::cells {
 
-using kernel::most_certificate_steps, kernel::OutputSlot, kernel::Step;
+using kernel::most_certificate_steps, kernel::most_faces, kernel::OutputSlot, kernel::Step;
 using program::affine_map, program::first_map, program::first_placed, program::has_constant, program::OpTraits,
     program::placed_floats, program::traits;
 
@@ -70,6 +70,7 @@ class Validation {
             tables_.first_certificate.back() != tables_.certificates.size() ||
             !std::ranges::is_sorted(tables_.first_certificate))
             return "the certificate table does not match the cells";
+        if (!are_faces_valid()) return "the table of faces does not match the cells";
         for (std::size_t i = 0; i < tables_.cells.size(); ++i) {
             const InterfaceCell& c = tables_.cells[i];
             if (c.shape >= routines_.shapes.size() || c.first_phase >= Phase::capacity) return "a cell is invalid";
@@ -142,6 +143,23 @@ class Validation {
                 is_sound = std::ranges::binary_search(object_data_, std::pair{op, at});
         });
         return is_sound;
+    }
+
+    // Whether each cell finds its faces, and no more than a search has room for. A cell with faces has two phases.
+    bool are_faces_valid() const {
+        const std::vector<std::uint32_t>& first = tables_.first_faces;
+        if (first.empty()) return tables_.faces.empty();
+        if (first.size() != tables_.cells.size() + 1 || first.front() != 0 || first.back() != tables_.faces.size() ||
+            !std::ranges::is_sorted(first))
+            return false;
+        for (std::size_t i = 0; i < tables_.cells.size(); ++i) {
+            const std::uint32_t batches = first[i + 1] - first[i], shape = tables_.cells[i].shape;
+            if (batches == 0) continue;
+            if (batches > most_faces / batch_size || shape >= routines_.shapes.size() ||
+                routines_.shapes[shape].outputs != 2)
+                return false;
+        }
+        return true;
     }
 
     // Whether these steps form a tree in postfix order, determined from the depth of an evaluation stack.

@@ -40,6 +40,8 @@ void write_cells(const fs::path& path, const InterfaceCells& cells) {
                                                                                      bytes_of(tables.routines.data),
                                                                                      bytes_of(tables.certificates),
                                                                                      bytes_of(tables.first_certificate),
+                                                                                     bytes_of(tables.faces),
+                                                                                     bytes_of(tables.first_faces),
                                                                                      added_constants};
     Checksum sum;
     for (std::size_t i = 0; i < CellsFileHeader::sections; ++i) {

@@ -57,6 +57,7 @@ class TableWriter {
         for (const std::uint32_t e : edges_) append_edge(s_.edges[e], table);
         for (const std::uint32_t v : vertices_) append_vertex(v, table);
         append_nodes(table);
+        append_corners(table);
         return table;
     }
 
@@ -138,6 +139,14 @@ class TableWriter {
                                             edge - first_edge, first_vertex, vertex - first_vertex})
                 table.push_back(static_cast<float>(count));
         }
+    }
+
+    // The number of a vertex among the pieces, for each corner of each face.
+    void append_corners(std::vector<float>& table) const {
+        std::vector<std::uint32_t> number(s_.vertices.size());
+        for (std::uint32_t i = 0; i < vertices_.size(); ++i) number[vertices_[i]] = i;
+        for (const std::uint32_t t : tree_.order)
+            for (int i = 0; i < 3; ++i) table.push_back(static_cast<float>(number[s_.triangles[t][i]]));
     }
 
     static constexpr std::uint32_t none = 0xffffffff;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nodes/mesh_tree_view.hpp"
 #include "phasetree/math/portable.hpp"
 
 namespace phasetree::mesh {
@@ -12,22 +13,6 @@ namespace phasetree::mesh {
 namespace {
 
 constexpr std::size_t tallest = 64;  // never reached, because the tree is balanced
-
-// The locations of a tree's pieces and nodes among its floats.
-struct TreeView {
-    std::array<const float*, piece_kinds> pieces;
-    const float* nodes;
-
-    explicit TreeView(const float* data) {
-        const float* at = data + PieceList::head;
-        for_each_kind([&]<class Kind>() {
-            pieces[static_cast<std::size_t>(Kind::kind)] = at;
-            at += PieceList::count(data, Kind::kind) * Kind::floats;
-        });
-        nodes = at + 1;
-    }
-    const float* node(std::size_t i) const { return nodes + i * PieceTree::node_floats; }
-};
 
 // Calls f with each piece of this kind in a leaf; pieces of one kind are contiguous.
 template <class Kind, class F>

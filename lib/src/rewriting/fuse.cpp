@@ -7,30 +7,14 @@
 #include "phasetree_support/mixed_hash.hpp"
 #include "program/fused.hpp"
 #include "program/op_traits.hpp"
+#include "rewriting/affine_map_of.hpp"
 
 namespace phasetree::rewriting {
 
-using program::affine_map, program::first_map, program::first_placed, program::gives_point, program::is_long_primitive,
-    program::operands, program::placed_floats, program::PlacedPrimitive;
+using program::affine_map, program::first_placed, program::gives_point, program::is_long_primitive, program::operands,
+    program::placed_floats, program::PlacedPrimitive;
 
 namespace {
-
-// The affine map given by the constants of a map of the type with this index in the list. Returns nullopt if it is not
-// affine.
-template <class... Ms>
-std::optional<AffineMap> find_affine(TypeList<Ms...>, std::uint32_t index, const float* constants) {
-    std::optional<AffineMap> found;
-    const auto read_map = [&]<class M>() {
-        if constexpr (AffinePointMap<M>) {
-            M map;
-            std::memcpy(static_cast<void*>(&map), constants, sizeof map);
-            found = map.affine();
-        }
-    };
-    std::uint32_t k = 0;
-    (void)((k++ == index ? (read_map.template operator()<Ms>(), true) : false) || ...);
-    return found;
-}
 
 // The number of floats of each of these primitives.
 template <class... Ps>
@@ -75,8 +59,7 @@ void Fuser::find_affine_values(std::span<const Instruction> code) {
     for (std::uint32_t i = 1; i < code.size(); ++i) {
         const Instruction& in = code[i];
         if (is_map(in.op)) {
-            const auto map =
-                find_affine(PointMaps(), static_cast<std::uint32_t>(in.op) - first_map, &constants_[in.data]);
+            const auto map = affine_map_of(in.op, &constants_[in.data]);
             if (!map) continue;
             const AffineChain& before = chains_[in.a];
             const auto both = before.maps > 0 ? before.map.then(*map) : std::nullopt;

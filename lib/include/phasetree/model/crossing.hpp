@@ -19,7 +19,8 @@ namespace phasetree {
 /// The caller may say which phase the ray is in (`carried` in first_crossing()). If that phase occurs nowhere near the
 /// start of the search, a crossing is reported there. The search starts where the ray enters, or starts in, the
 /// searched box: the object's bounds for InterfaceTracer, the cell's box for InterfaceCells. This crossing has zero
-/// length: p_in and p_out are that point, which is in `to`, and `from` is the carried phase.
+/// length: p_in and p_out are that point, which is in `to`, and `from` is the carried phase. There is one exception: in
+/// a cell of a mesh alone, a ray that enters in a wrong phase and meets no face keeps that phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out

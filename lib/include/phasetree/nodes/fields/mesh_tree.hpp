@@ -15,8 +15,8 @@ struct FoundPiece {
     PieceKind kind{};
 };
 
-/// All pieces of a mesh with a hierarchy of boxes: a PieceList, followed by the number of nodes and the nodes, each
-/// parent before its children.
+/// All pieces of a mesh with a hierarchy of boxes: a PieceList, followed by the number of nodes; the nodes, each parent
+/// before its children; and for each face, the numbers of its three vertices (lib/src/nodes/mesh_tree_view.hpp).
 struct PieceTree {
     /// Layout of a node: its box; the index of its second child, or 0 for a leaf (the first child follows the node);
     /// and for each kind of piece, the first one in the leaf and their number.
