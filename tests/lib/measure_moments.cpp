@@ -410,4 +410,29 @@ TEST_CASE("extreme densities give true intervals or none") {
     }
 }
 
+TEST_CASE("the interval of a centre of mass is not wider than the box around the body") {
+    // Far from the middle of the bounds, the moments of a coarse division say little about a small body.
+    const Phased object =
+        Under{.of = {Set{.phase = first, .of = warped(Translate{.by = {40, 0, 0}}, Field(Box{.size = {2, 1, 1}}))},
+                     Set{.phase = third, .of = warped(Translate{.by = {-40, 3, 0}}, Field(Box{.size = {1, 1, 1}}))}}};
+    for (const std::size_t boxes : {200, 2000, 20'000}) {
+        CAPTURE(boxes);
+        MeasureOptions options;
+        options.max_boxes = boxes;
+        options.densities = {{first, 3.0}};
+        const MeasureResult r = measure(object, options);
+        const auto check = [&](const Body& body, const MeasuredPhase& phase, double x) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (!(body.mass.low > 0)) continue;
+                CHECK(body.centre[i].low >= phase.box_low[i].low);
+                CHECK(body.centre[i].high <= phase.box_high[i].high);
+            }
+            CHECK(body.centre[0].contains(x));
+        };
+        check(r.phases[0].body, r.phases[0], 40);
+        check(r.phases[1].body, r.phases[1], -40);
+        check(*r.all, r.phases[0], 40);
+    }
+}
+
 }  // namespace test_measure_moments

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "measuring/body.hpp"
@@ -342,6 +343,12 @@ class Measurement {
         const double low = std::min(a, b) + origin - margin, high = std::max(a, b) + origin + margin;
         return measured(low, high, std::isfinite(low) && std::isfinite(high) ? 0.5 * (low + high) : 0);
     }
+    // The centre of mass is in every box around the body.
+    static void move_centre_into(Body& body, std::size_t axis, double low, double high) {
+        Measured& centre = body.centre[axis];
+        if (!(body.mass.low > 0) || !(std::max(centre.low, low) <= std::min(centre.high, high))) return;
+        centre = measured(std::max(centre.low, low), std::min(centre.high, high), centre.estimate);
+    }
     MeasureResult result(MeasureEnd end) const {
         MeasureResult r;
         r.bounds = root_.box;
@@ -350,6 +357,8 @@ class Measurement {
         for (const Part& part : parts_) r.boxes += part.boxes;
         MomentBounds all;
         double volume_low = 0, volume_high = 0, volume = 0;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
         for_each_solid([&](Phase p) {
             const PhaseSums& sums = total_[p];
             const MomentBounds moments(sums, total_.additions());
@@ -368,6 +377,11 @@ class Measurement {
                 const auto k = static_cast<std::size_t>(i);
                 found.box_low[k] = side(sums.outer_low[k], sums.inner_low[k], i);
                 found.box_high[k] = side(sums.inner_high[k], sums.outer_high[k], i);
+                move_centre_into(found.body, k, found.box_low[k].low, found.box_high[k].high);
+                if (found.has_density && found.density > 0) {
+                    low[k] = std::min(low[k], found.box_low[k].low);
+                    high[k] = std::max(high[k], found.box_high[k].high);
+                }
             }
             r.phases.push_back(found);
             if (!found.has_density) return;
@@ -381,6 +395,7 @@ class Measurement {
         if (!options_.densities.empty())
             r.all =
                 body_of(measured(volume_low * (1 - 1e-14), volume_high * (1 + 1e-14), volume), all, context_.origin);
+        for (std::size_t k = 0; r.all && k < 3; ++k) move_centre_into(*r.all, k, low[k], high[k]);
         return r;
     }
 

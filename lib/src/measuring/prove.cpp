@@ -40,8 +40,10 @@ class Prover {
     // necessary. Each stage leaves time for the next.
     std::vector<Proof> run() {
         const FlushSubnormals flush;
+        const double for_nodes = has_nodes() ? 0.2 : 0;
         decide_volumes(0.1, 0.01, 0.25);
-        divide(has_open_volume() ? 0.75 : 1);
+        divide((has_open_volume() ? 0.75 : 1) - for_nodes);
+        decide_nodes(has_open_volume() ? 0.75 : 1);
         decide_volumes(0.001, finest_tolerance, 1);
         if (stopped()) give_up(is_cancelled_ ? "interrupted" : "time ran out");
         give_up("the resolution is too coarse");
@@ -71,7 +73,7 @@ class Prover {
                 const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
                 const Evidence evidence{octree, evaluator_, is_stopped};
                 for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
-                    if (is_open(i)) decide_one(evidence, i);
+                    if (is_open(i) && !std::holds_alternative<HasNoDeadNodes>(statements_[i])) decide_one(evidence, i);
             } catch (const DivisionStopped& e) {
                 if (e.is_for_boxes) give_up("more boxes are needed than allowed");
                 return;
@@ -89,6 +91,7 @@ class Prover {
     bool is_any_open() const {
         for (std::size_t i = 0; i < statements_.size(); ++i) {
             const auto* volume = std::get_if<HasVolume>(&statements_[i]);
+            if (std::holds_alternative<HasNoDeadNodes>(statements_[i])) continue;
             if (is_open(i) && (!volume || !are_present(*volume, present_[i]))) return true;
         }
         return false;
@@ -112,14 +115,36 @@ class Prover {
         }
         Proof proof = std::visit(
             [&]<class S>(const S& statement) {
-                if constexpr (std::is_same_v<S, HasVolume>)
-                    return Proof();  // above
+                if constexpr (std::is_same_v<S, HasVolume> || std::is_same_v<S, HasNoDeadNodes>)
+                    return Proof();  // elsewhere
                 else
                     return decide(evidence, statement);
             },
             statements_[i]);
         proof.resolution = evidence.octree.side();
         proofs_[i] = std::move(proof);
+    }
+    bool has_nodes() const {
+        return std::ranges::any_of(statements_,
+                                   [](const Statement& s) { return std::holds_alternative<HasNoDeadNodes>(s); });
+    }
+    void decide_nodes(double share) {
+        begin_stage(share);
+        if (!has_nodes() || stopped()) return;
+        NodeEffectsOptions options;
+        options.seconds = std::max(seconds_left(), 1e-3);
+        options.cancelled = [this] { return stopped(); };
+        const std::vector<NodeEffect> nodes = node_effects(object_, options);
+        const auto count = [&](Verdict v) { return std::ranges::count(nodes, v, &NodeEffect::is_dead); };
+        const auto dead = count(Verdict::proved), open = count(Verdict::undecided);
+        Proof proof;
+        proof.nodes = nodes;
+        proof.verdict = dead > 0 ? Verdict::refuted : open > 0 ? Verdict::undecided : Verdict::proved;
+        if (dead > 0) proof.reason = fmt::format("{} of {} nodes change no label", dead, nodes.size());
+        if (dead == 0 && open > 0)
+            proof.reason = fmt::format("it is unknown whether {} of {} nodes change a label", open, nodes.size());
+        for (std::size_t i = 0; i < statements_.size(); ++i)
+            if (std::holds_alternative<HasNoDeadNodes>(statements_[i])) proofs_[i] = proof;
     }
     // Decides whether the phases of a statement about a volume exist, as the statement requires.
     void decide_presence(const Evidence& evidence, const HasVolume& s, std::size_t i) {
@@ -253,23 +278,12 @@ struct CheckStatement {
         }
         if (!(s.at_least <= s.at_most)) throw ModelError("the least volume must not be more than the greatest");
     }
+    void operator()(const HasNoDeadNodes&) const {}
 };
 
 }  // namespace
 
 }  // namespace measuring
-
-std::string_view name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::proved:
-            return "proved";
-        case Verdict::refuted:
-            return "refuted";
-        case Verdict::undecided:
-            return "undecided";
-    }
-    return "";
-}
 
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& options) {
     if (!(options.resolution >= 0 && std::isfinite(options.resolution)))

@@ -3,6 +3,7 @@
 
 #include "phasetree/program/program.hpp"
 #include "program/dead_code.hpp"
+#include "program/record_pair.hpp"
 #include "program/recorded.hpp"
 #include "tree/domain.hpp"
 #include "tree/node.hpp"
@@ -100,6 +101,13 @@ class Recorder {
 };
 static_assert(EvaluationDomain<Recorder>);
 
+void add_outputs(Program& program, Recorder& recorder, const Phased& object) {
+    const Phases<Recorded> phases = recorder.phases(object, {});
+    for_each_phase(phases.present, [&](int i) {
+        program.outputs.push_back({Phase{static_cast<std::uint8_t>(i)}, phases[i].value});
+    });
+}
+
 }  // namespace
 
 std::size_t Program::bytes() const {
@@ -110,11 +118,18 @@ std::size_t Program::bytes() const {
 Program record(const Phased& object, std::size_t limit) {
     Program program;
     Recorder recorder(program, limit);
-    const Phases<Recorded> phases = recorder.phases(object, {});
-    for_each_phase(phases.present, [&](int i) {
-        program.outputs.push_back({Phase{static_cast<std::uint8_t>(i)}, phases[i].value});
-    });
+    add_outputs(program, recorder, object);
     return program::without_dead_code(std::move(program));
+}
+
+program::RecordedPair program::record_pair(const Phased& first, const Phased& second, std::size_t limit) {
+    RecordedPair pair;
+    Recorder recorder(pair.program, limit);
+    add_outputs(pair.program, recorder, first);
+    pair.outputs_of_first = pair.program.outputs.size();
+    add_outputs(pair.program, recorder, second);
+    pair.program = without_dead_code(std::move(pair.program));
+    return pair;
 }
 
 Program record(const Field& field, std::size_t limit) {

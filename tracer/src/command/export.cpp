@@ -6,6 +6,7 @@
 #include "command/commands.hpp"
 #include "command/errors.hpp"
 #include "command/exit_codes.hpp"
+#include "command/export_labels.hpp"
 #include "command/export_mesh.hpp"
 #include "command/load.hpp"
 #include "command/looks.hpp"
@@ -147,9 +148,12 @@ int export_shader(const SceneFile& file, const ExportOptions& chosen) {
 void check_options(const CLI::App& command, const std::string& extension) {
     const auto is_given = [&](const char* name) { return command.get_option(name)->count() > 0; };
     if (extension != ".glsl" && is_given("--grid")) throw UsageError("--grid is for .glsl files only");
-    for (const char* name : {"--spacing", "--scale", "--phase", "--max-memory"})
-        if (!is_mesh_extension(extension) && is_given(name))
-            throw UsageError(fmt::format("{} is for triangles, and {} files have none", name, extension));
+    const bool is_grid = is_label_extension(extension);
+    for (const char* name : {"--spacing", "--scale", "--max-memory"})
+        if (!is_mesh_extension(extension) && !is_grid && is_given(name))
+            throw UsageError(fmt::format("{} is for triangles and voxels, and {} files have neither", name, extension));
+    if (!is_mesh_extension(extension) && is_given("--phase"))
+        throw UsageError(fmt::format("--phase is for triangles, and {} files have none", extension));
 }
 
 // A validator for CLI11: returns an empty string if the text is a finite number above 0.
@@ -164,7 +168,7 @@ std::function<std::string(const std::string&)> is_positive(const std::string& wh
 }  // namespace
 
 void add_export(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("export", "Write the object as triangles, a web page or a shader");
+    CLI::App* command = app.add_subcommand("export", "Write the object as triangles, voxels, a web page or a shader");
     command->footer(
         "The extension of FILE selects the format.\n"
         "\n"
@@ -175,6 +179,10 @@ void add_export(CLI::App& app, Run& run) {
         "phases; with {phase} in its name, one file per\n"
         "phase is written. A .ply has each triangle once, with the phases on both sides. Another\n"
         "--max-memory may change the last digits of coordinates.\n"
+        "\n"
+        ".nrrd .vdb: the index of the phase at the centre of each voxel, 0 for the vacuum. A file whose\n"
+        "name ends in .seg.nrrd is a segmentation for 3D Slicer, with the names and colours of phases.\n"
+        "A .vdb has one grid of integers, \"labels\", with the names in its metadata.\n"
         "\n"
         ".html: a page of at most 500 kB that shows the object in a browser with WebGL 2, offline. It\n"
         "can be rotated, moved and zoomed; phases can be hidden, and a plane cuts the object open.\n"
@@ -195,15 +203,16 @@ void add_export(CLI::App& app, Run& run) {
         ->option_text("N");
     command
         ->add_option("--spacing", options->mesh.spacing,
-                     "Triangles: distance between grid points. Smaller details are lost (default: 1/256 of the longest "
+                     "Triangles and voxels: distance between grid points. Smaller details are lost (default: 1/256 of "
+                     "the longest "
                      "side)")
         ->check(is_positive("a length such as 0.1"), "", "length")
         ->option_text("LENGTH");
     command
-        ->add_option(
-            "--scale", options->mesh.scale,
-            "Triangles: enlarge the object by this factor (default: in .3mf and .glb, what converts the scene's "
-            "\"unit\" to that of the format; else 1)")
+        ->add_option("--scale", options->mesh.scale,
+                     "Triangles and voxels: enlarge the object by this factor (default: in .3mf and .glb, what "
+                     "converts the scene's "
+                     "\"unit\" to that of the format; else 1)")
         ->check(is_positive("a factor such as 25.4"), "", "factor")
         ->option_text("FACTOR");
     command
@@ -214,7 +223,8 @@ void add_export(CLI::App& app, Run& run) {
     command->callback([=, &run] {
         run = [=] {
             const std::string extension = std::filesystem::path(options->output).extension().string();
-            if (extension == ".glsl" || extension == ".html" || is_mesh_extension(extension))
+            if (extension == ".glsl" || extension == ".html" || is_mesh_extension(extension) ||
+                is_label_extension(extension))
                 check_options(*command, extension);
             if (extension == ".glsl") return export_shader(*file, *options);
             if (extension == ".html") return export_page(*file, *options);
@@ -223,9 +233,13 @@ void add_export(CLI::App& app, Run& run) {
                 options->mesh.object = options->object;
                 return export_mesh(*file, options->mesh);
             }
-            throw OutputNameError(fmt::format(
-                "cannot write \"{}\": {}; use .3mf, .stl, .obj, .glb, .ply, .html or .glsl", options->output,
-                extension.empty() ? "its name has no extension" : "unknown format \"" + extension + "\""));
+            if (is_label_extension(extension))
+                return export_labels(*file, {options->output, options->mesh.spacing, options->mesh.scale,
+                                             options->object, options->mesh.max_bytes});
+            throw OutputNameError(
+                fmt::format("cannot write \"{}\": {}; use .3mf, .stl, .obj, .glb, .ply, .nrrd, .vdb, .html or .glsl",
+                            options->output,
+                            extension.empty() ? "its name has no extension" : "unknown format \"" + extension + "\""));
         };
     });
 }

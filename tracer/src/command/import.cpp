@@ -63,7 +63,7 @@ std::vector<NamedFile> outputs_of(const ImportOptions& options, const gltf_impor
 }
 
 // Throws UsageError if a file exists that must not be replaced.
-void check_outputs(const ImportOptions& options, const std::vector<NamedFile>& outputs) {
+void check_written_files(const ImportOptions& options, const std::vector<NamedFile>& outputs) {
     std::vector<NamedFile> inputs{{"the glTF file", options.input}};
     for (const path& file : files_of_gltf(options.input)) inputs.push_back({"the glTF file's", file});
     check_overwrites(inputs, outputs);
@@ -127,10 +127,10 @@ int import_file(const ImportOptions& options) {
     gltf_import::ImportedScene scene;
     {
         const EndingAtOnce reading = ending_at_once("importing", false);
-        check_outputs(options, {{"--output", options.output}});
+        check_written_files(options, {{"--output", options.output}});
         check_file_writable(options.output);
         scene = imported(options);
-        check_outputs(options, outputs_of(options, scene));
+        check_written_files(options, outputs_of(options, scene));
     }
     for (const std::string& warning : scene.warnings) say("warning: {}: {}\n", options.input, warning);
     if (!write(options, scene)) {

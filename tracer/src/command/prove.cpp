@@ -18,6 +18,7 @@
 #include "phasetree/measuring/prove.hpp"
 #include "render/threads.hpp"
 #include "scene/expectations.hpp"
+#include "scene/model_with_places.hpp"
 
 namespace phasetree::tracer {
 
@@ -31,8 +32,15 @@ struct Finding {
     Proof proof;
 };
 
+// What is known of a node that is in the file.
+struct PlacedEffect {
+    NodeEffect effect;
+    NodePlace place;
+};
+
 std::string name_of_statement(const Statement& s) {
-    constexpr std::array names{"present", "connected", "closed", "apart", "touching", "wall", "volume"};
+    constexpr std::array names{"present",  "connected", "closed", "apart",
+                               "touching", "wall",      "volume", "no_dead_nodes"};
     return names[s.index()];
 }
 
@@ -90,8 +98,49 @@ void print_text(const std::string& scene, const Document& document, const std::v
     }
 }
 
+// What can be left out, in words: the node, and which operand replaces it.
+std::string removal_text(const NodeEffect& e, const NodePlaces& places) {
+    if (e.is_replaced())
+        return fmt::format("\"{}\" changes no label: its operand \"{}\" alone gives the same object", name_of(e.node),
+                           name_of(*e.kept));
+    const auto parent = places.find(address_of(e.parent));
+    return fmt::format("\"{}\" changes no label: without it, the \"{}\"{} gives the same object", name_of(e.node),
+                       name_of(e.parent),
+                       parent ? fmt::format(" in line {}, column {}", parent->line, parent->column) : "");
+}
+
+// The nodes in the file that are known to change something or nothing, in the order of the file.
+std::vector<PlacedEffect> placed_effects(const std::vector<NodeEffect>& effects, const NodePlaces& places) {
+    std::vector<PlacedEffect> placed;
+    for (const NodeEffect& e : effects)
+        if (const auto place = places.find(address_of(e.node))) placed.push_back({e, *place});
+    std::ranges::stable_sort(placed, {}, [](const PlacedEffect& e) { return std::pair(e.place.file, e.place.offset); });
+    return placed;
+}
+
+void warn_of_dead_nodes(const std::vector<PlacedEffect>& effects, const NodePlaces& places) {
+    for (const auto& [effect, place] : effects)
+        if (effect.is_dead == Verdict::proved)
+            say("{}:{}:{}: warning: {}\n", place.file, place.line, place.column, removal_text(effect, places));
+}
+
+Json json_of(const PlacedEffect& placed, const PhaseNames& names) {
+    const auto& [effect, place] = placed;
+    Json one{{"file", place.file},
+             {"line", place.line},
+             {"column", place.column},
+             {"node", name_of(effect.node)},
+             {"left_out_of", name_of(effect.parent)}};
+    if (effect.kept) one["kept"] = name_of(*effect.kept);
+    one["is_dead"] = name_of(effect.is_dead);
+    if (const auto& c = effect.change)
+        one["change"] = {
+            {"point", {c->point.x, c->point.y, c->point.z}}, {"with", names[c->with]}, {"without", names[c->without]}};
+    return one;
+}
+
 void print_json(const std::string& scene, const Document& document, const std::vector<Finding>& findings,
-                const PhaseNames& names) {
+                const std::vector<PlacedEffect>& effects, const PhaseNames& names) {
     Json json{{"scene", scene}};
     Json& list = json["statements"] = Json::array();
     for (const Finding& f : findings) {
@@ -114,6 +163,8 @@ void print_json(const std::string& scene, const Document& document, const std::v
             points.push_back({{"point", {w.point.x, w.point.y, w.point.z}}, {"phase", names[w.phase]}});
         list.push_back(one);
     }
+    Json& nodes = json["nodes"] = Json::array();
+    for (const PlacedEffect& e : effects) nodes.push_back(json_of(e, names));
     put("{}\n", json.dump(2));
 }
 
@@ -148,7 +199,8 @@ void add_prove_options(CLI::App& command, ProveCommand& options) {
 int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     const AvailableThreads threads;
     const Document document = read_document(file);
-    const SceneModel model = read_scene_model(document);
+    NodePlaces places;
+    const SceneModel model = read_scene_model(document, places);
     const SceneTree tree = tree_of_model(document, model, chosen.object);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     std::vector<Expectation> expected =
@@ -157,6 +209,8 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     if (!is_expected) expected = usual_expectations(tree);
     std::vector<Statement> statements;
     for (const Expectation& e : expected) statements.push_back(e.statement);
+    // Dead nodes are looked for in any case, for warnings.
+    statements.emplace_back(HasNoDeadNodes());
     const InterruptGuard guard;
     LateProgress progress(ProgressOutput::standard_error(false), "proving");
     ProveOptions options;
@@ -166,9 +220,11 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     options.progress = [&](float share) { progress.tell(share); };
     const std::vector<Proof> proofs = made_of_tree(document, [&] { return prove(tree.object, statements, options); });
     std::vector<Finding> findings;
-    for (std::size_t i = 0; i < proofs.size(); ++i) findings.push_back({expected[i], proofs[i]});
+    for (std::size_t i = 0; i < expected.size(); ++i) findings.push_back({expected[i], proofs[i]});
+    const std::vector<PlacedEffect> effects = placed_effects(proofs.back().nodes, places);
+    warn_of_dead_nodes(effects, places);
     if (chosen.as_json)
-        print_json(file.shown(), document, findings, tree.phases);
+        print_json(file.shown(), document, findings, effects, tree.phases);
     else
         print_text(file.shown(), document, findings, tree.phases);
     if (!interrupted()) return code_of(findings, is_expected);

@@ -175,7 +175,17 @@ struct MassParameters {
     MadeStatement made(const ExpectationContext&) const;
 };
 
-using ExpectationKinds = TypeList<PresentParameters, ConnectedParameters, ClosedParameters, ApartParameters,
-                                  TouchingParameters, WallParameters, VolumeParameters, MassParameters>;
+struct NoDeadNodesParameters {
+    static constexpr KindInfo info{"no_dead_nodes",
+                                   "Each node of the tree matters: without it, some point would have another label."};
+
+    template <class V>
+    static void parameters(V&&) {}
+    MadeStatement made(const ExpectationContext&) const;
+};
+
+using ExpectationKinds =
+    TypeList<PresentParameters, ConnectedParameters, ClosedParameters, ApartParameters, TouchingParameters,
+             WallParameters, VolumeParameters, MassParameters, NoDeadNodesParameters>;
 
 }  // namespace phasetree::tracer

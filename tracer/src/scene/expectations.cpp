@@ -145,6 +145,10 @@ MadeStatement MassParameters::made(const ExpectationContext& c) const {
     return {volume, size, unit};
 }
 
+MadeStatement NoDeadNodesParameters::made(const ExpectationContext&) const {
+    return {HasNoDeadNodes{}};
+}
+
 std::vector<Expectation> read_expectations(const Document& document, const ExpectationContext& context) {
     std::vector<Expectation> all;
     const std::optional<Value> list = document.root().find("expect");

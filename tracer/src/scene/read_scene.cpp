@@ -8,6 +8,7 @@
 #include "scene/find_emissive_parts.hpp"
 #include "scene/image_parameters.hpp"
 #include "scene/meshes_alone.hpp"
+#include "scene/model_with_places.hpp"
 #include "scene/nothing_left.hpp"
 #include "scene/phase_entry.hpp"
 #include "scene/read_parts.hpp"
@@ -183,6 +184,15 @@ Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) 
     return scene;
 }
 
+SceneModel model_of(Scene scene) {
+    return {std::move(scene.phases),
+            std::move(scene.object),
+            std::move(scene.placed),
+            opaque_phases(scene.materials),
+            scene.unit,
+            std::move(scene.densities)};
+}
+
 }  // namespace
 
 bool Scene::is_emissive() const {
@@ -214,17 +224,17 @@ Scene read_scene(const Document& document, NodePlaces* places) {
 }
 
 SceneModel read_scene_without_camera(const Document& document) {
-    Scene scene = read_parts(document, Purpose::model, nullptr);
-    return {std::move(scene.phases),
-            std::move(scene.object),
-            std::move(scene.placed),
-            opaque_phases(scene.materials),
-            scene.unit,
-            std::move(scene.densities)};
+    return model_of(read_parts(document, Purpose::model, nullptr));
 }
 
 SceneModel read_scene_model(const Document& document) {
     SceneModel model = read_scene_without_camera(document.without_assets());
+    refuse_meshes_alone(document);
+    return model;
+}
+
+SceneModel read_scene_model(const Document& document, NodePlaces& places) {
+    SceneModel model = model_of(read_parts(document.without_assets(), Purpose::model, &places));
     refuse_meshes_alone(document);
     return model;
 }

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "volume/formats.hpp"
+#include "volume/label_volume.hpp"
 
 namespace phasetree::tracer {
 
@@ -22,6 +23,9 @@ LabelGrid labels_of_openvdb(const std::filesystem::path&, const std::string&) {
     refuse();
 }
 PlacedVoxels numbers_of_openvdb(const std::filesystem::path&, const std::string&) {
+    refuse();
+}
+std::string labels_as_openvdb(const LabelVolume&, const std::function<bool()>&) {
     refuse();
 }
 bool can_read_openvdb() {

@@ -1,5 +1,5 @@
-// Reads grids from OpenVDB files (Museth, "VDB: High-Resolution Sparse Volumes with Dynamic Topology", 2013) with the
-// OpenVDB library. Its headers are large, so only this file includes them.
+// Reads grids from and writes them to OpenVDB files (Museth, "VDB: High-Resolution Sparse Volumes with Dynamic
+// Topology", 2013) with the OpenVDB library. Its headers are large, so only this file includes them.
 //
 // A grid stores values in leaves of 8³ voxels and in constant tiles; blocks of a VoxelGrid are aligned with the leaves.
 // OpenVDB trusts files, so vdb_structure.hpp checks them first.
@@ -7,16 +7,19 @@
 #include <openvdb/io/File.h>
 #include <openvdb/math/Maps.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Prune.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "phasetree_support/reading.hpp"
 #include "volume/formats.hpp"
 #include "volume/label_numbers.hpp"
+#include "volume/label_volume.hpp"
 #include "volume/number_grid.hpp"
 #include "volume/vdb_choice.hpp"
 #include "volume/vdb_lattice.hpp"
@@ -218,6 +221,62 @@ LabelGrid labels_of(const Grid& grid) {
     return found;
 }
 
+// The leaf of 8³ voxels with this first voxel; voxels outside the volume are vacuum. Nothing if all labels are equal;
+// then `all` is set.
+std::optional<std::array<std::uint8_t, 512>> leaf_at(const LabelVolume& volume, const std::array<std::size_t, 3>& first,
+                                                     std::uint8_t& all) {
+    std::array<std::uint8_t, 512> labels{};
+    for (std::size_t z = 0; z < std::min<std::size_t>(8, volume.size[2] - first[2]); ++z)
+        for (std::size_t y = 0; y < std::min<std::size_t>(8, volume.size[1] - first[1]); ++y) {
+            const std::size_t row = ((first[2] + z) * volume.size[1] + first[1] + y) * volume.size[0] + first[0];
+            for (std::size_t x = 0; x < std::min<std::size_t>(8, volume.size[0] - first[0]); ++x)
+                labels[(z * 8 + y) * 8 + x] = volume.labels[row + x];
+        }
+    all = labels.front();
+    if (std::ranges::all_of(labels, [&](std::uint8_t label) { return label == all; })) return std::nullopt;
+    return labels;
+}
+
+// Writes what openvdb::io::File would write, with an index of the grids, which openvdb::io::Stream leaves out.
+struct FileInMemory : openvdb::io::Archive {
+    void write_to(std::ostream& file, const openvdb::GridCPtrVec& grids) {
+        setCompression(openvdb::io::COMPRESS_ACTIVE_MASK | openvdb::io::COMPRESS_ZIP);
+        constexpr bool has_index = true;
+        write(file, grids, has_index);
+    }
+};
+
+openvdb::Int32Grid::Ptr grid_of(const LabelVolume& volume, const std::function<bool()>& cancelled) {
+    const openvdb::Int32Grid::Ptr grid = openvdb::Int32Grid::create(0);
+    openvdb::Int32Tree& tree = grid->tree();
+    std::array<std::size_t, 3> first{};
+    for (first[2] = 0; first[2] < volume.size[2]; first[2] += 8) {
+        if (cancelled()) throw LabelsCancelled();
+        for (first[1] = 0; first[1] < volume.size[1]; first[1] += 8)
+            for (first[0] = 0; first[0] < volume.size[0]; first[0] += 8) {
+                const openvdb::Coord at(static_cast<int>(first[0]), static_cast<int>(first[1]),
+                                        static_cast<int>(first[2]));
+                std::uint8_t all = 0;
+                const auto leaf = leaf_at(volume, first, all);
+                if (!leaf && all != 0) tree.addTile(1, at, all, true);
+                if (!leaf) continue;
+                openvdb::Int32Tree::LeafNodeType& there = *tree.touchLeaf(at);
+                for (int i = 0; i < 512; ++i)
+                    if (const std::uint8_t label = (*leaf)[static_cast<std::size_t>(i)])
+                        there.setValueOn(at.offsetBy(i % 8, i / 8 % 8, i / 64), label);
+            }
+    }
+    openvdb::tools::prune(tree);
+    grid->setName("labels");
+    openvdb::math::Transform::Ptr transform = openvdb::math::Transform::createLinearTransform(volume.spacing);
+    transform->postTranslate({volume.origin.x, volume.origin.y, volume.origin.z});
+    grid->setTransform(transform);
+    for (std::size_t label = 0; label < volume.phases.size(); ++label)
+        grid->insertMeta(fmt::format("phase_{}", label), openvdb::StringMetadata(volume.phases[label].name));
+    if (!volume.unit.empty()) grid->insertMeta("unit", openvdb::StringMetadata(volume.unit));
+    return grid;
+}
+
 }  // namespace
 
 VoxelGrid level_set_of_openvdb(const std::filesystem::path& path, const std::string& name) {
@@ -243,6 +302,15 @@ PlacedVoxels numbers_of_openvdb(const std::filesystem::path& path, const std::st
             read_grid(path, name, {"a grid of numbers", "grids of numbers"}, has_numbers, why_no_numbers);
         if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) return numbers_of(*floats);
         return numbers_of(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid));
+    });
+}
+
+std::string labels_as_openvdb(const LabelVolume& volume, const std::function<bool()>& cancelled) {
+    return by_openvdb([&] {
+        const openvdb::Int32Grid::Ptr grid = grid_of(volume, cancelled);
+        std::ostringstream file(std::ios::binary);
+        FileInMemory().write_to(file, {grid});
+        return std::move(file).str();
     });
 }
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "phasetree/measuring/measure.hpp"
+#include "phasetree/measuring/node_effects.hpp"
 
 namespace phasetree {
 
@@ -54,11 +54,10 @@ struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();
 };
-using Statement = std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume>;
-
-enum class Verdict { proved, refuted, undecided };
-/// "proved", "refuted" or "undecided".
-std::string_view name_of(Verdict);
+/// Leaving out any one node of the tree changes the label of some point; see node_effects().
+struct HasNoDeadNodes {};
+using Statement =
+    std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume, HasNoDeadNodes>;
 
 /// A point, and the phase that certainly is there.
 struct Witness {
@@ -73,8 +72,9 @@ struct Proof {
     std::string reason{};
     /// Points that show the verdict; see prove(). Empty if none are needed, or none are known.
     std::vector<Witness> witnesses{};
-    double resolution = 0;  ///< the side of the smallest boxes that were examined
-    Measured measured{};    ///< HasVolume: the sum of the volumes times their weights
+    double resolution = 0;            ///< the side of the smallest boxes that were examined
+    Measured measured{};              ///< HasVolume: the sum of the volumes times their weights
+    std::vector<NodeEffect> nodes{};  ///< HasNoDeadNodes: what is known about each node
 };
 
 struct ProveOptions {
