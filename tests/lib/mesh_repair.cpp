@@ -214,9 +214,10 @@ TEST_CASE("boxes that share planes, edges or corners are joined without walls be
 
 // Their many nearly coincident vertices are those of thin triangles, which must not be divided for ever.
 TEST_CASE("many boxes that cross each other at any angle are joined") {
-    Random rng(336);
     Comparison compare;
-    for (const int boxes : {10, 15, 20, 25}) {
+    for (const unsigned seed : {2u, 4u}) {  // the second was rejected when sides were not kept divided
+        Random rng(seed);
+        const int boxes = 25;
         TriangleMesh mesh;
         for (int k = 0; k < boxes; ++k) {
             const glm::vec3 half(rng.uniform(0.1f, 0.3f), rng.uniform(0.1f, 0.3f), rng.uniform(0.1f, 0.3f));
