@@ -97,11 +97,34 @@ TEST_CASE("in a box the distance to a mesh changes as the bounds of its gradient
     CHECK(found.beyond > found.points / 100);
 }
 
+TEST_CASE("so does the distance to a wall along an open mesh") {
+    Random rng(323);
+    Found found;
+    for (int n = 0; n < (long_tests() ? 500 : 30); ++n) {
+        TriangleMesh open = random_mesh(rng, 1 + n % 4, n % 2 == 0 ? 0.9f : 0.4f);
+        open.triangles.resize(open.triangles.size() / 2);
+        if (n % 3 == 0)
+            for (std::size_t t = 0; t < open.triangles.size(); t += 3)
+                std::swap(open.triangles[t].x, open.triangles[t].y);
+        Mesh mesh{.file = held(std::move(open)), .thickness = 0.05f};
+        mesh.prepare();
+        for (int box = 0; box < 60; ++box) look(mesh, rng, found);
+    }
+    MESSAGE(found.boxes, " boxes, ", found.known, " with bounds, ", found.points,
+            " points; in boxes thirty times as large ", found.beyond, " would be outside");
+    CHECK(found.outside == 0);
+    CHECK(found.known > found.boxes / 20);
+    CHECK(found.beyond > found.points / 100);
+}
+
 TEST_CASE("rays through cells of meshes find what marching through the whole finds") {
     Random rng(322);
     Compared all;
     for (int n = 0; n < (long_tests() ? 200 : 6); ++n) {
-        const Field mesh = Mesh{.file = held(random_mesh(rng, 1 + n % 2, 0.5f))};
+        TriangleMesh triangles = random_mesh(rng, 1 + n % 2, 0.5f);
+        const bool is_wall = n % 2 == 1;
+        if (is_wall) triangles.triangles.resize(triangles.triangles.size() / 2);
+        const Field mesh = Mesh{.file = held(std::move(triangles)), .thickness = is_wall ? 0.15f : 0};
         const Field other = Mesh{.file = held(random_mesh(rng, 1, 0.3f))};
         const Field twisted = warped(Twist{.rate = 60}, other);
         const Phased object =

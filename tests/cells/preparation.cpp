@@ -29,4 +29,17 @@ TEST_CASE("a node, and all nodes of a scene together, may do so much work and no
     CHECK_THROWS_AS(Preparation("e").pay(1), ModelError);
 }
 
+TEST_CASE("work in proportion to a file is granted once for each content") {
+    const int one = 0, other = 0;
+    Preparation alone("a", &one, 100);
+    CHECK(alone.left() == Preparation::most + 100);
+    PreparationTogether scene;
+    Preparation("a", &one, 100).pay(80);
+    CHECK(scene.paid() == 0);
+    Preparation("b", &one, 100).pay(80);
+    CHECK(scene.paid() == 60);
+    Preparation("c", &other, 100).pay(150);
+    CHECK(scene.paid() == 110);
+}
+
 }  // namespace test_preparation

@@ -6,15 +6,19 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/program/program.hpp"
 #include "support/random_mesh.hpp"
 #include "support/set_algebra.hpp"
+#include "support/set_algebra/meshes.hpp"
 
 namespace test_mesh {
 
@@ -41,8 +45,37 @@ glm::vec3 point_about(const TriangleMesh& mesh, Random& rng) {
     const float u = rng.chance(0.3) ? 0 : rng.uniform(0, 1), v = rng.chance(0.3) ? 0 : rng.uniform(0, 1 - u);
     const glm::vec3 on = a + u * (b - a) + v * (c - a);
     if (rng.chance(0.1)) return on;
-    const glm::vec3 away = rng.chance(0.5) ? glm::normalize(glm::cross(b - a, c - a)) : rng.direction();
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    const glm::vec3 away = rng.chance(0.5) && normal != glm::vec3(0) ? glm::normalize(normal) : rng.direction();
     return on + rng.uniform(-0.3f, 0.3f) * (rng.chance(0.5) ? 0.01f : 1.f) * away;
+}
+
+/// Triangles without order: sheets that cross, open edges, edges of three triangles, equal triangles both ways, and one
+/// without area.
+TriangleMesh random_soup(Random& rng) {
+    TriangleMesh mesh = random_mesh(rng, 1 + rng.below(2), 0.3f);
+    const auto corner = [&] { return static_cast<std::uint32_t>(rng.below(static_cast<int>(mesh.vertices.size()))); };
+    std::erase_if(mesh.triangles, [&](const glm::uvec3&) { return rng.chance(0.5); });
+    for (int k = 0; k < 4; ++k) mesh.triangles.push_back({corner(), corner(), corner()});
+    const glm::uvec3 first = mesh.triangles[0];
+    mesh.triangles.push_back({first.y, first.x, first.z});
+    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(0.5f * (mesh.vertices[first.x] + mesh.vertices[first.y]));
+    mesh.triangles.push_back({first.x, middle, first.y});
+    return mesh;
+}
+
+/// The distance to the nearest triangle, in double precision. One without area is its sides, and one with two equal
+/// corners does not count.
+double to_soup(const TriangleMesh& mesh, const glm::dvec3& p) {
+    double nearest = 1e30;
+    oracle::for_each_triangle(mesh, [&](const std::vector<glm::dvec3>& t) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+        for (std::size_t i = 0; i < 3; ++i) nearest = std::min(nearest, oracle::to_edge(p, t[i], t[(i + 1) % 3]));
+        if (glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) > 1e-6)
+            nearest = std::min(nearest, oracle::to_polygon(p, t));
+    });
+    return nearest;
 }
 
 /// The error message for a mesh; "a solid" if it is accepted.
@@ -81,6 +114,80 @@ TEST_CASE("the distance is that to the nearest triangle, with the sign of the wi
     MESSAGE(points, " points, ", inside, " inside; the worst error is ", worst, " of what rounding may do");
     CHECK(worst < 1);
     CHECK(inside > points / 10);
+}
+
+TEST_CASE("a wall is what is near any triangle of a mesh") {
+    Random rng(317);
+    std::size_t points = 0, inside = 0;
+    double worst = 0;
+    for (int n = 0; n < (long_tests() ? 1000 : 40); ++n) {
+        const TriangleMesh mesh = random_soup(rng);
+        const float thickness = rng.uniform(0.01f, 0.3f);
+        const Field field = Mesh{.file = held(mesh), .thickness = thickness};
+        const Bounds box = bounds(field);
+        for (int k = 0; k < 300; ++k) {
+            const glm::vec3 p = point_about(mesh, rng), q = p + rng.uniform(0, 0.3f) * rng.direction();
+            const double expected = to_soup(mesh, p) - static_cast<double>(thickness) / 2;
+            const auto found = static_cast<double>(phasetree::distance(field, p));
+            const double rounding = 4e-7 * (1 + static_cast<double>(glm::length(p)));
+            worst = std::max(worst, std::abs(found - expected) / rounding);
+            const float change = std::abs(distance(field, p) - distance(field, q));
+            REQUIRE(change <= glm::length(p - q) + 1e-6f * (1 + glm::length(p)));
+            if (expected < -rounding) REQUIRE(box.contains(p));
+            ++points;
+            inside += expected < 0;
+        }
+    }
+    MESSAGE(points, " points, ", inside, " inside; the worst error is ", worst, " of what rounding may do");
+    CHECK(worst < 1);
+    CHECK(inside > points / 10);
+    CHECK(inside < points);
+}
+
+TEST_CASE("a sheet needs a thickness, and then its edges are round") {
+    const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    CHECK(said_of(square).find("Make a wall of it by \"thickness\"") != std::string::npos);
+    const Field wall = Mesh{.file = held(square), .thickness = 0.2f};
+    const auto at = [&](float x, float y, float z) { return distance(wall, {x, y, z}); };
+    CHECK(at(0.5f, 0.5f, 0.3f) == doctest::Approx(0.2));
+    CHECK(at(0.5f, 0.5f, -0.3f) == doctest::Approx(0.2));
+    CHECK(at(0.5f, 0.25f, 0) == doctest::Approx(-0.1));
+    CHECK(at(1.3f, 0.5f, 0.4f) == doctest::Approx(0.4));  // 0.5 from the edge
+    CHECK(at(1.2f, 1.2f, 0.1f) == doctest::Approx(0.2));  // 0.3 from the corner
+    CHECK(bounds(wall).high.x == doctest::Approx(1.1));
+}
+
+TEST_CASE("preparing a large mesh reports its progress, and can be cancelled") {
+    Random rng(318);
+    TriangleMesh mesh = random_mesh(rng, 5, 0.5f);
+    append(mesh, random_mesh(rng, 5, 0.5f), {0.7f, 0.2f, 0.1f});
+    std::vector<float> shares;
+    {
+        const PreparationWatch watch({.cancelled = {}, .progress = [&](std::string_view node, float share) {
+                                          CHECK(node == "mesh");
+                                          shares.push_back(share);
+                                      }});
+        Mesh{.file = held(mesh)}.prepare();
+    }
+    CHECK(std::ranges::is_sorted(shares));
+    REQUIRE(shares.size() > 4);
+    CHECK(shares.front() == 0);
+    CHECK(shares.back() == 1);
+    const std::size_t all = shares.size();
+    Mesh{.file = held(mesh)}.prepare();
+    CHECK(shares.size() == all);
+    // Wherever it is cancelled.
+    std::atomic<int> polls = 0;
+    const auto polls_until = [&](int most) {
+        polls = 0;
+        const PreparationWatch watch({.cancelled = [&polls, most] { return ++polls > most; }, .progress = {}});
+        Mesh{.file = held(mesh)}.prepare();
+    };
+    polls_until(std::numeric_limits<int>::max() - 100);
+    const int needed = polls;
+    CHECK(needed > 20);
+    for (const int most : {0, 1, needed / 4, needed / 2, 3 * needed / 4, needed - 1})
+        CHECK_THROWS_AS(polls_until(most), PreparationCancelled);
 }
 
 TEST_CASE("of two points, the distances differ by no more than theirs") {

@@ -17,6 +17,8 @@ namespace test_mesh_repair {
 using namespace phasetree;
 using namespace phasetree::tests;
 
+using oracle::to_triangles;
+
 namespace {
 
 struct Prepared {
@@ -43,13 +45,6 @@ void add(TriangleMesh& mesh, const TriangleMesh& part, const glm::vec3& offset, 
         mesh.triangles.push_back(t + first);
     }
 }
-double to_triangles(const TriangleMesh& mesh, const glm::dvec3& p) {
-    double nearest = 1e30;
-    oracle::for_each_triangle(
-        mesh, [&](const std::vector<glm::dvec3>& t) { nearest = std::min(nearest, oracle::to_polygon(p, t)); });
-    return nearest;
-}
-
 /// Compares a repaired mesh with a closed one, in which no part is turned.
 struct Comparison {
     std::size_t points = 0, inside = 0, wrong = 0, too_far = 0, too_steep = 0;
@@ -215,6 +210,27 @@ TEST_CASE("boxes that share planes, edges or corners are joined without walls be
         CHECK(found.at({0.5, 0.5, 0.5}) == doctest::Approx(-0.5));
         CHECK(found.at({1.25, 0.75, 0.5}) == doctest::Approx(0.25));
     }
+}
+
+// Their many nearly coincident vertices are those of thin triangles, which must not be divided for ever.
+TEST_CASE("many boxes that cross each other at any angle are joined") {
+    Comparison compare;
+    for (const unsigned seed : {2u, 4u}) {  // the second was rejected when sides were not kept divided
+        Random rng(seed);
+        const int boxes = 25;
+        TriangleMesh mesh;
+        for (int k = 0; k < boxes; ++k) {
+            const glm::vec3 half(rng.uniform(0.1f, 0.3f), rng.uniform(0.1f, 0.3f), rng.uniform(0.1f, 0.3f));
+            const glm::vec3 middle(rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1));
+            const glm::vec3 x = rng.direction(), y = glm::normalize(glm::cross(x, rng.direction())),
+                            z = glm::cross(x, y);
+            TriangleMesh box = cube(-half, half);
+            for (glm::vec3& v : box.vertices) v = middle + v.x * x + v.y * y + v.z * z;
+            add(mesh, box, glm::vec3(0));
+        }
+        compare(rng, Prepared(mesh), mesh, 300);
+    }
+    compare.check();
 }
 
 TEST_CASE("nearly equal parts become one, without walls of rounding that reach far") {

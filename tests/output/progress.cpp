@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "environment.hpp"
+#include "output/preparation_progress.hpp"
 #include "output/progress.hpp"
 
 namespace test_progress {
@@ -249,6 +250,31 @@ TEST_CASE("what is done within a second is never shown, and what takes longer is
     LateProgress silent({}, "reading");
     silent.tell(0.5);
     CHECK(screen.take() == "");
+}
+
+TEST_CASE("the preparation of each large mesh is shown") {
+    Screen screen;
+    const PreparationProgress progress(screen.output(false));
+    const auto tell = [](float share) { phasetree::PreparationWatch::current()->progress("mesh", share); };
+    tell(0);
+    tell(0.5f);
+    tell(1);
+    CHECK(screen.take() == "");
+    for (int mesh = 0; mesh < 2; ++mesh) {
+        tell(0);
+        screen.now += 2s;
+        tell(0.25f);
+        CHECK(screen.take() == "preparing a mesh: 0%\npreparing a mesh: 25%, 0:00 elapsed, ETA -:--\n");
+        tell(1);
+        CHECK(screen.take() == "preparing a mesh: 100%, 0:00 elapsed\n");
+    }
+    {
+        const PreparationProgress quiet({});
+        tell(0);
+        screen.now += 2s;
+        tell(0.5f);
+        CHECK(screen.take() == "");
+    }
 }
 
 }  // namespace test_progress

@@ -2,9 +2,11 @@
 
 import json
 import pathlib
+import signal
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 import zipfile
@@ -325,6 +327,38 @@ class Meshes(unittest.TestCase):
                 raise KeyError
 
             self.object.mesh(0.004, progress=raises)
+
+
+class Preparation(unittest.TestCase):
+    def test_a_signal_stops_the_preparation_of_a_large_mesh(self):
+        # A closed surface of 980,000 triangles, written as a torus of squares.
+        n = 700
+        around, along = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+        u, v = 2 * np.pi * around / n, 2 * np.pi * along / n
+        vertices = np.stack([(2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)], -1).reshape(-1, 3)
+        number = lambda i, k: ((i % n) * n + k % n).ravel()
+        a, b = number(around, along), number(around + 1, along)
+        c, d = number(around + 1, along + 1), number(around, along + 1)
+        triangles = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)])
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "torus.ply"
+            faces = np.empty(len(triangles), dtype=[("count", "u1"), ("corners", "<i4", 3)])
+            faces["count"], faces["corners"] = 3, triangles
+            header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\nproperty float x\n"
+                      f"property float y\nproperty float z\nelement face {len(triangles)}\n"
+                      "property list uchar int vertex_indices\nend_header\n")
+            path.write_bytes(header.encode() + vertices.astype("<f4").tobytes() + faces.tobytes())
+            whole = time.monotonic()
+            pt.mesh(path)
+            whole = time.monotonic() - whole
+            was = signal.signal(signal.SIGALRM, signal.default_int_handler)
+            signal.setitimer(signal.ITIMER_REAL, whole / 2)
+            try:
+                with self.assertRaises(KeyboardInterrupt):
+                    pt.mesh(path)
+            finally:
+                signal.setitimer(signal.ITIMER_REAL, 0)
+                signal.signal(signal.SIGALRM, was)
 
 
 if __name__ == "__main__":

@@ -20,18 +20,51 @@ namespace {
 // include 0 along every coordinate, and say little more than that the field is 1-Lipschitz.
 constexpr double widest = std::numbers::pi / 3;
 
-// Calls f(normal, largest angle to a face adjacent to the piece) for each piece.
+// The heights of the points of a box over a plane.
+Interval heights(const float* origin, const glm::dvec3& normal, const PointRange& at) {
+    double centre = 0, half = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        centre += normal[i] * (at.centre[k] - static_cast<double>(origin[k]));
+        half += std::abs(normal[i]) * at.half_extents[k];
+    }
+    return {centre - half, centre + half};
+}
+
+// The rounding error of the height of a point over a piece.
+double rounding_error(const float* data, const PointRange& at) {
+    const float* box = data + mesh::piece_kinds;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += std::abs(at.centre[i] - static_cast<double>(box[i])) + at.half_extents[i] +
+               2 * static_cast<double>(box[3 + i]);
+    return 1e-6 * sum;
+}
+
+// Calls f(normal, largest angle to a face adjacent to the piece) for each piece. The gradient of a wall points away
+// from its surface on either side, so its normals are those on the side of the box. Returns false if the box is not on
+// one side of each piece.
 template <class F>
-void for_each_normal(const float* data, F&& f) {
+bool for_each_normal(const float* data, const PointRange& at, F&& f) {
+    const bool is_wall = data[mesh::piece_kinds + mesh::half_thickness] > 0;
+    const double error = rounding_error(data, at);
     const float* piece = data + PieceList::head;
+    bool is_on_one_side = true;
     mesh::for_each_kind([&]<class Kind>() {
         for (std::size_t left = PieceList::count(data, Kind::kind); left > 0; --left, piece += Kind::floats) {
             const float* n = piece + Kind::normal;
+            glm::dvec3 normal(n[0], n[1], n[2]);
+            if (is_wall) {
+                const Interval height = heights(piece, normal, at);
+                if (!(height.low > error || height.high < -error)) is_on_one_side = false;
+                if (height.high < 0) normal = -normal;
+            }
             double largest_angle = 0;
             if constexpr (!std::is_same_v<Kind, Face>) largest_angle = static_cast<double>(piece[Kind::largest_angle]);
-            f(glm::dvec3(n[0], n[1], n[2]), largest_angle);
+            f(normal, largest_angle);
         }
     });
+    return is_on_one_side;
 }
 
 bool is_one_face(const float* data) {
@@ -43,12 +76,12 @@ bool is_one_face(const float* data) {
 
 std::optional<FieldInBox> mesh_in_box(const float* pieces, const PointRange& at) {
     glm::dvec3 axis(0);
-    for_each_normal(pieces, [&](const glm::dvec3& n, double) { axis += n; });
+    if (!for_each_normal(pieces, at, [&](const glm::dvec3& n, double) { axis += n; })) return std::nullopt;
     const double length = glm::length(axis);
     if (!(length > 1e-3)) return std::nullopt;
     axis /= length;
     double angle = 0;
-    for_each_normal(pieces, [&](const glm::dvec3& n, double largest_angle) {
+    for_each_normal(pieces, at, [&](const glm::dvec3& n, double largest_angle) {
         angle = std::max(angle, portable::atan2(glm::length(glm::cross(axis, n)), glm::dot(axis, n)) + largest_angle);
     });
     if (!(angle < widest)) return std::nullopt;

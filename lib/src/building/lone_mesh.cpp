@@ -87,7 +87,10 @@ std::optional<LoneMesh> lone_mesh(const WorkingProgram& program, std::span<const
             return std::nullopt;
         }
     }
-    LoneMesh mesh{&constants[program.code[value].data], {glm::dmat3(1), glm::dvec3(0)}, is_first_outside};
+    const float* const data = &constants[program.code[value].data];
+    // The faces of a wall are half its thickness away from the triangles.
+    if (data[mesh::piece_kinds + mesh::half_thickness] > 0) return std::nullopt;
+    LoneMesh mesh{data, {glm::dmat3(1), glm::dvec3(0)}, is_first_outside};
     for (std::uint32_t point = program.code[value].a; point != 0; point = program.code[point].a) {
         const Instruction& in = program.code[point];
         const auto map = affine_map_of(in.op, &constants[in.data]);

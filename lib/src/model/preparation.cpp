@@ -2,16 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "phasetree/model/handle.hpp"
 
-namespace phasetree::model {
+namespace phasetree {
 
 namespace {
 
-// This thread's current budget.
-thread_local PreparationTogether* held = nullptr;
+// This thread's current budget and watch.
+thread_local model::PreparationTogether* held = nullptr;
+thread_local const PreparationWatch* watching = nullptr;
+thread_local const PreparationWatch::Callbacks* watched_by = nullptr;
 
 }  // namespace
+
+PreparationWatch::PreparationWatch(Callbacks callbacks) : callbacks_(std::move(callbacks)), around_(watching) {
+    watching = this;
+    watched_by = &callbacks_;
+}
+PreparationWatch::~PreparationWatch() {
+    watching = around_;
+    watched_by = around_ ? &around_->callbacks_ : nullptr;
+}
+const PreparationWatch::Callbacks* PreparationWatch::current() {
+    return watched_by;
+}
+
+namespace model {
 
 PreparationTogether::PreparationTogether() : around_(held) {
     held = this;
@@ -22,21 +41,35 @@ PreparationTogether::~PreparationTogether() {
 
 void PreparationTogether::pay(std::string_view node, std::uint64_t steps) {
     if (held == nullptr) return;
-    if (steps > most - held->paid_)
+    const std::uint64_t free = std::min(steps, held->granted_);
+    if (steps - free > most - held->paid_)
         throw ModelError(
             fmt::format("{}: preparing this node and those before it exceeds the limit of {} million steps per scene",
                         node, most / 1'000'000));
-    held->paid_ += steps;
+    held->granted_ -= free;
+    held->paid_ += steps - free;
+}
+
+void PreparationTogether::grant(const void* content, std::uint64_t steps) {
+    if (held != nullptr && held->contents_.insert(content).second) held->granted_ += steps;
+}
+
+Preparation::Preparation(std::string_view node, const void* content, std::uint64_t granted)
+    : node_(node), watch_(PreparationWatch::current()), granted_(granted) {
+    PreparationTogether::grant(content, granted);
 }
 
 void Preparation::pay(std::uint64_t steps) {
+    poll();
     if (steps > left())
         throw ModelError(
             fmt::format("{}: preparing this node exceeds the limit of {} million steps; simplify its child, or reduce "
                         "its parameters",
-                        node_, most / 1'000'000));
+                        node_, (granted_ + most) / 1'000'000));
     paid_ += steps;
     PreparationTogether::pay(node_, steps);
 }
 
-}  // namespace phasetree::model
+}  // namespace model
+
+}  // namespace phasetree

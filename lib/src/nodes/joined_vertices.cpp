@@ -1,5 +1,7 @@
 #include "phasetree/nodes/fields/joined_vertices.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +28,8 @@ JoinedVertices join_equal(std::span<const glm::vec3> vertices) {
     Indices order(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t i) { return coordinates(vertices[i]); };
-    std::ranges::sort(order, {}, key);
+    tbb::parallel_sort(order.begin(), order.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
     JoinedVertices joined{{}, Indices(vertices.size())};
     for (std::size_t i = 0; i < order.size(); ++i) {
         // Adding 0 turns −0 into 0, because the same point must have the same bits.
@@ -56,7 +59,7 @@ Indices ends_of_open_edges(std::span<const glm::uvec3> triangles, const Indices&
             edges.push_back(std::uint64_t{low} << 32 | high);
         }
     }
-    std::ranges::sort(edges);
+    tbb::parallel_sort(edges.begin(), edges.end());
     Indices ends;
     for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
         while (next < edges.size() && edges[next] == edges[i]) ++next;

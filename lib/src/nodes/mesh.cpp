@@ -1,6 +1,7 @@
 #include "phasetree/nodes/fields/mesh.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "model/preparation.hpp"
 #include "nodes/box_tree.hpp"
 #include "nodes/mesh_repair/repair.hpp"
 #include "nodes/mesh_surface.hpp"
@@ -39,20 +42,26 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 // Builds the table of a mesh from its surface.
 class TableWriter {
   public:
-    explicit TableWriter(const Surface& s) : s_(s), tree_(mesh::boxes_of(s), most_in_leaf), index_(s.triangles.size()) {
+    // The wall's thickness is 0 for a solid.
+    TableWriter(const Surface& s, const BoxTree& tree, float thickness)
+        : s_(s), tree_(tree), half_thickness_(thickness / 2), index_(s.triangles.size()) {
         for (std::uint32_t i = 0; i < tree_.order.size(); ++i) index_[tree_.order[i]] = i;
     }
 
     std::vector<float> operator()() {
         prepare_vertices();
         prepare_edges();
-        std::vector<float> table{static_cast<float>(s_.triangles.size()), static_cast<float>(edges_.size()),
-                                 static_cast<float>(vertices_.size())};
+        std::vector<float> table;
+        table.reserve(mesh::PieceList::head + s_.triangles.size() * Face::floats + edges_.size() * Edge::floats +
+                      vertices_.size() * Vertex::floats + 1 + tree_.nodes.size() * PieceTree::node_floats);
+        for (const std::size_t count : {s_.triangles.size(), edges_.size(), vertices_.size()})
+            table.push_back(static_cast<float>(count));
         const Bounds& box = tree_.nodes[0].box;
         append(table, box.centre());
         // The half extents reach the box's sides, however the centre was rounded.
         for (int i = 0; i < 3; ++i)
             table.push_back(std::max(box.high[i] - box.centre()[i], box.centre()[i] - box.low[i]));
+        table.push_back(half_thickness_);
         for (const std::uint32_t t : tree_.order) append_face(t, table);
         for (const std::uint32_t e : edges_) append_edge(s_.edges[e], table);
         for (const std::uint32_t v : vertices_) append_vertex(v, table);
@@ -82,17 +91,29 @@ class TableWriter {
                 double& largest = largest_angle_[s_.triangles[t][i]];
                 largest = std::max(largest, angle_between(normal_[s_.triangles[t][i]], s_.normals[t]));
             }
-        std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return std::pair(first_index_[v], v); });
+        for (const SharedEdge& e : s_.edges)
+            if (e.is_rim())
+                for (const std::uint32_t v : e.ends) largest_angle_[v] = std::numbers::pi;
+        sort_by(vertices_, [&](std::uint32_t v) { return first_index_[v]; });
     }
     void prepare_edges() {
         edges_.resize(s_.edges.size());
         for (std::uint32_t e = 0; e < edges_.size(); ++e) edges_[e] = e;
-        std::ranges::sort(edges_, {}, [&](std::uint32_t e) { return std::pair(first_index(s_.edges[e]), e); });
+        sort_by(edges_, [&](std::uint32_t e) { return first_index(s_.edges[e]); });
+    }
+    // Sorts numbers by their keys, and equal ones by themselves.
+    template <class Key>
+    static void sort_by(std::vector<std::uint32_t>& numbers, const Key& key) {
+        std::vector<std::uint64_t> keyed(numbers.size());
+        for (std::size_t i = 0; i < keyed.size(); ++i) keyed[i] = std::uint64_t{key(numbers[i])} << 32 | numbers[i];
+        tbb::parallel_sort(keyed.begin(), keyed.end());
+        for (std::size_t i = 0; i < keyed.size(); ++i) numbers[i] = static_cast<std::uint32_t>(keyed[i]);
     }
     std::uint32_t first_index(const SharedEdge& e) const {
         return std::min(index_[e.triangles[0]], index_[e.triangles[1]]);
     }
 
+    // The region of a triangle without area is empty; its edges are where it is.
     void append_face(std::uint32_t t, std::vector<float>& table) const {
         const std::array<glm::dvec3, 3> p{s_.corner(t, 0), s_.corner(t, 1), s_.corner(t, 2)};
         append(table, p[0]);
@@ -102,7 +123,8 @@ class TableWriter {
             inward[i] = unit(glm::cross(s_.normals[t], p[(i + 1) % 3] - p[i]));
             append(table, inward[i]);
         }
-        table.push_back(static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
+        const bool is_empty = s_.normals[t] == glm::dvec3(0);
+        table.push_back(is_empty ? mesh::farthest : static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
         const double longest =
             std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
         table.push_back(static_cast<float>(product_error * longest));
@@ -114,7 +136,7 @@ class TableWriter {
         append(table, along);
         table.push_back(static_cast<float>(1 / glm::dot(along, along)));
         append(table, unit(m + n));
-        table.push_back(static_cast<float>(angle_between(m, n) / 2));
+        table.push_back(static_cast<float>(e.is_rim() ? std::numbers::pi : angle_between(m, n) / 2));
         table.push_back(static_cast<float>(product_error));
     }
     void append_vertex(std::uint32_t v, std::vector<float>& table) const {
@@ -152,7 +174,8 @@ class TableWriter {
     static constexpr std::uint32_t none = 0xffffffff;
 
     const Surface& s_;
-    BoxTree tree_;
+    const BoxTree& tree_;
+    float half_thickness_;
     std::vector<std::uint32_t> index_;  // of each triangle, in the order of leaves
     std::vector<std::uint32_t> first_index_, vertices_, edges_;
     std::vector<glm::dvec3> normal_;
@@ -169,16 +192,35 @@ WindingRule rule_of(const std::string& rule) {
         fmt::format("mesh: unknown rule \"{}\": use \"winding_number\", \"even_odd\" or \"non_zero\"", rule));
 }
 
+// A surface and the tree of its triangles.
+struct PreparedSurface {
+    Surface surface;
+    BoxTree tree;
+    bool is_repaired = false;
+
+    PreparedSurface(Surface s, bool was_repaired = false)
+        : surface(std::move(s)), tree(mesh::boxes_of(surface), most_in_leaf), is_repaired(was_repaired) {}
+};
+
 // The surface of the mesh as given, or nullopt if the mesh has to be repaired.
-std::optional<Surface> clean_surface(const TriangleMesh& triangles, const std::string& name) {
+std::optional<PreparedSurface> clean_surface(const TriangleMesh& triangles, const std::string& name,
+                                             model::Preparation& work) {
     try {
-        Surface surface = mesh::surface_of(triangles, name);
-        mesh::require_no_crossing(surface, name);
-        mesh::require_outward(surface, name);
-        return surface;
+        PreparedSurface clean(mesh::surface_of(triangles, name));
+        work.tell(0.3f);
+        mesh::require_no_crossing(clean.surface, clean.tree, name, work);
+        mesh::require_outward(clean.surface, clean.tree, name, work);
+        return clean;
     } catch (const mesh::UncleanMesh&) {
         return std::nullopt;
     }
+}
+
+PreparedSurface prepared_surface(const Mesh& m, const std::string& name, model::Preparation& work) {
+    const WindingRule rule = rule_of(m.rule);
+    if (m.thickness > 0) return PreparedSurface(mesh::sheet_of(*m.file.content, name));
+    if (std::optional<PreparedSurface> clean = clean_surface(*m.file.content, name, work)) return std::move(*clean);
+    return PreparedSurface(mesh::repaired(*m.file.content, rule, name, work), true);
 }
 
 }  // namespace
@@ -187,20 +229,22 @@ void Mesh::prepare() {
     const std::string name = file.path.empty() ? "it" : file.path;
     if (file.content->triangles.size() > TriangleMesh::max_triangles)
         throw ModelError(fmt::format("mesh: {} has more than {} triangles", name, TriangleMesh::max_triangles));
-    const WindingRule winding_rule = rule_of(rule);
-    const std::optional<Surface> clean = clean_surface(*file.content, name);
-    const Surface surface = clean ? *clean : mesh::repaired(*file.content, winding_rule, name);
-    corners = clean ? std::vector<glm::vec3>() : surface.vertices;
-    table = TableWriter(surface)();
-    box = {};
-    for (const Bounds& b : mesh::boxes_of(surface)) box = unite(box, b);
+    constexpr std::uint64_t steps_per_triangle = 4000;
+    model::Preparation work(info.name, file.content.get(), steps_per_triangle * file.content->triangles.size());
+    work.tell(0);
+    PreparedSurface prepared = prepared_surface(*this, name, work);
+    work.tell(0.8f);
+    table = TableWriter(prepared.surface, prepared.tree, thickness)();
+    box = prepared.tree.nodes[0].box.inflated(thickness / 2);
+    corners = prepared.is_repaired ? std::move(prepared.surface.vertices) : std::vector<glm::vec3>();
+    work.tell(1);
 }
 
 double Mesh::support(const glm::dvec3& d, float level) const {
     double most = -std::numeric_limits<double>::infinity();
     for (const glm::vec3& v : corners.empty() ? file.content->vertices : corners)
         most = std::max(most, glm::dot(d, glm::dvec3(v)));
-    return most + glm::length(d) * static_cast<double>(level);
+    return most + glm::length(d) * (static_cast<double>(level) + static_cast<double>(thickness) / 2);
 }
 
 const float* Mesh::few_pieces(const float* data) {

@@ -1,8 +1,10 @@
 // Tests whether a surface crosses itself, and which side of it is outside.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -16,8 +18,6 @@
 namespace phasetree::mesh {
 
 namespace {
-
-constexpr std::uint32_t most_in_leaf = 4;
 
 bool overlap(const Bounds& a, const Bounds& b) {
     return !intersect(a, b).empty();
@@ -131,36 +131,46 @@ std::optional<int> winding_number(const Surface& s, const BoxTree& tree, const g
 
 }  // namespace
 
-void require_no_crossing(const Surface& s, const std::string& name) {
+void require_no_crossing(const Surface& s, const BoxTree& tree, const std::string& name, model::Preparation& work) {
     const std::vector<Bounds> boxes = boxes_of(s);
-    const BoxTree tree(boxes, most_in_leaf);
-    model::Preparation work("mesh");
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
+        if (tree.nodes[i].second_child == 0) leaves.push_back(i);
+    // Each pair of leaves is visited once, from the first one.
+    constexpr std::size_t in_chunk = 256;
     constexpr std::uint64_t steps_of_pair = 40, steps_of_box = 1;
-    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-        std::uint64_t steps = 0;
-        std::optional<std::uint32_t> crossed;
-        tree.for_each_leaf(
-            [&](const Bounds& box) {
-                steps += steps_of_box;
-                return overlap(box, boxes[t]);
-            },
-            [&](std::uint32_t first, std::uint32_t count) {
-                for (std::uint32_t i = first; i < first + count; ++i) {
-                    const std::uint32_t u = tree.order[i];
-                    if (u <= t || !overlap(boxes[u], boxes[t])) continue;
-                    steps += steps_of_pair;
-                    if ((!crossed || u < *crossed) && (cross(s, t, u) || lie_on_each_other(s, t, u))) crossed = u;
-                }
+    const std::size_t chunks = (leaves.size() + in_chunk - 1) / in_chunk;
+    const std::uint64_t most_steps = work.left();
+    std::atomic<std::uint64_t> steps = 0;
+    std::atomic<bool> is_crossed = false;
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+        if (is_crossed || steps > most_steps) return;
+        work.poll();
+        std::uint64_t own_steps = 0;
+        const std::size_t end = std::min((chunk + 1) * in_chunk, leaves.size());
+        for (std::size_t l = chunk * in_chunk; l < end && !is_crossed; ++l) {
+            const BoxTree::Node& leaf = tree.nodes[leaves[l]];
+            const auto is_near = [&](const Bounds& box) {
+                own_steps += steps_of_box;
+                return overlap(box, leaf.box);
+            };
+            tree.for_each_leaf_from(leaves[l], is_near, [&](std::uint32_t first, std::uint32_t count) {
+                for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+                    for (std::uint32_t k = std::max(first, i + 1); k < first + count; ++k) {
+                        const std::uint32_t t = tree.order[i], u = tree.order[k];
+                        if (!overlap(boxes[t], boxes[u])) continue;
+                        own_steps += steps_of_pair;
+                        if (cross(s, t, u) || lie_on_each_other(s, t, u)) is_crossed = true;
+                    }
             });
-        work.pay(steps);
-        if (!crossed) continue;
-        const Bounds both = intersect(boxes[t], boxes[*crossed]);
-        throw UncleanMesh(fmt::format("mesh: {} crosses or touches itself: triangles {} and {}, near {}", name,
-                                      s.numbers[t], s.numbers[*crossed], written(both.centre())));
-    }
+        }
+        steps += own_steps;
+    });
+    work.pay(steps);
+    if (is_crossed) throw UncleanMesh(fmt::format("mesh: {} crosses or touches itself", name));
 }
 
-void require_outward(const Surface& s, const std::string& name) {
+void require_outward(const Surface& s, const BoxTree& tree, const std::string& name, model::Preparation& work) {
     DisjointSets shells(s.triangles.size());
     for (const SharedEdge& e : s.edges) shells.join(e.triangles[0], e.triangles[1]);
     std::vector<double> volume(s.triangles.size(), 0);
@@ -175,8 +185,6 @@ void require_outward(const Surface& s, const std::string& name) {
         if (volume[0] > 0) return;
         throw UncleanMesh(fmt::format("mesh: {} is inside out: its triangles are clockwise seen from outside", name));
     }
-    const BoxTree tree(boxes_of(s), most_in_leaf);
-    model::Preparation work("mesh");
     for (const std::uint32_t root : roots) {
         const int expected = volume[root] > 0 ? 0 : 1;
         std::optional<int> winding;

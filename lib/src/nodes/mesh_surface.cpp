@@ -1,11 +1,15 @@
 #include "nodes/mesh_surface.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "math/disjoint_sets.hpp"
 #include "phasetree/model/handle.hpp"
@@ -53,7 +57,9 @@ void add_triangles(Surface& s, const TriangleMesh& mesh, const JoinedVertices& j
         std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         numbered.emplace_back(corners, static_cast<std::uint32_t>(t + 1));
     }
-    std::ranges::sort(numbered);
+    tbb::parallel_sort(numbered.begin(), numbered.end());
+    s.triangles.reserve(numbered.size());
+    s.numbers.reserve(numbered.size());
     for (const auto& [corners, number] : numbered) {
         s.triangles.push_back({corners[0], corners[1], corners[2]});
         s.numbers.push_back(number);
@@ -74,34 +80,46 @@ std::vector<EdgeUse> uses_of_edges(const Surface& s) {
             const std::uint32_t a = s.triangles[t][i], b = s.triangles[t][(i + 1) % 3];
             uses.push_back({std::min(a, b), std::max(a, b), t, a < b});
         }
-    std::ranges::sort(uses, {}, [](const EdgeUse& u) { return std::tuple(u.low, u.high, !u.is_rising, u.triangle); });
+    tbb::parallel_sort(uses.begin(), uses.end(), [](const EdgeUse& u, const EdgeUse& v) {
+        return std::tuple(u.low, u.high, !u.is_rising, u.triangle) <
+               std::tuple(v.low, v.high, !v.is_rising, v.triangle);
+    });
     return uses;
+}
+
+// Calls f(span) with all uses of each edge.
+template <class F>
+void for_each_edge(const Surface& s, F&& f) {
+    const std::vector<EdgeUse> uses = uses_of_edges(s);
+    for (std::size_t i = 0, next = 0; i < uses.size(); i = next) {
+        while (next < uses.size() && uses[next].low == uses[i].low && uses[next].high == uses[i].high) ++next;
+        f(std::span(uses).subspan(i, next - i));
+    }
 }
 
 // Pairs the triangles at each edge.
 void join(Surface& s, const Complaint& complain) {
-    const std::vector<EdgeUse> uses = uses_of_edges(s);
-    const EdgeUse* open = nullptr;
+    std::optional<EdgeUse> open;
     std::size_t open_edges = 0;
-    for (std::size_t i = 0, next = 0; i < uses.size(); i = next) {
-        while (next < uses.size() && uses[next].low == uses[i].low && uses[next].high == uses[i].high) ++next;
-        const EdgeUse& u = uses[i];
+    s.edges.reserve(3 * s.triangles.size() / 2);
+    for_each_edge(s, [&](std::span<const EdgeUse> uses) {
+        const EdgeUse& u = uses[0];
         const auto edge_text = [&] {
             return fmt::format("the edge from {} to {}", written(s.at(u.low)), written(s.at(u.high)));
         };
-        if (next - i == 1) {
-            if (!open) open = &u;
+        if (uses.size() == 1) {
+            if (!open) open = u;
             ++open_edges;
-        } else if (next - i > 2) {
-            complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", edge_text(), next - i,
-                                 s.numbers[u.triangle], s.numbers[uses[i + 2].triangle]));
-        } else if (u.is_rising == uses[i + 1].is_rising) {
+        } else if (uses.size() > 2) {
+            complain(fmt::format("touches itself: {} has {} triangles, among them {} and {}", edge_text(), uses.size(),
+                                 s.numbers[u.triangle], s.numbers[uses[2].triangle]));
+        } else if (u.is_rising == uses[1].is_rising) {
             complain(fmt::format("has triangles of opposite orientation: {} and {} at {}", s.numbers[u.triangle],
-                                 s.numbers[uses[i + 1].triangle], edge_text()));
+                                 s.numbers[uses[1].triangle], edge_text()));
         } else {
-            s.edges.push_back({{u.low, u.high}, {u.triangle, uses[i + 1].triangle}});
+            s.edges.push_back({{u.low, u.high}, {u.triangle, uses[1].triangle}});
         }
-    }
+    });
     if (open)
         complain(fmt::format("is not closed: the edge from {} to {} has a triangle ({}) on one side only{}",
                              written(s.at(open->low)), written(s.at(open->high)), s.numbers[open->triangle],
@@ -135,17 +153,55 @@ void require_single_rings(const Surface& s, const Complaint& complain) {
         }
 }
 
-void add_normals(Surface& s, const Complaint& complain) {
-    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-        const glm::dvec3 a = s.corner(t, 0), u = s.corner(t, 1) - a, v = s.corner(t, 2) - a;
-        const glm::dvec3 n = glm::cross(u, v);
-        const double length = glm::length(n),
-                     longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v)});
-        if (!(length > 1e-12 * longest))
+// 0 if the triangle has no area.
+glm::dvec3 normal_of(const Surface& s, std::uint32_t t) {
+    const glm::dvec3 a = s.corner(t, 0), u = s.corner(t, 1) - a, v = s.corner(t, 2) - a;
+    const glm::dvec3 n = glm::cross(u, v);
+    const double length = glm::length(n), longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v)});
+    return length > 1e-12 * longest ? n / length : glm::dvec3(0);
+}
+
+void add_normals(Surface& s) {
+    s.normals.reserve(s.triangles.size());
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) s.normals.push_back(normal_of(s, t));
+}
+void require_areas(const Surface& s, const Complaint& complain) {
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
+        if (s.normals[t] == glm::dvec3(0))
             complain(fmt::format("has a triangle without area: {}, with corners at {}, {} and {}", s.numbers[t],
-                                 written(a), written(s.corner(t, 1)), written(s.corner(t, 2))));
-        s.normals.push_back(n / length);
+                                 written(s.corner(t, 0)), written(s.corner(t, 1)), written(s.corner(t, 2))));
+}
+
+// Removes all but the first of equal triangles.
+void remove_equal(Surface& s) {
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> sorted(s.triangles.size());
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+        std::array<std::uint32_t, 3> corners{s.triangles[t].x, s.triangles[t].y, s.triangles[t].z};
+        std::ranges::sort(corners);
+        sorted[t] = {corners, t};
     }
+    tbb::parallel_sort(sorted.begin(), sorted.end());
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        if (i == 0 || sorted[i].first != sorted[i - 1].first) kept.push_back(sorted[i].second);
+    std::ranges::sort(kept);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        s.triangles[i] = s.triangles[kept[i]];
+        s.numbers[i] = s.numbers[kept[i]];
+    }
+    s.triangles.resize(kept.size());
+    s.numbers.resize(kept.size());
+}
+
+// The triangles of a mesh, which may have any edges.
+Surface triangles_of(const TriangleMesh& mesh, const Complaint& complain) {
+    check_numbers(mesh, complain);
+    JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
+    Surface s;
+    add_triangles(s, mesh, joined);
+    s.vertices = std::move(joined.points);
+    if (s.triangles.empty()) complain.beyond_repair("has no triangles");
+    return s;
 }
 
 }  // namespace
@@ -167,20 +223,30 @@ std::string written(const glm::dvec3& p) {
 
 Surface surface_of(const TriangleMesh& mesh, const std::string& name) {
     const Complaint complain(name);
-    check_numbers(mesh, complain);
-    JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
-    Surface s;
-    add_triangles(s, mesh, joined);
-    s.vertices = std::move(joined.points);
-    if (s.triangles.empty()) complain.beyond_repair("has no triangles");
+    Surface s = triangles_of(mesh, complain);
     join(s, complain);
     require_single_rings(s, complain);
-    add_normals(s, complain);
+    add_normals(s);
+    require_areas(s, complain);
     for (const SharedEdge& e : s.edges)
         if (glm::length(s.normals[e.triangles[0]] + s.normals[e.triangles[1]]) < 1e-4)
             complain(fmt::format("is folded onto itself: triangles {} and {} coincide at the edge from {} to {}",
                                  s.numbers[e.triangles[0]], s.numbers[e.triangles[1]], written(s.at(e.ends[0])),
                                  written(s.at(e.ends[1]))));
+    return s;
+}
+
+Surface sheet_of(const TriangleMesh& mesh, const std::string& name) {
+    Surface s = triangles_of(mesh, Complaint(name));
+    remove_equal(s);
+    add_normals(s);
+    for_each_edge(s, [&](std::span<const EdgeUse> uses) {
+        const std::uint32_t one = uses[0].triangle, other = uses.size() == 2 ? uses[1].triangle : one;
+        const bool faces_one_way = one != other && uses[0].is_rising != uses[1].is_rising &&
+                                   glm::length(s.normals[one]) * glm::length(s.normals[other]) > 0 &&
+                                   glm::length(s.normals[one] + s.normals[other]) > 1e-4;
+        s.edges.push_back({{uses[0].low, uses[0].high}, {one, faces_one_way ? other : one}});
+    });
     return s;
 }
 

@@ -6,16 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "model/preparation.hpp"
+#include "nodes/box_tree.hpp"
 #include "phasetree/math/bounds.hpp"
 #include "phasetree/model/handle.hpp"
 #include "phasetree/nodes/fields/triangle_mesh.hpp"
 
 namespace phasetree::mesh {
 
-/// An edge of a closed surface: its ends, and its two triangles. The first triangle traverses it from the first end to
-/// the second.
+/// An edge of a surface: its ends, and its two triangles. The first triangle traverses it from the first end to the
+/// second. A rim is any other edge of a sheet: an open one, for example. It has one of its triangles twice.
 struct SharedEdge {
     std::array<std::uint32_t, 2> ends, triangles;
+
+    bool is_rim() const { return triangles[0] == triangles[1]; }
 };
 
 /// The surface of a solid. Corners at the same point are merged, and triangles with two equal corners are removed. Each
@@ -42,12 +46,17 @@ class UncleanMesh : public ModelError {
 /// are bad; `name` is the mesh's name in messages.
 Surface surface_of(const TriangleMesh&, const std::string& name);
 
-/// Throws UncleanMesh if two triangles cross, or touch outside their shared vertices and edges.
-void require_no_crossing(const Surface&, const std::string& name);
+/// The triangles as they are, which need not be closed, nor the surface of a solid. Equal triangles are one, whichever
+/// way they face. The normal of a triangle without area is 0. Throws ModelError as surface_of does.
+Surface sheet_of(const TriangleMesh&, const std::string& name);
+
+/// Throws UncleanMesh if two triangles cross, or touch outside their shared vertices and edges. The tree is that of the
+/// triangles' boxes.
+void require_no_crossing(const Surface&, const BoxTree&, const std::string& name, model::Preparation&);
 
 /// Throws UncleanMesh if the solid is on the outside of a triangle, because the whole surface, or one of several, is
 /// inside out.
-void require_outward(const Surface&, const std::string& name);
+void require_outward(const Surface&, const BoxTree&, const std::string& name, model::Preparation&);
 
 /// The boxes around the triangles.
 std::vector<Bounds> boxes_of(const Surface&);

@@ -1499,13 +1499,14 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
     height: Height of white; black is at z = 0. (number in m; positive)
     """
 
-def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", "non_zero"] | None = ...) -> Field:
-    r"""The solid inside a surface of triangles; exact.
+def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", "non_zero"] | None = ..., thickness: float | None = ...) -> Field:
+    r"""The solid inside a surface of triangles, exact; or a wall along the surface.
 
-        ± min over the triangles of |p − nearest point|
+        ± min over the triangles of |p − nearest point|; with a thickness, min … − thickness/2
 
-    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
     rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
+    thickness: Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the thickness. 0: the solid inside the surface. (number in m; zero or more; default 0)
     """
 
 def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:

@@ -11,6 +11,7 @@
 #include "phasetree/model/renumber.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "scene/read_parts.hpp"
+#include "while_watching_signals.hpp"
 
 namespace py = pybind11;
 
@@ -64,10 +65,12 @@ Handle made(const std::string& text, const std::vector<std::string>& phases, con
     const Document document = Document::from_text(text);
     const FileReaders files = tracer::file_readers();
     try {
-        if constexpr (std::is_same_v<Handle, Field>)
-            return read_field(document, names_of(phases), std::move(known), files);
-        else
-            return read_object(document, names_of(phases), std::move(known), files);
+        return while_watching_signals([&] {
+            if constexpr (std::is_same_v<Handle, Field>)
+                return read_field(document, names_of(phases), std::move(known), files);
+            else
+                return read_object(document, names_of(phases), std::move(known), files);
+        });
     } catch (const SceneError& e) {
         throw without_place(e, document);
     }
@@ -80,7 +83,7 @@ Field field_of_text(const std::string& text) {
     for (const char* const key : {"tree", "set", "of"})
         if (value) value = value->find(key);
     if (!value) throw ModelError("the text does not describe a field");
-    return read_field(document, *value, tracer::file_readers());
+    return while_watching_signals([&] { return read_field(document, *value, tracer::file_readers()); });
 }
 
 py::object as_tuple(const Bounds& b) {

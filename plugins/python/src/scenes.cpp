@@ -18,6 +18,7 @@
 #include "scene/read_parts.hpp"
 #include "scene/reference.hpp"
 #include "scene/scene.hpp"
+#include "while_watching_signals.hpp"
 
 namespace py = pybind11;
 
@@ -65,10 +66,10 @@ py::tuple parts_of(const Document& document) {
     SceneTree tree;
     const Value root = document.root();
     if (root.find("camera")) {
-        tracer::Scene scene = tracer::read_scene(document);
+        tracer::Scene scene = while_watching_signals([&] { return tracer::read_scene(document); });
         tree = {scene.phases, scene.object};
     } else {
-        tracer::SceneModel model = tracer::read_scene_without_camera(document);
+        tracer::SceneModel model = while_watching_signals([&] { return tracer::read_scene_without_camera(document); });
         tree = {std::move(model.phases), std::move(model.object)};
     }
     py::dict rest;
@@ -109,8 +110,10 @@ py::list instances_of(const tracer::PlacedObjects& all, const std::vector<tracer
 // the scene. Reports all errors of the scene.
 py::tuple placed_in(const Document& document) {
     const Value root = document.root();
-    tracer::PlacedObjects all =
-        root.find("camera") ? tracer::read_scene(document).placed : tracer::read_scene_without_camera(document).placed;
+    tracer::PlacedObjects all = while_watching_signals([&] {
+        return root.find("camera") ? tracer::read_scene(document).placed
+                                   : tracer::read_scene_without_camera(document).placed;
+    });
     if (!all.moving.empty())
         throw document.error(*root.find("objects"),
                              "objects that move while the shutter is open are not supported here");

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The solid within a surface of triangles.
+/// The solid within a surface of triangles, and the wall along one.
 
 #include <cmath>
 #include <numbers>
@@ -29,15 +29,21 @@ inline double winding_number(const TriangleMesh& mesh, const dvec3& p) {
     return sum / (4 * std::numbers::pi);
 }
 
+inline double to_triangles(const TriangleMesh& mesh, const dvec3& p) {
+    double nearest = absent;
+    for_each_triangle(mesh, [&](const std::vector<dvec3>& t) { nearest = std::min(nearest, to_polygon(p, t)); });
+    return nearest;
+}
+
 inline bool member(const Mesh& n, const dvec3& p) {
+    if (n.thickness > 0) return to_triangles(*n.file.content, p) <= static_cast<double>(n.thickness) / 2;
     const double winding = winding_number(*n.file.content, p);
     if (n.rule == "even_odd") return std::lround(winding) % 2 != 0;
     return (n.rule == "non_zero" ? std::abs(winding) : winding) > 0.5;
 }
 inline double signed_value(const Mesh& n, const dvec3& p) {
-    double nearest = absent;
-    for_each_triangle(*n.file.content,
-                      [&](const std::vector<dvec3>& t) { nearest = std::min(nearest, to_polygon(p, t)); });
+    const double nearest = to_triangles(*n.file.content, p);
+    if (n.thickness > 0) return nearest - static_cast<double>(n.thickness) / 2;
     return member(n, p) ? -nearest : nearest;
 }
 

@@ -7,6 +7,7 @@
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "output/late_progress.hpp"
+#include "output/preparation_progress.hpp"
 #include "phasetree_support/reading.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/named_files.hpp"
@@ -47,6 +48,7 @@ Document read_document_showing(const SceneFile& file, bool quiet) {
 }
 
 Scene load_scene_showing(const Document& document, bool quiet) {
+    const PreparationProgress preparing(ProgressOutput::standard_error(quiet));
     return showing("reading the scene's files", bytes_of_named_files(document), quiet,
                    [&] { return load_scene(document); });
 }

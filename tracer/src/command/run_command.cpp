@@ -8,6 +8,7 @@
 #include "command/errors.hpp"
 #include "command/exit_codes.hpp"
 #include "command/numbers.hpp"
+#include "output/preparation_progress.hpp"
 #include "command/streams.hpp"
 #include "command/subcommand.hpp"
 #include "command/version_report.hpp"
@@ -37,6 +38,7 @@ int run_subcommand(int argc, char** argv) {
         return report_parse_error(app, e);
     }
     try {
+        const PreparationProgress progress(ProgressOutput::standard_error(false));
         return run();
     } catch (const StandardOutputError&) {
         throw;

@@ -9,6 +9,7 @@
 
 #include "phasetree/cells/file.hpp"
 #include "phasetree/io/error.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/meshes_alone.hpp"
 #include "view/session.hpp"
@@ -66,6 +67,7 @@ void Session::work() {
             follow(desired);
         } catch (const BuildCancelled&) {
             // A newer change has arrived; handle it in the next iteration.
+        } catch (const PreparationCancelled&) {  // likewise
         } catch (...) {
             fail(error_text(std::current_exception()));
         }
@@ -97,10 +99,13 @@ void Session::read(DesiredState& desired) {
     std::shared_ptr<const ViewedScene> viewed;
     std::string error;
     try {
+        const PreparationWatch watch({.cancelled = [&] { return is_of_another_reading(desired); }, .progress = {}});
         ViewedScene scene = read_(files, desired.read_as);
         if (options_.samples) scene.scene.settings.samples = *options_.samples;
         if (options_.width) set_width(scene.scene.film, *options_.width);
         viewed = std::make_shared<const ViewedScene>(std::move(scene));
+    } catch (const PreparationCancelled&) {
+        throw;
     } catch (...) {
         error = error_text(std::current_exception());
     }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -92,64 +93,67 @@ struct Segment {
 
 class Arrangement {
   public:
-    Arrangement(Chain& chain, const std::string& name)
-        : chain_(chain), name_(name), vertex_at_(chain), most_triangles_(4 * chain.triangles.size() + 1'000'000) {}
+    Arrangement(Chain& chain, const std::string& name, model::Preparation& work)
+        : chain_(chain),
+          name_(name),
+          work_(work),
+          vertex_at_(chain),
+          most_triangles_(4 * chain.triangles.size() + 1'000'000) {}
 
     std::vector<std::uint32_t> run() {
         vertex_at_.join_touching();
         merge_equal(chain_.triangles);
         is_new_.assign(chain_.triangles.size(), 1);
-        constexpr int most_rounds = 24, least_rounds = 6;
+        constexpr int most_rounds = 24, least_rounds = 6, joining_from = 3, accepting_from = 10;
         constexpr std::size_t few = 10'000;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         for (int round = 0; round < most_rounds; ++round) {
-            const std::optional<Contacts> found = find();
+            const std::optional<Contacts> found = find(round >= accepting_from);
             if (!found) break;
             const Contacts& contacts = *found;
             const std::size_t count = contacts.edges.size() + contacts.faces.size();
-            if (count == 0) return {};
-            if (round >= least_rounds && count > 2 * fewest) break;
-            if (count > few && count > 16 * fewest) break;
+            if (count == 0 && !has_accepted_) return {};
+            if (count == 0) break;
+            if (count > few && count > (round >= least_rounds ? 2 : 16) * fewest) break;
             fewest = std::min(fewest, count);
             try {
-                if (!divide(contacts)) break;
+                const bool has_joined = round >= joining_from && join_close(contacts);
+                if (!has_joined && !divide(contacts)) break;
             } catch (const Subdivision::Tangled&) {
                 break;  // before triangles were changed
             }
         }
+        // A thin triangle that was accepted may hide a crossing, which can shift the winding numbers of everything
+        // beyond it. So others are returned, too.
+        constexpr std::size_t samples = 20'000;
+        const std::size_t every = has_accepted_ ? is_new_.size() / samples + 1 : is_new_.size() + 1;
         std::vector<std::uint32_t> touching_others;
         for (std::uint32_t t = 0; t < is_new_.size(); ++t)
-            if (is_new_[t]) touching_others.push_back(t);
+            if (is_new_[t] || t % every == every - 1) touching_others.push_back(t);
         return touching_others;
     }
 
   private:
     // All contacts of new triangles; nullopt if there are too many. If surfaces coincide within rounding, their parts
     // get thinner from round to round, and each part meets more and more others.
-    std::optional<Contacts> find() {
-        const std::size_t n = chain_.triangles.size();
+    std::optional<Contacts> find(bool accepts_thin) {
+        const auto n = static_cast<std::uint32_t>(chain_.triangles.size());
         std::vector<std::uint32_t> fresh;
-        Bounds all;
-        for (std::uint32_t t = 0; t < n; ++t) {
-            all = unite(all, chain_.box(t));
+        for (std::uint32_t t = 0; t < n; ++t)
             if (is_new_[t]) fresh.push_back(t);
-        }
         if (fresh.empty()) return Contacts();
         std::vector<std::uint32_t> near = fresh;
-        if (fresh.size() < n) {
-            MarkedBoxes marked(all);
-            for (const std::uint32_t t : fresh) marked.mark(chain_.box(t).inflated(margin));
-            for (std::uint32_t t = 0; t < n; ++t)
-                if (!is_new_[t] && marked.meets(chain_.box(t))) near.push_back(t);
-        }
-        std::vector<Bounds> boxes;
-        for (const std::uint32_t t : near) boxes.push_back(chain_.box(t).inflated(margin));
+        if (fresh.size() < n) add_triangles_near(fresh, near);
+        std::vector<Bounds> boxes(near.size());
+        tbb::parallel_for(std::size_t{0}, near.size(),
+                          [&](std::size_t i) { boxes[i] = chain_.box(near[i]).inflated(margin); });
         const BoxTree tree(boxes, 4);
         constexpr std::size_t in_chunk = 1024;
         std::vector<Contacts> found((fresh.size() + in_chunk - 1) / in_chunk);
         std::atomic<std::uint64_t> steps = 0, contacts = 0;
         const std::uint64_t most_steps = work_.left(), most_contacts = 16 * std::uint64_t{n} + 1'000'000;
         tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+            work_.poll();
             const std::size_t end = std::min((chunk + 1) * in_chunk, fresh.size());
             for (std::size_t i = chunk * in_chunk; i < end && steps <= most_steps && contacts <= most_contacts; ++i) {
                 const std::size_t before = found[chunk].size();
@@ -166,7 +170,46 @@ class Arrangement {
             result.segments.insert(result.segments.end(), c.segments.begin(), c.segments.end());
             c = {};
         }
+        has_accepted_ = accepts_thin && accept_thin(near, result);
         return result;
+    }
+    // Of two thin triangles that form a quadrilateral, each may have a corner that touches the opposite edge, and so
+    // may the other two that replace them when these edges are divided: for ever. So after some rounds, such triangles
+    // stay: the contacts of their own corners and edges are removed. Returns whether there are any.
+    bool accept_thin(std::span<const std::uint32_t> near, Contacts& contacts) const {
+        constexpr double least_height = 1;
+        using Thin = std::tuple<std::uint32_t, std::uint32_t, std::array<double, 3>>;
+        const auto contact_of = [](const EdgeContact& c) { return Thin(c.a, c.b, key_of(c.at)); };
+        Contacts own;
+        for (const std::uint32_t t : near) {
+            const std::size_t before = own.edges.size();
+            find_own_contact(chain_, t, own);
+            if (own.edges.size() == before) continue;
+            const EdgeContact& c = own.edges.back();
+            if (glm::length(chain_.normal(t)) < least_height * glm::distance(chain_.points[c.a], chain_.points[c.b]))
+                own.edges.pop_back();
+        }
+        std::vector<Thin> thin;
+        for (const EdgeContact& c : own.edges) thin.push_back(contact_of(c));
+        std::ranges::sort(thin);
+        std::erase_if(contacts.edges,
+                      [&](const EdgeContact& c) { return std::ranges::binary_search(thin, contact_of(c)); });
+        return !thin.empty();
+    }
+    // Adds the triangles that are not new and may touch one that is.
+    void add_triangles_near(const std::vector<std::uint32_t>& fresh, std::vector<std::uint32_t>& near) const {
+        Bounds all;
+        for (const std::uint32_t t : fresh) all = unite(all, chain_.box(t).inflated(margin));
+        MarkedBoxes marked(all);
+        for (const std::uint32_t t : fresh) marked.mark(chain_.box(t).inflated(margin));
+        std::vector<char> is_near(is_new_.size(), 0);
+        tbb::parallel_for(std::size_t{0}, is_new_.size(), [&](std::size_t t) {
+            if (is_new_[t]) return;
+            const Bounds box = chain_.box(t);
+            is_near[t] = !intersect(box, all).empty() && marked.meets(box);
+        });
+        for (std::uint32_t t = 0; t < is_near.size(); ++t)
+            if (is_near[t]) near.push_back(t);
     }
     // The contacts of near[i], which is new, with later triangles. Returns the cost.
     std::uint64_t contacts_of(std::size_t i, std::span<const std::uint32_t> near, std::span<const Bounds> boxes,
@@ -186,6 +229,39 @@ class Arrangement {
         return steps + 1;
     }
 
+    // Dividing an edge at a vertex close to one of its ends can lead to another such edge, again and again. So joins
+    // these vertices to the ends. Returns false if there are none.
+    bool join_close(const Contacts& contacts) {
+        constexpr double close = 3 * touching;
+        std::vector<std::uint32_t> target(chain_.points.size());
+        std::iota(target.begin(), target.end(), 0u);
+        std::vector<char> is_joined(target.size(), 0);
+        bool is_any = false;
+        for (const EdgeContact& c : contacts.edges) {
+            const std::optional<std::uint32_t> v = vertex_at_.at(c.at);
+            for (const std::uint32_t end : {c.a, c.b}) {
+                if (!v || *v == end || is_joined[*v] || is_joined[end] ||
+                    glm::distance(chain_.points[*v], chain_.points[end]) > close)
+                    continue;
+                target[std::max(*v, end)] = std::min(*v, end);
+                vertex_at_.remove(std::max(*v, end));
+                is_joined[*v] = is_joined[end] = 1;
+                is_any = true;
+            }
+        }
+        if (!is_any) return false;
+        std::vector<ChainTriangle> changed;
+        for (std::size_t t = 0; t < is_new_.size(); ++t) {
+            ChainTriangle moved = chain_.triangles[t];
+            for (std::uint32_t& v : moved.corners) v = target[v];
+            if (is_new_[t] == 0 && moved.corners == chain_.triangles[t].corners) continue;
+            if (!is_degenerate(moved)) changed.push_back(moved);
+            chain_.triangles[t].times = 0;
+        }
+        merge(std::move(changed));
+        return true;
+    }
+
     // Returns false if nothing had to be divided.
     bool divide(const Contacts& contacts) {
         const std::vector<Divider> dividers = dividers_of(contacts.edges);
@@ -196,34 +272,32 @@ class Arrangement {
         std::vector<char> has_divider(chain_.points.size(), 0);
         for (const Divider& d : dividers) has_divider[d.a] = has_divider[d.b] = 1;
 
-        const std::size_t n = chain_.triangles.size();
-        std::vector<std::vector<ChainTriangle>> parts(n);
-        tbb::parallel_for(std::size_t{0}, n, [&](std::size_t t) {
+        std::vector<std::uint32_t> met;
+        for (const Inner& i : inner) met.push_back(i.triangle);
+        for (std::uint32_t t = 0; t < chain_.triangles.size(); ++t) {
             const auto& c = chain_.triangles[t].corners;
-            const auto within = with_key(inner, static_cast<std::uint32_t>(t), &Inner::triangle);
-            if (within.empty() && has_divider[c[0]] + has_divider[c[1]] + has_divider[c[2]] < 2) return;
-            const auto along = with_key(segments, static_cast<std::uint32_t>(t), &Segment::triangle);
-            parts[t] = divided(chain_.triangles[t], dividers, within, along);
+            if (has_divider[c[0]] + has_divider[c[1]] + has_divider[c[2]] >= 2) met.push_back(t);
+        }
+        std::ranges::sort(met);
+        met.erase(std::unique(met.begin(), met.end()), met.end());
+        std::vector<std::vector<ChainTriangle>> parts(met.size());
+        tbb::parallel_for(std::size_t{0}, met.size(), [&](std::size_t i) {
+            work_.poll();
+            const auto within = with_key(inner, met[i], &Inner::triangle);
+            const auto along = with_key(segments, met[i], &Segment::triangle);
+            parts[i] = divided(chain_.triangles[met[i]], dividers, within, along);
         });
-        std::vector<ChainTriangle> result;
-        std::vector<char> is_new;
+        std::vector<ChainTriangle> added;
         bool is_any = false;
-        for (std::size_t t = 0; t < n; ++t)
-            if (parts[t].empty()) {
-                result.push_back(chain_.triangles[t]);
-                is_new.push_back(0);
-            } else {
-                is_any = true;
-                for (const ChainTriangle& part : parts[t]) {
-                    const auto& c = part.corners;
-                    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-                    result.push_back(part);
-                    is_new.push_back(1);
-                }
-            }
-        chain_.triangles = std::move(result);
-        is_new_ = std::move(is_new);
-        if (is_any) merge();
+        std::fill(is_new_.begin(), is_new_.end(), 0);
+        for (std::size_t i = 0; i < met.size(); ++i) {
+            if (parts[i].empty()) continue;
+            is_any = true;
+            chain_.triangles[met[i]].times = 0;
+            for (const ChainTriangle& part : parts[i])
+                if (!is_degenerate(part)) added.push_back(part);
+        }
+        merge(std::move(added));
         if (chain_.triangles.size() > most_triangles_)
             throw ModelError(
                 fmt::format("mesh: {} crosses itself so often that its parts are more than {} triangles: simplify it",
@@ -287,49 +361,43 @@ class Arrangement {
         return result;
     }
 
-    // Adds up equal triangles, of which at least one is new, and puts corners in ascending order.
-    void merge() {
+    static bool is_degenerate(const ChainTriangle& t) {
+        return t.corners[0] == t.corners[1] || t.corners[1] == t.corners[2] || t.corners[2] == t.corners[0];
+    }
+
+    // Removes triangles that count zero times, and adds new ones, whose corners are put in ascending order. Adds up
+    // equal triangles, which are new then.
+    void merge(std::vector<ChainTriangle> added) {
         std::vector<char> is_touched(chain_.points.size(), 0);
-        for (std::size_t t = 0; t < is_new_.size(); ++t)
-            if (is_new_[t])
-                for (const std::uint32_t v : chain_.triangles[t].corners) is_touched[v] = 1;
-        std::vector<ChainTriangle> old, touched;
-        for (std::size_t t = 0; t < is_new_.size(); ++t) {
-            const ChainTriangle& triangle = chain_.triangles[t];
-            if (is_new_[t]) {
-                touched.push_back(triangle);
-            } else {
-                old.push_back(triangle);
-            }
-        }
-        std::vector<ChainTriangle> equal;
-        std::erase_if(old, [&](const ChainTriangle& t) {
+        for (const ChainTriangle& t : added)
+            for (const std::uint32_t v : t.corners) is_touched[v] = 1;
+        std::erase_if(chain_.triangles, [&](const ChainTriangle& t) {
+            if (t.times == 0) return true;
             if (!is_touched[t.corners[0]] || !is_touched[t.corners[1]] || !is_touched[t.corners[2]]) return false;
-            equal.push_back(t);
+            added.push_back(t);
             return true;
         });
-        touched.insert(touched.end(), equal.begin(), equal.end());
-        merge_equal(touched);
-        is_new_.assign(old.size(), 0);
-        is_new_.resize(old.size() + touched.size(), 1);
-        old.insert(old.end(), touched.begin(), touched.end());
-        chain_.triangles = std::move(old);
+        merge_equal(added);
+        is_new_.assign(chain_.triangles.size(), 0);
+        is_new_.resize(chain_.triangles.size() + added.size(), 1);
+        chain_.triangles.insert(chain_.triangles.end(), added.begin(), added.end());
     }
 
     static constexpr float margin = static_cast<float>(touching);
 
     Chain& chain_;
     const std::string& name_;
+    model::Preparation& work_;
     VertexAt vertex_at_;
     std::size_t most_triangles_;
-    model::Preparation work_{"mesh"};
+    bool has_accepted_ = false;  // thin triangles, in the last round
     std::vector<char> is_new_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> arrange(Chain& chain, const std::string& name) {
-    return Arrangement(chain, name).run();
+std::vector<std::uint32_t> arrange(Chain& chain, const std::string& name, model::Preparation& work) {
+    return Arrangement(chain, name, work).run();
 }
 
 }  // namespace phasetree::mesh

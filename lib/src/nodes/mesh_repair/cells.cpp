@@ -154,6 +154,7 @@ bool are_confirmed(const Chain& chain, std::span<const SideWinding> windings,
     const ChainWinding winding(chain);
     std::atomic<bool> is_wrong = false;
     tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+        if (is_wrong) return;
         const std::uint32_t t = triangles[i];
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k)
@@ -199,6 +200,9 @@ Chain boundary_of(const Chain& chain, std::span<const SideWinding> windings, Win
 
 Surface surface_of_boundary(const Chain& boundary) {
     Surface s;
+    s.triangles.reserve(boundary.triangles.size());
+    s.normals.reserve(boundary.triangles.size());
+    s.edges.reserve(3 * boundary.triangles.size() / 2);
     for (const glm::dvec3& p : boundary.points) s.vertices.emplace_back(p * boundary.step);
     for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t) {
         const auto& c = boundary.triangles[t].corners;

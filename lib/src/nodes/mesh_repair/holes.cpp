@@ -18,9 +18,10 @@ struct OpenEdge {
     auto operator<=>(const OpenEdge&) const = default;
 };
 
-std::vector<OpenEdge> open_edges(const Chain& chain, std::span<const std::uint32_t> shells) {
+std::vector<OpenEdge> open_edges(const Chain& chain, std::span<const EdgeOfChain> edges,
+                                 std::span<const std::uint32_t> shells) {
     std::vector<OpenEdge> open;
-    for_each_edge(edges_of(chain), [&](std::span<const EdgeOfChain> uses) {
+    for_each_edge(edges, [&](std::span<const EdgeOfChain> uses) {
         int balance = 0;
         for (const EdgeOfChain& e : uses) balance += (e.is_rising ? 1 : -1) * chain.triangles[e.triangle].times;
         const EdgeOfChain& e = uses[0];
@@ -140,10 +141,10 @@ double area_of(const Chain& chain, const ChainTriangle& t) {
 
 }  // namespace
 
-ClosedHoles close_holes(Chain& chain, std::vector<std::uint32_t>& shells) {
+ClosedHoles close_holes(Chain& chain, std::span<const EdgeOfChain> edges, std::vector<std::uint32_t>& shells) {
     constexpr std::size_t longest_for_ears = 20'000;
     ClosedHoles result;
-    const std::vector<OpenEdge> open = open_edges(chain, shells);
+    const std::vector<OpenEdge> open = open_edges(chain, edges, shells);
     if (open.empty()) return result;
     std::uint32_t count = 0;
     for (const std::uint32_t s : shells) count = std::max(count, s + 1);

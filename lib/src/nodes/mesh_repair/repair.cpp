@@ -9,19 +9,23 @@
 
 namespace phasetree::mesh {
 
-Surface repaired(const TriangleMesh& mesh, WindingRule rule, const std::string& name) {
+Surface repaired(const TriangleMesh& mesh, WindingRule rule, const std::string& name, model::Preparation& work) {
     Chain chain = welded(mesh);
-    orient(chain);
-    std::vector<std::uint32_t> shells = shells_of(chain);
-    const ClosedHoles closed = close_holes(chain, shells);
+    work.tell(0.4f);
+    std::vector<EdgeOfChain> edges = edges_of(chain);
+    orient(chain, edges);
+    std::vector<std::uint32_t> shells = shells_of(chain, edges);
+    const ClosedHoles closed = close_holes(chain, edges, shells);
+    edges = {};
     if (closed.sheets > 0 && chain.triangles.empty())
         throw ModelError(fmt::format(
-            "mesh: {} is a sheet that encloses nothing: its holes are about as large as itself. Give it a thickness "
-            "where it was made (in Blender, by the modifier Solidify), close it, or use it as one of the scene's "
-            "\"meshes\", which may be open",
+            "mesh: {} is a sheet that encloses nothing: its holes are about as large as itself. Make a wall of it by "
+            "\"thickness\", close it, or use it as one of the scene's \"meshes\", which may be open",
             name));
     if (rule == WindingRule::winding_number && !chain.triangles.empty()) turn_shells(chain, shells);
-    const std::vector<std::uint32_t> touching_others = arrange(chain, name);
+    work.tell(0.45f);
+    const std::vector<std::uint32_t> touching_others = arrange(chain, name, work);
+    work.tell(0.7f);
     Chain boundary;
     if (!chain.triangles.empty()) {
         const std::vector<SideWinding> windings = windings_of(chain);
@@ -35,7 +39,7 @@ Surface repaired(const TriangleMesh& mesh, WindingRule rule, const std::string& 
     if (boundary.triangles.empty())
         throw ModelError(fmt::format(
             "mesh: {} encloses nothing: there are no points around which its triangles wind as its rule requires. Its "
-            "triangles may face both ways or have no volume between them",
+            "triangles may face both ways or have no volume between them. \"thickness\" makes a wall along them",
             name));
     return surface_of_boundary(boundary);
 }

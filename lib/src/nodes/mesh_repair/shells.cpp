@@ -71,9 +71,9 @@ void turn(ChainTriangle& t) {
 
 }  // namespace
 
-void orient(Chain& chain) {
+void orient(Chain& chain, std::vector<EdgeOfChain>& edges) {
     OrientedSets sets(chain.triangles.size());
-    for_each_edge(edges_of(chain), [&](std::span<const EdgeOfChain> uses) {
+    for_each_edge(edges, [&](std::span<const EdgeOfChain> uses) {
         if (uses.size() == 2) sets.join(uses[0].triangle, uses[1].triangle, uses[0].is_rising == uses[1].is_rising);
     });
     std::vector<double> balance(chain.triangles.size(), 0);  // area that is not to be turned, less that which is
@@ -81,15 +81,18 @@ void orient(Chain& chain) {
         const auto [root, is_turned] = sets.root(t);
         balance[root] += (is_turned ? -1 : 1) * glm::length(chain.normal(t));
     }
+    std::vector<char> is_to_turn(chain.triangles.size(), 0);
     for (std::uint32_t t = 0; t < chain.triangles.size(); ++t) {
         const auto [root, is_turned] = sets.root(t);
-        if (is_turned != (balance[root] < 0)) turn(chain.triangles[t]);
+        is_to_turn[t] = is_turned != (balance[root] < 0);
+        if (is_to_turn[t]) turn(chain.triangles[t]);
     }
+    for (EdgeOfChain& e : edges) e.is_rising ^= is_to_turn[e.triangle] != 0;
 }
 
-std::vector<std::uint32_t> shells_of(const Chain& chain) {
+std::vector<std::uint32_t> shells_of(const Chain& chain, std::span<const EdgeOfChain> edges) {
     DisjointSets sets(chain.triangles.size());
-    for_each_edge(edges_of(chain), [&](std::span<const EdgeOfChain> uses) {
+    for_each_edge(edges, [&](std::span<const EdgeOfChain> uses) {
         for (const EdgeOfChain& e : uses) sets.join(uses[0].triangle, e.triangle);
     });
     // A root is the first of its set.

@@ -13,7 +13,7 @@ Subdivision::Subdivision(std::span<const glm::dvec3> points, const Corners& corn
     x_axis_ = (up + 1) % 3;
     y_axis_ = (up + 2) % 3;
     if (n[up] < 0) std::swap(x_axis_, y_axis_);
-    for (const std::uint32_t v : corners) add(v);
+    for (std::size_t i = 0; i < 3; ++i) add(corners[i], side_bit(i) | side_bit((i + 2) % 3));
     write(0, {{0, 1, 2}, {none, none, none}});
 }
 
@@ -27,7 +27,7 @@ void Subdivision::add_on_side(std::size_t side, std::span<const std::uint32_t> v
         for (; of_triangle == 3; --triangle)
             for (std::size_t i = 0; i < 3; ++i)
                 if (at(triangle).corners[i] == from && at(triangle).corners[(i + 1) % 3] == end) of_triangle = i;
-        const int added = add(v);
+        const int added = add(v, side_bit(side));
         split_side(triangle + 1, of_triangle, added);
         from = added;
     }
@@ -35,7 +35,7 @@ void Subdivision::add_on_side(std::size_t side, std::span<const std::uint32_t> v
 }
 
 void Subdivision::add_within(std::uint32_t vertex) {
-    const int v = add(vertex);
+    const int v = add(vertex, 0);
     const int triangle = containing(v);
     const Small& t = at(triangle);
     for (std::size_t i = 0; i < 3; ++i)
@@ -59,8 +59,9 @@ glm::dvec2 Subdivision::projected(std::uint32_t vertex) const {
     return {points_[vertex][x_axis_], points_[vertex][y_axis_]};
 }
 
-int Subdivision::add(std::uint32_t vertex) {
+int Subdivision::add(std::uint32_t vertex, unsigned sides) {
     vertices_.push_back(vertex);
+    sides_.push_back(sides);
     xy_.push_back(projected(vertex));
     at_vertex_.push_back(0);
     return static_cast<int>(vertices_.size()) - 1;
@@ -186,7 +187,7 @@ void Subdivision::flip_while_needed() {
         if (u == none) continue;
         const int a = at(t).corners[i], b = at(t).corners[(i + 1) % 3], c = at(t).corners[(i + 2) % 3];
         const int d = at(u).corners[(side_from(u, b, a) + 2) % 3];
-        if (is_fixed(a, b) || !(turn(a, d, c) > 0 && turn(d, b, c) > 0)) continue;
+        if (is_fixed(a, b) || are_on_one_side(c, d) || !(turn(a, d, c) > 0 && turn(d, b, c) > 0)) continue;
         const bool is_turned_over = !(turn(a, b, c) > 0 && turn(b, a, d) > 0);
         if (is_turned_over || should_flip(a, b, c, d)) flip(t, i);
     }
@@ -290,7 +291,7 @@ void Subdivision::flip_crossed(int from, int to, std::vector<std::pair<int, int>
         if (u == none) return;
         const int a = at(t).corners[side->side], b = at(t).corners[(side->side + 1) % 3],
                   c = at(t).corners[(side->side + 2) % 3], d = at(u).corners[(side_from(u, b, a) + 2) % 3];
-        if (!(turn(a, d, c) > 0 && turn(d, b, c) > 0)) {
+        if (are_on_one_side(c, d) || !(turn(a, d, c) > 0 && turn(d, b, c) > 0)) {
             crossed.emplace_back(p, q);
             continue;
         }
@@ -301,7 +302,7 @@ void Subdivision::flip_crossed(int from, int to, std::vector<std::pair<int, int>
 }
 
 void Subdivision::connect(int from, int to, int most_parts) {
-    if (most_parts == 0) return;
+    if (most_parts == 0 || are_on_one_side(from, to)) return;
     if (!find_side(from, to)) {
         const Way way = way_between(from, to);
         if (way.passed != none) {

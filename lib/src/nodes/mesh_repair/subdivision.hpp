@@ -42,7 +42,14 @@ class Subdivision {
     static constexpr int none = -1;
 
     glm::dvec2 projected(std::uint32_t vertex) const;
-    int add(std::uint32_t vertex);
+    static constexpr unsigned side_bit(std::size_t side) { return 1u << side; }
+    int add(std::uint32_t vertex, unsigned sides);
+    // Whether two vertices are on the same side of the whole triangle. Vertices on a side are up to `touching` away
+    // from its line. So an edge between two of them that are no neighbours would pass the vertices between them again,
+    // and would not meet the divided side of the next triangle.
+    bool are_on_one_side(int a, int b) const {
+        return (sides_[static_cast<std::size_t>(a)] & sides_[static_cast<std::size_t>(b)]) != 0;
+    }
     double turn(int a, int b, int c) const;
     bool should_flip(int a, int b, int c, int d) const;
     std::size_t side_from(int triangle, int a, int b) const;
@@ -77,6 +84,7 @@ class Subdivision {
     std::span<const glm::dvec3> points_;
     int x_axis_ = 0, y_axis_ = 1;
     std::vector<std::uint32_t> vertices_;
+    std::vector<unsigned> sides_;  // of the whole triangle on which each vertex is, as bits
     std::vector<glm::dvec2> xy_;
     std::vector<Small> small_;
     std::vector<std::array<int, 2>> doubtful_;  // triangles and sides that may have to be flipped

@@ -14,12 +14,13 @@ namespace phasetree::mesh {
 /// The vertices near lattice points. Vertices that it adds are farther from all others than `touching`.
 class VertexAt {
   public:
-    explicit VertexAt(Chain& chain) : chain_(chain), scale_(1 / (2 * touching)) {}
+    explicit VertexAt(Chain& chain) : chain_(chain), scale_(1 / (16 * touching)) {}
 
     /// Join each vertex to an earlier one that it touches, and remove triangles with two equal corners. Call this
     /// first.
     void join_touching() {
         std::vector<std::uint32_t> joined(chain_.points.size());
+        vertices_.reserve(joined.size());
         for (std::uint32_t v = 0; v < joined.size(); ++v) {
             const auto near = nearest(chain_.points[v]);
             joined[v] = near.value_or(v);
@@ -36,6 +37,18 @@ class VertexAt {
         chain_.points.push_back(p);
         add(static_cast<std::uint32_t>(chain_.points.size() - 1));
         return static_cast<std::uint32_t>(chain_.points.size() - 1);
+    }
+
+    /// The vertex near a point, if there is one.
+    std::optional<std::uint32_t> at(const glm::dvec3& p) const { return nearest(p); }
+    /// Forget a vertex, which no triangle has any longer.
+    void remove(std::uint32_t v) {
+        const auto [first, last] = vertices_.equal_range(Cell(glm::floor(chain_.points[v] * scale_)));
+        for (auto i = first; i != last; ++i)
+            if (i->second == v) {
+                vertices_.erase(i);
+                return;
+            }
     }
 
   private:
@@ -70,7 +83,7 @@ class VertexAt {
     }
 
     Chain& chain_;
-    double scale_;
+    double scale_;  // so that most points have no other cell nearby
     std::unordered_multimap<Cell, std::uint32_t, Hash> vertices_;
 };
 

@@ -12,7 +12,7 @@
 
 namespace phasetree {
 
-/// The solid within a triangulated surface, exact on both sides.
+/// The solid within a triangulated surface, exact on both sides; or a wall along the surface.
 ///
 /// A clean surface is used as it is: closed, all triangles facing outward, not crossing itself, and not touching itself
 /// along edges. Any other is repaired first (lib/src/nodes/mesh_repair): the result is the boundary of the points
@@ -22,16 +22,23 @@ namespace phasetree {
 /// Where two sheets of the surface are closer than the rounding of floats, either may be taken as the nearest, and the
 /// sign is uncertain even far from both.
 ///
+/// A wall needs no solid: the surface is used with all its holes, crossings and loose parts. The distance is the
+/// unsigned one to the surface, less half of the thickness: exact outside. Open edges and convex edges of the wall are
+/// rounded, with a radius of half of the thickness.
+///
 /// A hierarchy of boxes finds the nearest piece. In a small box few pieces can be nearest; they are the data of the
 /// specialised primitive.
 struct Mesh {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"mesh", "", "± min over the triangles of |p − nearest point|",
-                                   "The solid inside a surface of triangles; exact."};
+    static constexpr NodeInfo info{"mesh", "",
+                                   "± min over the triangles of |p − nearest point|; "
+                                   "with a thickness, min … − thickness/2",
+                                   "The solid inside a surface of triangles, exact; or a wall along the surface."};
     static constexpr std::size_t max_pieces_in_box = 64;
 
     FromFile<TriangleMesh> file{};
     std::string rule{"winding_number"};
+    float thickness = 0;
     std::vector<float> table{};        ///< derived: a PieceTree
     std::vector<glm::vec3> corners{};  ///< derived: the vertices of the repaired surface; empty if the file is clean
     Bounds box{};                      ///< derived
@@ -47,7 +54,8 @@ struct Mesh {
               "texture coordinates of the file are ignored: the phases define the materials. Triangles are "
               "counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are "
               "closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh "
-              "that encloses nothing is rejected. Walls and gaps thinner than a millionth of the mesh's size may "
+              "that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth "
+              "of the mesh's size may "
               "be confused."});
         v(&Mesh::rule,
           ChoiceParameter{{.name = "rule",
@@ -59,9 +67,18 @@ struct Mesh {
                                           "closed mesh whose parts do not overlap.",
                            .optional = true},
                           rules});
+        v(&Mesh::thickness,
+          Parameter{
+              "thickness", "m",
+              "Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for "
+              "a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is "
+              "ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the "
+              "thickness. 0: the solid inside the surface.",
+              limits::non_negative, true});
     }
     static std::vector<std::string_view> rules() { return {"winding_number", "even_odd", "non_zero"}; }
-    /// Throws ModelError if the numbers are bad or the surface encloses nothing.
+    /// Throws ModelError if the numbers are bad, or if the surface encloses nothing and there is no thickness. Large
+    /// meshes take seconds; see PreparationWatch.
     void prepare();
 
     std::size_t derived_bytes() const { return std::span(table).size_bytes() + std::span(corners).size_bytes(); }

@@ -6,6 +6,9 @@
 // The sign is that of the dot product of the normal and the vector from the nearest point. For this, an edge's normal
 // is the sum of those of its two faces, and a vertex's normal is the sum of those of its faces, weighted by their
 // angles (Baerentzen and Aanaes, "Signed Distance Computation Using the Angle Weighted Pseudonormal", 2005).
+//
+// A mesh with a thickness is a wall on both sides of the surface instead. Its distance is the unsigned one to the
+// surface, less half of the thickness, so normals do not matter and the surface need not be closed.
 #pragma once
 
 #include <cstddef>
@@ -91,14 +94,16 @@ void for_each_kind(F&& f) {
 }
 inline constexpr std::size_t piece_floats[piece_kinds] = {Face::floats, Edge::floats, Vertex::floats};
 
-/// The box around a mesh, as six floats: its centre and half extents.
-inline constexpr std::size_t box_floats = 6;
+/// The box around a mesh and its kind, as floats: the centre of the box, its half extents, and half of the wall's
+/// thickness, which is 0 for a solid.
+inline constexpr std::size_t half_thickness = 6, box_floats = 7;
 
-/// The signed distance, from the result of the nearest piece. Outside the mesh's box the distance is positive
+/// The signed distance, from the result of the nearest piece. Outside the box of a solid the distance is positive
 /// regardless of normals: from far away, many pieces are equally far up to rounding.
 template <class T, class Condition>
 T signed_distance(const Told<T>& nearest, const Condition& is_face, const float* box, const Vec3<T>& p) {
     const T length = sqrt(nearest.squared);
+    if (box[half_thickness] > 0) return select(is_face, abs(nearest.side), length) - box[half_thickness];
     const T value = select(is_face, nearest.side, select(less(nearest.side, T(0.f)), -length, length));
     const Vec3<T> q = from(box, p);
     const T beyond = max(abs(q.x) - box[3], max(abs(q.y) - box[4], abs(q.z) - box[5]));
