@@ -565,15 +565,19 @@ class Ends(unittest.TestCase):
             waiting.close()
             half.close()
 
-    def test_a_scene_that_is_wrong_from_the_start_is_said(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder) / "wrong.json"
-            file.write_text(SCENE.replace("wood", "wod", 1), encoding="utf-8")
-            run = subprocess.run([COMMAND, "view", str(file)], capture_output=True, text=True, check=False, timeout=60)
-            self.assertEqual((run.returncode, run.stdout), (2, ""))
-            self.assertIn("wrong.json:4:", run.stderr)
-            run = subprocess.run([COMMAND, "view", "-"], input=SCENE, capture_output=True, text=True, check=False, timeout=60)
-            self.assertEqual((run.returncode, run.stdout), (2, ""))
+    def test_a_scene_that_is_wrong_from_the_start_is_said_and_can_be_repaired(self):
+        with View(SCENE.replace("wood", "wod", 1)) as view:
+            self.assertIn("scene.json:4:", view.wait_for(lambda s: s["error"]).state["error"])
+            self.assertIn("scene.json:4:", view.said())
+            view.file.write_text(SCENE, encoding="utf-8")
+            view.wait_for(lambda s: is_ready(s) and not s["error"])
+
+    def test_a_scene_that_is_in_no_file(self):
+        run = subprocess.run([COMMAND, "view", "-"], input=SCENE, capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        run = subprocess.run([COMMAND, "view", "/nowhere/scene.json"], capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertIn("/nowhere/scene.json: ", run.stderr)
 
     def test_a_port_that_is_taken(self):
         with View() as view:

@@ -12,6 +12,7 @@
 #include "command/viewed_file.hpp"
 #include "output/interrupt.hpp"
 #include "render/threads.hpp"
+#include "scene/camera_text.hpp"
 #include "view/server.hpp"
 
 namespace phasetree::tracer {
@@ -26,7 +27,7 @@ struct ViewOptions {
     ViewedFile file() const { return {*scene, display, view}; }
     int threads = 0, port = 0;
     std::size_t max_bytes = 0;
-    bool opens = false;
+    bool opens = false, saves = true;
 };
 
 // Starts the desktop's browser without waiting for it. If there is none, the printed address is enough.
@@ -49,20 +50,30 @@ int view_scene(const ViewOptions& options) {
         throw UsageError("view: the scene must be a file, because it is read again whenever it is saved");
     const AvailableThreads threads(options.threads);
     const ViewedFile file = options.file();
+    const std::unique_ptr<studio::EditedDocument> document = file.document(options.saves);
     const view::SessionOptions session_options{
         .name = options.scene->shown(),
         .threads = threads.count(),
         .max_bytes = options.max_bytes,
         .samples = options.samples,
         .width = options.width,
-        .write_camera = [&](const std::string& camera) { file.write_camera(camera); },
-        .write_numbers = [&](const view::NumberEdits& numbers) { file.write_numbers(numbers); },
+        .write_camera =
+            [&](const std::string& camera) {
+                document->edit("Write the camera", [&](const Document& text) { return with_camera(text, camera); });
+            },
+        .write_numbers =
+            [&](const view::NumberEdits& numbers) {
+                document->edit("Write numbers",
+                               [&](const Document& text) { return view::with_numbers(text, numbers); });
+            },
         .tell = [](std::string_view text) { say(text); }};
     // Report an initially invalid scene as every other subcommand does.
-    const view::ReadScene read = file.reader();
+    const view::ReadScene read = file.reader(*document);
     const InterruptGuard guard;
     view::Session session(read, session_options);
-    view::serve(session, {.port = options.port,
+    document->on_change([&] { session.text_changed(); });
+    view::serve(session, {.document = document.get(),
+                          .port = options.port,
                           .is_over = [] { return interrupted(); },
                           .serving =
                               [&](const std::string& url) {
@@ -85,6 +96,8 @@ void add_view(CLI::App& app, Run& run) {
     auto o = std::make_shared<ViewOptions>();
     o->scene = add_scene_file(*command);
     command->add_flag("--open", o->opens, "Open the page in the desktop's browser with xdg-open");
+    command->add_flag("!--no-save", o->saves,
+                      "Save the scene only when the page asks for it, not after each change made in the page");
     command->add_option("--port", o->port, "Port on 127.0.0.1 (default: any free one)")->check(CLI::Range(1, 65535));
     command->add_option("--spp", o->samples, "Final number of samples per pixel (default: that of the scene)")
         ->check(CLI::Range(1, 1 << 24));

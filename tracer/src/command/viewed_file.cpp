@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <utility>
 
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
-#include "output/file.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
-#include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
@@ -58,14 +55,10 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
     return first < last ? std::optional(view::TimeSpan{first, last}) : std::nullopt;
 }
 
-view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
-                              const view::Reading& desired) {
+view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, const std::shared_ptr<KeptNodes>& kept,
+                              view::WatchedFiles& files, const view::Reading& desired) {
     const view::NumberEdits& numbers = desired.numbers;
-    files.add(file.scene.name);
     kept->start();
-    SceneFile at_time = file.scene;
-    if (desired.seconds) at_time.at = desired.seconds;
-    const Document in_file = read_document(at_time);
     const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
     NodePlaces places;
@@ -91,37 +84,69 @@ view::ViewedScene read_viewed(const ViewedFile& file, const std::shared_ptr<Kept
             span_of_keys(document)};
 }
 
-// Keeps the file's permissions.
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
-    write_file(text, file);
-    std::filesystem::permissions(file, permissions);
+// The document's present version as the options say that it is read.
+struct Read {
+    std::uint64_t text_version;
+    Document document;
+};
+
+// Throws SceneError if the file cannot be read or is no valid JSON.
+Read present(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
+    const auto state = edited.state();
+    if (state->unreadable) throw *state->unreadable;
+    if (!state->document) throw state->error.value();
+    return {state->text_version, state->document->at(desired.seconds ? *desired.seconds : file.scene.at.value_or(0))};
+}
+
+view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& edited,
+                               const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
+                               const view::Reading& desired) {
+    const auto [version, document] = present(file, edited, desired);
+    try {
+        view::ViewedScene scene = read_viewed(file, document, kept, files, desired);
+        if (desired.numbers.empty()) edited.checked(version, {});
+        return scene;
+    } catch (const SceneError& e) {
+        // With other numbers, what is wrong may be the numbers.
+        if (desired.numbers.empty()) edited.checked(version, e);
+        throw;
+    }
 }
 
 }  // namespace
 
-view::ReadScene ViewedFile::reader() const {
+std::unique_ptr<studio::EditedDocument> ViewedFile::document(bool saves) const {
+    const auto parse = [file = scene](std::string text) {
+        const Document document = Document::from_text(std::move(text), file.name).at(file.at.value_or(0));
+        return file.assets_within ? document.with_files_within(*file.assets_within) : document;
+    };
+    const auto check = [](const Document& document) { (void)load_scene(document); };
+    return std::make_unique<studio::EditedDocument>(
+        studio::EditedDocument::Options{.file = scene.name, .saves = saves, .parse = parse, .check = check});
+}
+
+view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
     struct First {
         std::optional<view::ViewedScene> scene;
         view::WatchedFiles files;
+        std::uint64_t text_version;
     };
     const auto first = std::make_shared<First>();
     const auto kept = std::make_shared<KeptNodes>();
-    first->scene = read_viewed(*this, kept, first->files, {});
-    return [file = *this, first, kept](view::WatchedFiles& files, const view::Reading& desired) {
+    first->text_version = document.state()->text_version;
+    try {
+        first->scene = read_checked(*this, document, kept, first->files, {});
+    } catch (const SceneError&) {
+        // The session reports it, and the page can repair the scene.
+    }
+    return [file = *this, &document, first, kept](view::WatchedFiles& files, const view::Reading& desired) {
         std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
-        if (!known || !desired.numbers.empty() || desired.seconds) return read_viewed(file, kept, files, desired);
+        const bool is_same =
+            desired.numbers.empty() && !desired.seconds && document.state()->text_version == first->text_version;
+        if (!known || !is_same) return read_checked(file, document, kept, files, desired);
         files = first->files;
         return std::move(*known);
     };
-}
-
-void ViewedFile::write_camera(const std::string& camera) const {
-    write_text(scene.name, with_camera(read_document(scene), camera));
-}
-
-void ViewedFile::write_numbers(const view::NumberEdits& numbers) const {
-    write_text(scene.name, view::with_numbers(read_document(scene), numbers));
 }
 
 }  // namespace phasetree::tracer

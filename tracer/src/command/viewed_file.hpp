@@ -1,10 +1,12 @@
 // The scene file of a live view: reading and writing.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "command/scene_file.hpp"
+#include "studio/edited_document.hpp"
 #include "view/viewed_scene.hpp"
 
 namespace phasetree::tracer {
@@ -13,12 +15,11 @@ struct ViewedFile {
     SceneFile scene;
     std::optional<std::string> display, view;  // OpenColorIO names that override the scene's
 
-    // A function that reads the scene for a session. Reads it once immediately, so that an initially invalid scene
-    // throws here: SceneError, DisplayError.
-    view::ReadScene reader() const;
-    // Write the change to the file and keep its permissions. Throw SceneError and OutputError.
-    void write_camera(const std::string& camera) const;
-    void write_numbers(const view::NumberEdits&) const;
+    // The text of the file, for editing. `saves` is whether each change is saved at once. Throws SceneError.
+    std::unique_ptr<studio::EditedDocument> document(bool saves) const;
+    // A function that reads the scene for a session from an edited document, which must outlive it. Reads it once
+    // immediately, so that wrong options throw here: DisplayError. An invalid scene is reported by the session.
+    view::ReadScene reader(studio::EditedDocument& document) const;
 };
 
 }  // namespace phasetree::tracer

@@ -20,7 +20,7 @@ namespace phasetree::tracer::view {
 class Connection : public httplib::Stream {
   public:
     static constexpr std::size_t most_bytes_of_head = 16 * 1024;
-    static constexpr std::size_t most_bytes_of_body = 64 * 1024;
+    static constexpr std::size_t most_bytes_of_body = 8 * 1024 * 1024;  ///< for the text of a scene
     static constexpr std::chrono::milliseconds to_send_a_request{3000};
     static constexpr std::chrono::milliseconds to_take_an_answer{10000};
 

@@ -2,23 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "studio/pointer.hpp"
+
 namespace phasetree::tracer::view {
 
 namespace {
-
-// Escapes a key for a JSON pointer (RFC 6901, Section 3).
-std::string escaped(std::string_view key) {
-    std::string result;
-    for (const char c : key) {
-        if (c == '~')
-            result += "~0";
-        else if (c == '/')
-            result += "~1";
-        else
-            result += c;
-    }
-    return result;
-}
 
 // Calls visit(number, pointer) for each number of the text, in order, and leave(value, pointer, whether it contained
 // any) after each value.
@@ -28,7 +16,7 @@ bool each_number(Value value, const std::string& pointer, const Visit& visit, co
     if (has_any) visit(value, pointer);
     std::size_t i = 0;
     for (const Value child : value) {
-        const std::string name = value.is_object() ? escaped(child.key()) : std::to_string(i++);
+        const std::string name = value.is_object() ? studio::escaped(child.key()) : std::to_string(i++);
         if (each_number(child, pointer + "/" + name, visit, leave)) has_any = true;
     }
     if (has_any) leave(value, pointer);

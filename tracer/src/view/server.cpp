@@ -18,6 +18,7 @@
 #include "view/connection.hpp"
 #include "view/page_files.hpp"
 #include "view/requests.hpp"
+#include "view/studio_answers.hpp"
 #include "view/workers.hpp"
 
 namespace phasetree::tracer::view {
@@ -31,17 +32,29 @@ constexpr int most_waiting = 6;
 constexpr const char* plain = "text/plain; charset=utf-8";
 constexpr const char* json = "application/json";
 
+// What is posted, besides the requests of the studio.
+constexpr std::string_view posted[] = {"change", "ask", "write", "write_numbers"};
+constexpr std::uint64_t most_bytes_of_small_body = 64 * 1024;
+
 std::string type_of(std::string_view file) {
     if (file.ends_with(".js")) return "text/javascript; charset=utf-8";
     if (file.ends_with(".css")) return "text/css; charset=utf-8";
     return "text/html; charset=utf-8";
 }
 
-std::uint64_t number(const httplib::Request& request, const char* name) {
-    const std::string text = request.get_param_value(name);
+// A whole number; 0 for any other text.
+std::uint64_t whole_number(const std::string& text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+std::uint64_t number(const httplib::Request& request, const char* name) {
+    return whole_number(request.get_param_value(name));
+}
+
+std::uint64_t length_of_body(const httplib::Request& request) {
+    return whole_number(request.get_header_value("Content-Length"));
 }
 
 // cpp-httplib with our own connections.
@@ -94,8 +107,10 @@ class Server : public httplib::Server {
 
 class Answers {
   public:
-    Answers(Session& session, Access access, bool may_be_framed)
-        : session_(session), access_(std::move(access)), may_be_framed_(may_be_framed) {}
+    Answers(Session& session, studio::EditedDocument* document, Access access, bool may_be_framed)
+        : session_(session), access_(std::move(access)), may_be_framed_(may_be_framed) {
+        if (document) studio_.emplace(*document);
+    }
 
     // Called before the body is read. Returns whether the request has already been answered.
     bool head(const httplib::Request& request, httplib::Response& response) const {
@@ -108,17 +123,19 @@ class Answers {
             return true;
         }
         if (request.method != "POST") return refuse(response, 405, "only GET and POST are supported");
-        if (name != "change" && name != "ask" && name != "write" && name != "write_numbers")
-            return refuse(response, 404, "no such page");
+        if (!is_posted(name)) return refuse(response, 404, "no such page");
         if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding") ||
             !request.has_header("Content-Length"))
             return refuse(response, 411, "a request must be unencoded and have a Content-Length");
         if (request.get_header_value("Content-Type") != json)
             return refuse(response, 415, "a request must have the type application/json");
+        if (name != "document" && length_of_body(request) > most_bytes_of_small_body)
+            return refuse(response, 413, "the request is too large");
         return false;
     }
     void post(const httplib::Request& request, httplib::Response& response) const {
         const std::string_view name = access_.within(request.path);
+        if (StudioAnswers::is_posted(name)) return studio_->post(name, request.body, response);
         try {
             const std::shared_ptr<const Shown> shown = session_.shown();
             if (name == "change") {
@@ -151,6 +168,9 @@ class Answers {
     }
 
   private:
+    bool is_posted(std::string_view name) const {
+        return std::ranges::find(posted, name) != std::end(posted) || (studio_ && StudioAnswers::is_posted(name));
+    }
     // The page may not load anything from elsewhere or be shown in a foreign frame, and its address is not passed on.
     void set_headers(httplib::Response& response) const {
         response.set_header(
@@ -165,6 +185,13 @@ class Answers {
     }
     bool get(std::string_view name, const httplib::Request& request, httplib::Response& response) const {
         if (name == "picture") return picture(request, response);
+        if (studio_ && StudioAnswers::is_answered(name)) {
+            const bool may_wait = waiting_.fetch_add(1) < most_waiting;
+            const bool is_answered = studio_->get(name, number(request, "after"),
+                                                  may_wait ? longest_wait : std::chrono::milliseconds(0), response);
+            --waiting_;
+            return is_answered;
+        }
         if (name == "numbers") {
             const std::shared_ptr<const Shown> shown = session_.shown();
             response.set_content(written(*shown->numbers_of_file, shown->numbers_version), json);
@@ -206,6 +233,7 @@ class Answers {
     }
 
     Session& session_;
+    std::optional<StudioAnswers> studio_;
     Access access_;
     bool may_be_framed_;
     mutable std::atomic<int> waiting_{0};
@@ -238,7 +266,7 @@ void serve(Session& session, const ServeOptions& options) {
         throw std::runtime_error(fmt::format("port {} of 127.0.0.1 is unavailable; choose another one", options.port));
 
     const Access access(port, random_token());
-    const Answers answers(session, access, options.may_be_framed);
+    const Answers answers(session, options.document, access, options.may_be_framed);
     using Handled = httplib::Server::HandlerResponse;
     server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
         return answers.head(request, response) ? Handled::Handled : Handled::Unhandled;
@@ -246,8 +274,8 @@ void serve(Session& session, const ServeOptions& options) {
     const auto post = [&](const httplib::Request& request, httplib::Response& response) {
         answers.post(request, response);
     };
-    for (const char* name : {"change", "ask", "write", "write_numbers"})
-        server.Post(std::string(access.path()) + name, post);
+    for (const std::string_view name : posted) server.Post(access.path() + std::string(name), post);
+    for (const std::string_view name : StudioAnswers::posted) server.Post(access.path() + std::string(name), post);
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
         Answers::refuse(response, 500, "cannot answer the request: memory may have run out");
     });
@@ -259,9 +287,11 @@ void serve(Session& session, const ServeOptions& options) {
     options.serving(access.url());
     while (!options.is_over()) {
         session.look_at_files();
+        if (options.document) options.document->look_at_file();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     session.stop();
+    if (options.document) options.document->stop();
     // Before the thread listens, stop() does nothing, and join() would wait forever.
     while (!server.is_running() && !has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server.stop();

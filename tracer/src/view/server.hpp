@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "studio/edited_document.hpp"
 #include "view/session.hpp"
 
 namespace phasetree::tracer::view {
@@ -21,6 +22,8 @@ void require_server();
 std::string server_library();
 
 struct ServeOptions {
+    /// The scene's file, which the page may edit; null if the scene is in no file.
+    studio::EditedDocument* document = nullptr;
     int port = 0;  ///< 0 selects any free port
     /// Whether pages of other servers on this machine, such as a notebook's, may embed the page.
     bool may_be_framed = false;

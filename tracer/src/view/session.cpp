@@ -112,6 +112,15 @@ std::uint64_t Session::change(const Change& change) {
     return shown()->version;
 }
 
+void Session::text_changed() {
+    const std::lock_guard lock(mutex_);
+    ++desired_.text;
+    ++desired_.document;
+    desired_.since = Clock::now();
+    announce_changes();
+    show_locked([](Shown& shown) { shown.doing = "Reading the scene"; });
+}
+
 // Reads a file only after two checks with the same state, because some programs save in several steps.
 void Session::look_at_files() {
     const std::lock_guard lock(mutex_);

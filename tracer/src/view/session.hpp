@@ -69,6 +69,8 @@ class Session {
     std::uint64_t change(const Change& change);
     /// Reads the scene again if one of its files has been saved. Call this periodically.
     void look_at_files();
+    /// Reads the scene again, because the text that ReadScene reads has changed.
+    void text_changed();
 
     /// Writes the shown camera to the scene's file. Calls are serialised. Throws as SessionOptions::write_camera does,
     /// and ModelError if no camera is shown yet.
@@ -88,9 +90,9 @@ class Session {
     using Clock = std::chrono::steady_clock;
 
     // What the page requests. The numbers count requests: to read the files, and to change the text, the object and the
-    // view. They only increase.
+    // view. They only increase. `document` counts those changes of the text that are not replaced numbers.
     struct DesiredState {
-        std::uint64_t reading = 1, text = 0, object = 0, view = 0;
+        std::uint64_t reading = 1, text = 0, object = 0, view = 0, document = 0;
         Edits edits;
         Reading read_as;
         std::optional<AnyCameraParameters> camera;

@@ -121,7 +121,7 @@ void Session::read(DesiredState& desired) {
     last_read_well_ = last_read_;
     show([&](Shown& shown) {
         shown.numbers_of_file = {viewed_, &viewed_->numbers};
-        shown.numbers_version = desired.reading;
+        shown.numbers_version = desired.reading + desired.document;
         shown.seconds = viewed_->seconds;
         shown.keys = viewed_->keys;
     });

@@ -8,10 +8,12 @@
 #include "output/display.hpp"
 #include "phasetree/io/node_places.hpp"
 #include "scene/scene.hpp"
+#include "studio/watched_files.hpp"
 #include "view/numbers.hpp"
-#include "view/watched_files.hpp"
 
 namespace phasetree::tracer::view {
+
+using studio::WatchedFiles;
 
 /// A range of times, in seconds.
 struct TimeSpan {

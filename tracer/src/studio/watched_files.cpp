@@ -1,10 +1,10 @@
-#include "view/watched_files.hpp"
+#include "studio/watched_files.hpp"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 
-namespace phasetree::tracer::view {
+namespace phasetree::tracer::studio {
 
 WatchedFiles::Stamp WatchedFiles::Stamp::of(const std::filesystem::path& file) {
     struct stat status {};
@@ -24,4 +24,4 @@ WatchedFiles WatchedFiles::now() const {
     return result;
 }
 
-}  // namespace phasetree::tracer::view
+}  // namespace phasetree::tracer::studio

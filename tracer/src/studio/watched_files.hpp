@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace phasetree::tracer::view {
+namespace phasetree::tracer::studio {
 
 class WatchedFiles {
   public:
@@ -39,4 +39,4 @@ class WatchedFiles {
     std::vector<Entry> entries_;
 };
 
-}  // namespace phasetree::tracer::view
+}  // namespace phasetree::tracer::studio

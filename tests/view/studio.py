@@ -1,0 +1,220 @@
+"""The studio's endpoints over HTTP: the document, operations on it, undo, the catalogue, and hostile clients."""
+
+import json
+import pathlib
+import sys
+import threading
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+from support import SCENE, View, is_ready  # noqa: E402
+
+RADIUS = "/shapes/ball/sphere/radius"
+
+
+def document(view, after=0):
+    answer = view.get(f"document?after={after}")
+    assert answer.status == 200, answer.body
+    return json.loads(answer.body)
+
+
+def edit(view, *operations, base=None, label="Edit", **more):
+    base = document(view)["version"] if base is None else base
+    answer = view.post("document", {"base": base, "label": label, "operations": list(operations), **more})
+    return answer.status, json.loads(answer.body)
+
+
+def entries(outline):
+    for entry in outline:
+        yield entry
+        yield from entries(entry["children"])
+
+
+class Editing(unittest.TestCase):
+    def test_an_operation_changes_the_text_the_file_and_the_picture(self):
+        with View() as view:
+            before = view.ready()
+            told = document(view)
+            self.assertEqual(told["text"], SCENE)
+            self.assertEqual((told["undo"], told["redo"], told["saved"], told["file"]), (None, None, True, "scene.json"))
+            by_pointer = {entry["pointer"]: entry for entry in entries(told["outline"])}
+            self.assertEqual(by_pointer["/shapes/ball"]["parameters"]["radius"],
+                             {"pointer": RADIUS, "text": "0.5", "keyed": False})
+            self.assertEqual(by_pointer["/tree/under/0"]["kind"], "set")
+            status, answer = edit(view, {"set": RADIUS, "to": "0.375"}, label="Make the balls smaller")
+            self.assertEqual(status, 200)
+            smaller = SCENE.replace('"radius": 0.5', '"radius": 0.375')
+            self.assertEqual(view.file.read_text(encoding="utf-8"), smaller)
+            after = view.wait_for(lambda s: is_ready(s) and s["version"] > before.state["version"])
+            self.assertNotEqual(after.pixels, before.pixels)
+            told = document(view)
+            self.assertGreaterEqual(told["version"], answer["version"])
+            self.assertEqual((told["text"], told["undo"]), (smaller, "Make the balls smaller"))
+            self.assertTrue(told["checked"])
+            self.assertEqual(view.post("undo", {}).status, 200)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+            back = view.wait_for(lambda s: is_ready(s) and s["version"] > after.state["version"])
+            self.assertEqual(back.pixels, before.pixels)
+            self.assertEqual(view.post("redo", {}).status, 200)
+            self.assertEqual(document(view)["text"], smaller)
+
+    def test_a_drag_is_one_step(self):
+        with View() as view:
+            for i in range(5):
+                self.assertEqual(edit(view, {"set": RADIUS, "to": str(0.3 + i / 100)}, merge="drag-1")[0], 200)
+            view.post("undo", {})
+            self.assertEqual(document(view)["text"], SCENE)
+
+    def test_an_invalid_scene_is_kept_with_its_error_and_the_picture_stays(self):
+        with View() as view:
+            before = view.ready()
+            strict, answer = edit(view, {"set": RADIUS, "to": "-1"}, strict=True)
+            self.assertEqual((strict, answer["error"]["line"], answer["error"]["column"]), (400, 3, 42))
+            self.assertEqual(document(view)["text"], SCENE)
+            status, answer = edit(view, {"set": RADIUS, "to": "-1"})
+            self.assertEqual(status, 200)
+            state = view.wait_for(lambda s: s["error"])
+            self.assertEqual(state.state["picture"]["number"], before.state["picture"]["number"])
+            told = document(view)
+            while not told["checked"]:
+                told = document(view, told["version"])
+            self.assertEqual((told["error"]["line"], told["error"]["column"]), (3, 42))
+            self.assertIn('"radius"', told["error"]["message"])
+            self.assertIsNotNone(told["outline"])
+            edit(view, {"text": SCENE[:100]})
+            told = document(view)
+            self.assertIsNone(told["outline"])
+            self.assertEqual(told["error"]["line"], 2)
+            self.assertEqual(edit(view, {"set": RADIUS, "to": "1"})[0], 400)
+            view.post("undo", {})
+            view.post("undo", {})
+            back = view.wait_for(lambda s: is_ready(s) and not s["error"])
+            self.assertEqual(back.pixels, before.pixels)
+
+    def test_an_editor_outside_makes_a_step_and_a_waiting_page_is_told(self):
+        with View() as view:
+            view.ready()
+            version = document(view)["version"]
+            other = SCENE.replace('"radius": 0.5', '"radius": 0.25')
+            threading.Timer(0.3, lambda: view.file.write_text(other, encoding="utf-8")).start()
+            told = document(view, version)
+            self.assertEqual((told["text"], told["undo"]), (other, "Edited outside"))
+
+    def test_a_request_for_an_older_version_is_a_conflict_if_it_may_mean_something_else(self):
+        with View() as view:
+            base = document(view)["version"]
+            self.assertEqual(edit(view, {"remove": "/tree/under/0"}, base=base)[0], 200)
+            status, answer = edit(view, {"remove": "/tree/under/0"}, base=base)
+            self.assertEqual(status, 409)
+            self.assertIn("message", answer["error"])
+            self.assertEqual(edit(view, {"set": "/camera/fov", "to": "31"}, base=base)[0], 200)
+
+    def test_buttons_that_write_into_the_file_are_steps(self):
+        with View() as view:
+            view.ready()
+            view.post("change", {"camera": {"position": [5, 0, 0], "look_at": [0, 0, 0]}})
+            view.wait_for(lambda s: "[5, 0, 0]" in s["camera"])
+            self.assertEqual(view.post("write", {}).status, 200)
+            self.assertEqual(document(view)["undo"], "Write the camera")
+            view.post("change", {"numbers": {RADIUS: 0.375}})
+            view.wait_for(lambda s: s["numbers"])
+            self.assertEqual(view.post("write_numbers", {}).status, 200)
+            self.assertEqual(document(view)["undo"], "Write numbers")
+            view.post("undo", {})
+            view.post("undo", {})
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+
+    def test_nothing_is_saved_until_asked(self):
+        with View(SCENE, "--no-save") as view:
+            edit(view, {"set": RADIUS, "to": "0.25"})
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+            self.assertFalse(document(view)["saved"])
+            self.assertEqual(view.post("save", {}).status, 200)
+            self.assertIn("0.25", view.file.read_text(encoding="utf-8"))
+            self.assertTrue(document(view)["saved"])
+
+    def test_a_scene_that_is_wrong_from_the_start_is_repaired(self):
+        with View('{"version": 1}\n') as view:
+            self.assertIn("phases", view.wait_for(lambda s: s["error"]).state["error"])
+            edit(view, {"text": SCENE})
+            view.ready()
+
+
+class Catalogue(unittest.TestCase):
+    def test_kinds_and_their_pictures(self):
+        with View() as view:
+            catalogue = json.loads(view.get("catalogue").body)
+            kinds = {(kind["type"], kind["kind"]): kind for kind in catalogue["kinds"]}
+            sphere = kinds["field", "sphere"]
+            self.assertEqual(json.loads(sphere["template"]), {"sphere": {"radius": 0.5}})
+            self.assertEqual(sphere["parameters"][0]["control"], "length")
+            if sphere["picture"]:
+                picture = view.get(sphere["picture"])
+                self.assertEqual(picture.headers["Content-Type"], "image/jpeg")
+                self.assertEqual(picture.body[:2], b"\xff\xd8")
+            for name in ("pictures/", "pictures/../README.md", "pictures/nodes/fields/sphere.json", "pictures/%2e%2e/README.md"):
+                self.assertEqual(view.get(name).status, 404, name)
+
+
+class Hostile(unittest.TestCase):
+    def test_wrong_requests_are_refused_and_nothing_changes(self):
+        with View() as view:
+            good = {"base": 1, "label": "x", "operations": [{"set": RADIUS, "to": "1"}]}
+            for change in ({"base": -1}, {"base": "1"}, {"base": 1e300}, {"label": 1}, {"label": "x" * 300}, {"merge": 1},
+                           {"operations": 1}, {"operations": [1]}, {"operations": [{}]}, {"operations": [{"set": RADIUS}]},
+                           {"operations": [{"set": RADIUS, "to": 1}]}, {"operations": [{"set": RADIUS, "to": ""}]},
+                           {"operations": [{"set": RADIUS, "to": "[" * 100000}]}, {"operations": [{"set": "x", "to": "1"}]},
+                           {"operations": [{"remove": ""}]}, {"operations": [{"remove": "/tree/~2"}]},
+                           {"operations": [{"move": "/tree", "to": "/tree/under/0"}]},
+                           {"operations": [{"insert": "/tree/under/99999999999999999999", "value": "1"}]},
+                           {"operations": [{"wrap": "/tree", "in": "{}"}]}, {"operations": [{"set": RADIUS, "to": "1", "more": 1}]},
+                           {"operations": [{"remove": "/tree"}] * 1001}, {"more": 1}):
+                answer = view.post("document", {**good, **change})
+                self.assertEqual(answer.status, 400, (change, answer.body))
+                self.assertIn("message", json.loads(answer.body)["error"])
+            for body in ("", "{", "[]", "null", '{"base": 1}', b"\xff\xfe", "[" * 50000):
+                self.assertEqual(view.post("document", body).status, 400, body[:20])
+            self.assertEqual(document(view)["text"], SCENE)
+            self.assertEqual(view.file.read_text(encoding="utf-8"), SCENE)
+
+    def test_sizes_are_limited(self):
+        with View() as view:
+            self.assertEqual(edit(view, {"text": " " * (5 << 20)})[0], 400)
+            self.assertEqual(view.post("document", " " * (9 << 20)).status, 413)
+            self.assertEqual(view.post("undo", " " * 65537).status, 413)
+            self.assertEqual(edit(view, {"text": SCENE + " " * (3 << 20)})[0], 200)
+            started = time.monotonic()
+            self.assertEqual(edit(view, *[{"set": RADIUS, "to": "1"}] * 900)[0], 400)
+            self.assertLess(time.monotonic() - started, 60)
+
+    def test_only_the_token_and_its_own_pages_edit(self):
+        with View() as view:
+            body = json.dumps({"base": 1, "label": "x", "operations": [{"set": RADIUS, "to": "1"}]})
+            kind = {"Content-Type": "application/json"}
+            self.assertEqual(view.request("POST", "/" + "0" * 32 + "/document", body, kind).status, 403)
+            own = f"/{view.token}/document"
+            self.assertEqual(view.request("POST", own, body, {**kind, "Origin": "http://example.org"}).status, 403)
+            self.assertEqual(view.request("POST", own, body, {"Content-Type": "text/plain"}).status, 415)
+            self.assertEqual(view.get("document", headers={"Origin": "http://example.org"}).status, 403)
+            self.assertEqual(document(view)["text"], SCENE)
+
+    def test_pages_that_edit_at_the_same_time_agree(self):
+        with View() as view:
+            def drag(pointer, values):
+                for value in values:
+                    edit(view, {"set": pointer, "to": str(value)}, merge=pointer)
+            pages = [threading.Thread(target=drag, args=(RADIUS, [0.3 + i / 1000 for i in range(20)])),
+                     threading.Thread(target=drag, args=("/camera/fov", range(20, 40)))]
+            for page in pages:
+                page.start()
+            for page in pages:
+                page.join()
+            scene = json.loads(view.file.read_text(encoding="utf-8"))
+            self.assertEqual((scene["shapes"]["ball"]["sphere"]["radius"], scene["camera"]["fov"]), (0.319, 39))
+            self.assertEqual(json.loads(document(view)["text"]), scene)
+
+
+if __name__ == "__main__":
+    unittest.main()

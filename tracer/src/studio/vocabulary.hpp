@@ -1,0 +1,71 @@
+// What scene files consist of, as data: the kinds of nodes, materials, lights and so on with their parameters. Derived
+// from the lists of parameters that the readers use (scene/reference.hpp), so nothing can be missing here.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace phasetree::tracer::studio {
+
+/// A place for values of a type, such as the fields of a union.
+struct SlotType {
+    std::string type;      ///< "field", "object", "light", …
+    bool is_list = false;  ///< whether it takes a list of them
+};
+
+/// A parameter of a kind.
+struct KindParameter {
+    std::string name;
+    /// How a page edits it: "length", "angle", "number", "integer", "vector", "direction", "point", "color",
+    /// "spectrum", "phase", "phases", "boolean", "choice", "file", "curve", "text" or "json"; "slot" for parameters
+    /// that are made of other kinds.
+    std::string control;
+    std::string unit, help;
+    std::string type;           ///< in words, as in the reference
+    std::string default_value;  ///< JSON text, or empty
+    std::optional<double> low, high;
+    bool low_is_open = false, high_is_open = false;
+    std::vector<std::string> choices;
+    bool is_required = false;
+    bool may_be_keyed = false;     ///< whether it may change with time
+    std::optional<SlotType> slot;  ///< what the parameter is made of, or, for other controls, what it may be instead
+};
+
+/// One of the kinds of a type.
+struct CatalogueKind {
+    std::string name;     ///< its key in scene files
+    std::string chapter;  ///< of the reference, such as "operators-on-fields"
+    std::string type;     ///< "field", "object", …
+    std::string summary, equation, section;
+    std::string picture;  ///< its path relative to scenes, without extension; may be empty
+    /// Whether values are written {"name": {parameters}}. Otherwise they are written {parameters}.
+    bool is_keyed = true;
+    /// Whether the only required parameter, a list or a text, may be written instead of the parameters.
+    bool list_alone = false;
+    std::vector<KindParameter> parameters;
+
+    /// The parameter with this key, in either spelling; null if there is none.
+    const KindParameter* parameter(std::string_view key) const;
+    /// The parameter that may be written instead of the parameters; null if there is none.
+    const KindParameter* lone_parameter() const;
+};
+
+class Vocabulary {
+  public:
+    Vocabulary();
+
+    const std::vector<CatalogueKind>& kinds() const { return kinds_; }
+    /// The kind of a type with this key; null if there is none.
+    const CatalogueKind* find(std::string_view type, std::string_view name) const;
+    /// The kind of a type that has only one and is not written with its name; null if there is none.
+    const CatalogueKind* only(std::string_view type) const;
+
+  private:
+    std::vector<CatalogueKind> kinds_;
+    std::map<std::string, std::map<std::string, std::size_t, std::less<>>, std::less<>> by_type_;
+};
+
+}  // namespace phasetree::tracer::studio

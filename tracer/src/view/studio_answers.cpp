@@ -1,0 +1,80 @@
+#include "view/studio_answers.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "output/error.hpp"
+#include "studio/catalogue.hpp"
+#include "studio/messages.hpp"
+
+namespace phasetree::tracer::view {
+
+namespace {
+
+constexpr const char* type_of_answers = "application/json";
+constexpr std::string_view pictures_path = "pictures/";
+
+void refuse(httplib::Response& response, int status, const SceneError& error, const std::string& file) {
+    response.status = status;
+    response.set_content(studio::written(error, file), type_of_answers);
+}
+
+}  // namespace
+
+StudioAnswers::StudioAnswers(studio::EditedDocument& document)
+    : document_(document),
+      pictures_(studio::folder_of_pictures()),
+      catalogue_(studio::written_catalogue(document.vocabulary(), pictures_)) {}
+
+bool StudioAnswers::is_posted(std::string_view name) {
+    return std::ranges::find(posted, name) != posted.end();
+}
+
+bool StudioAnswers::is_answered(std::string_view name) {
+    return name == "document" || name == "catalogue" || name.starts_with(pictures_path);
+}
+
+bool StudioAnswers::get(std::string_view name, std::uint64_t after, std::chrono::milliseconds most,
+                        httplib::Response& response) const {
+    if (name == "document") {
+        response.set_content(studio::written(*document_.state_after(after, most), document_), type_of_answers);
+        return true;
+    }
+    if (name == "catalogue") {
+        response.set_content(catalogue_, type_of_answers);
+        return true;
+    }
+    if (!pictures_) return false;
+    const auto file = studio::picture_file(document_.vocabulary(), *pictures_, name.substr(pictures_path.size()));
+    if (!file) return false;
+    std::ifstream in(*file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    if (!in.is_open() || bytes.empty()) return false;
+    response.set_content(std::move(bytes), "image/jpeg");
+    return true;
+}
+
+void StudioAnswers::post(std::string_view name, const std::string& body, httplib::Response& response) const {
+    const std::string file = document_.file().string();
+    try {
+        std::uint64_t version = 0;
+        if (name == "document")
+            version = document_.edit(studio::read_edit_request(body));
+        else if (name == "undo")
+            version = document_.undo();
+        else if (name == "redo")
+            version = document_.redo();
+        else
+            version = document_.save();
+        response.set_content(studio::written_version(version), type_of_answers);
+    } catch (const studio::ConflictError& e) {
+        refuse(response, 409, SceneError(file, e.what()), file);
+    } catch (const OutputError& e) {
+        refuse(response, 409, SceneError(file, e.what()), file);
+    } catch (const SceneError& e) {
+        refuse(response, 400, e, file);
+    }
+}
+
+}  // namespace phasetree::tracer::view
