@@ -8,7 +8,6 @@ import os
 import pathlib
 import re
 import sys
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -151,8 +150,7 @@ class Studio(unittest.TestCase, User):
         self.open(GLASSES)
         self.click(self.row("ballsphere"))
         x, y = self.place("[data-parameter=radius] .number")
-        self.step(lambda: self.browser.drag((x, y), (x + 40, y)))
-        time.sleep(0.3)
+        self.drag((x, y), (x + 40, y))
         dragged = self.scene()["shapes"]["ball"]["sphere"]["radius"]
         self.assertGreater(dragged, 0.5)
         self.set_number("radius", "1/4")
@@ -208,7 +206,7 @@ class Studio(unittest.TestCase, User):
         self.assertEqual(self.file(), GLASSES)
         # Dragged by the mouse before the first, and moved back by the keys.
         (x, y), (_, to) = self.place(self.row("Glass sphere")), self.place(self.row("Wood ball"))
-        self.step(lambda: self.browser.drag((x, y), (x, to - 9)))
+        self.drag((x, y), (x, to - 9))
         self.assertEqual(self.tree(), {"over": [sphere, wood, box]})
         self.step(lambda: self.key("ArrowDown", ALT))
         self.assertEqual(self.tree(), {"over": [wood, sphere, box]})
@@ -240,8 +238,7 @@ class Studio(unittest.TestCase, User):
         self.open(GLASSES)
         self.click(self.row("Glass sphere"))
         x, y = self.place("#handles .x circle")
-        self.step(lambda: self.browser.drag((x, y), (x + 60, y)))
-        time.sleep(0.3)
+        self.drag((x, y), (x + 60, y))
         by = self.tree()["over"][2]["set"]["of"]["translate"]["by"]
         self.assertGreater(by[0], -0.8)
         self.assertEqual(by[1:], [0, 0])
@@ -250,8 +247,7 @@ class Studio(unittest.TestCase, User):
         # What has not been moved before is wrapped, in the same step.
         self.click(self.row("Glass box"))
         x, y = self.place("#handles .z circle")
-        self.step(lambda: self.browser.drag((x, y), (x, y - 40)))
-        time.sleep(0.3)
+        self.drag((x, y), (x, y - 40))
         by = self.tree()["over"][1]["set"]["of"]["translate"]["by"]
         self.assertGreater(by[2], 0)
         self.step(lambda: self.click("#undo"))
@@ -265,8 +261,7 @@ class Studio(unittest.TestCase, User):
         box = self.browser.run("document.getElementById('picture').getBoundingClientRect().toJSON()")
         # A quarter of a turn, as the picture shows it: the camera looks along the axis, so the angle decreases anticlockwise.
         right, down = x - (box["x"] + box["width"] / 2), y - (box["y"] + box["height"] / 2)
-        self.step(lambda: self.browser.drag((x, y), (x - right + down, y - down - right)))
-        time.sleep(0.3)
+        self.drag((x, y), (x - right + down, y - down - right))
         self.assertAlmostEqual(self.tree()["over"][1]["set"]["of"]["rotate"]["angle"], -60, delta=2)
         self.step(lambda: self.click("#undo"))
         self.assertEqual(self.file(), rotated)

@@ -1,6 +1,7 @@
 """Somebody who uses the studio by pointer and keyboard."""
 
 import json
+import time
 
 from support import PATIENCE
 
@@ -31,9 +32,19 @@ class User:
 
     def step(self, action):
         """Does something, and waits until the scene has changed by it."""
-        version = self.browser.run("studio.scene.version")
+        self.browser.run("window.textBefore = studio.scene.text")
         action()
-        self.until(f"studio.scene.version > {version} && !studio.scene.isBusy")
+        self.until("studio.scene.text !== window.textBefore && !studio.scene.isBusy")
+
+    def drag(self, start, end):
+        """Drags, and waits until the scene follows no more."""
+        self.step(lambda: self.browser.drag(start, end))
+        last, since = None, time.monotonic()
+        while time.monotonic() - since < 0.5 * PATIENCE:
+            now = self.browser.run("studio.scene.isBusy ? null : studio.scene.text")
+            if now is None or now != last:
+                last, since = now, time.monotonic()
+            time.sleep(0.05)
 
     # ---- by the pointer
 
