@@ -18,7 +18,7 @@ from support import View  # noqa: E402
 # Enough samples to see everything.
 CLEAR = """(() => {
     const status = document.getElementById('status').textContent, samples = /^(\\d+) of/.exec(status);
-    return status.startsWith('Ready') || (samples && Number(samples[1]) >= 8) || !document.getElementById('empty').hidden;
+    return status.startsWith('Ready') || (samples && Number(samples[1]) >= 4) || !document.getElementById('empty').hidden;
 })()"""
 
 

@@ -15,11 +15,11 @@ export function freeName(wanted, taken) {
   return name;
 }
 
-// Replaces the placeholders of phases in a value: the first by the first phase, and so on, so that neighbours differ.
-export function withPhases(value, phases) {
-  let next = 0;
+// Replaces the placeholders of phases in a value by the first two of a list of phases.
+export function withPhases(value, [phase, other = phase]) {
   const filled = (part) => {
-    if (part === "<phase>" || part === "<other phase>") return phases[next++ % phases.length];
+    if (part === "<phase>") return phase;
+    if (part === "<other phase>") return other;
     if (Array.isArray(part)) return part.map(filled);
     if (part === null || typeof part !== "object") return part;
     return Object.fromEntries(Object.entries(part).map(([key, member]) => [key, filled(member)]));
