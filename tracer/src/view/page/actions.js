@@ -150,7 +150,7 @@ export class Actions {
   async replace(entry = this.active) {
     if (!entry || isSettings(entry)) return;
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && kind.kind !== entry.kind && (isNode(entry) ? mayStandAt(entry, kind.type) : kind.type === entry.type));
-    const kind = await this.#chosen(`Replace ${nameOf(entry, this.catalogue).toLowerCase()} by`, kinds);
+    const kind = await this.#chosen(`Replace ${nameOf(entry, this.catalogue).toLowerCase()} with`, kinds);
     const phases = [...entry.phases, ...this.phases.filter((name) => !entry.phases.includes(name))];
     if (kind) await this.run(replaced(entry, kind, phases, this.catalogue));
   }
@@ -208,7 +208,7 @@ export class Actions {
     const node = isNode(entry), fixed = ["camera", "render"].includes(entry.name);
     return [
       {id: "wrap", text: "Wrap: move, rotate, cut, coat …", icon: "wrap", keys: "W", isOff: !node, run: (button) => this.wrapMenu(button, entry)},
-      {id: "replace", text: "Replace by another kind", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
+      {id: "replace", text: "Replace with another kind", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
       {id: "duplicate", text: "Duplicate", icon: "duplicate", keys: "Ctrl+D", isOff: fixed, run: () => this.duplicate()},
       {id: "delete", text: "Delete", icon: "delete", keys: "Delete", isOff: fixed, run: () => this.delete()},
       {id: "more", text: "More", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},

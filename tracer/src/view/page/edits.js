@@ -151,7 +151,7 @@ function placeOfNull(value, at = "") {
 
 // Replaces an entry by one of another kind, which keeps the content if it takes it.
 export function replaced(entry, kind, phases, catalogue) {
-  const label = `Replace by ${kind.title.toLowerCase()}`, select = [entry.pointer];
+  const label = `Replace with ${kind.title.toLowerCase()}`, select = [entry.pointer];
   const child = entry.children.find((c) => isNode(c) && catalogue.slotsFor(kind, c.type).length > 0);
   if (!child) return {label, operations: [{set: entry.pointer, to: written(templateOf(kind, phases))}], select};
   const wrapper = wrapperOf(kind, child.type, phases, catalogue);

@@ -46,6 +46,7 @@ const studio = new Studio({
   camera: () => camera,
   radius: () => state?.radius ?? 1,
   lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  changed: () => showErrors(),
   lost: (error) => { element("status").textContent = error.message; },
 });
 const fit = fitPicture(document.querySelector(".stage"), canvas, element("handles"), () => studio.handles.show());

@@ -18,7 +18,7 @@ const element = (id) => document.getElementById(id);
 export class Studio {
   #catalogue = null;
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre, radius) and lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), changed() and lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -91,6 +91,7 @@ export class Studio {
     element("saved").textContent = scene.saveError ?? (scene.saved ? "Saved" : "Not saved");
     element("save-file").hidden = scene.saved;
     element("empty").hidden = !scene.hasOutline || ["/tree", "section:objects"].some((key) => scene.entry(key));
+    this.view.changed();
     if (!isFirst && !isOwn) this.announcer.say(scene.undo ? `Changed elsewhere: ${scene.undo}` : "Changed elsewhere");
   }
   #selected() {
