@@ -118,6 +118,7 @@ class Studio(unittest.TestCase, User):
         self.assertFalse(self.browser.run("document.getElementById('empty').hidden"))
         build_glass_of_water(self, lambda name: self.shoot(f"studio-{name}"))
         self.assertEqual(self.tree(), GLASS_OF_WATER)
+        self.assertEqual(self.scene()["meshes"][0]["floor"]["height"], -0.78)
         self.assertEqual(list(self.scene()["phases"]), ["glass", "water", "ice"])
         # All the way back, by the key.
         while self.browser.run("studio.scene.undo !== null"):

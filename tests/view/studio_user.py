@@ -130,6 +130,9 @@ def build_glass_of_water(user, taken=lambda name: None):
     # A flat base, in the shape that the wall follows.
     user.click(user.row("Sphere"))
     user.wrap("Cut by a plane, with a round edge")
+    # The table reaches a little into the base.
+    user.click(user.row("Floor"))
+    user.set_number("height", "-0.78")
     user.click(user.row("Glass filled with water"))
     # Only the water ends at its level …
     user.wrap("Cut by a plane")
