@@ -156,7 +156,7 @@ def build_glass_of_water(user, taken=lambda name: None):
     user.wrap("Rotate")
     user.set_number("angle", "25")
     user.wrap("Move")
-    user.set_number("by", "-0.25", "-0.2", "0.13")
+    user.set_number("by", "-0.25", "-0.2", "0.3")
     taken("ice")
 
 
@@ -165,5 +165,5 @@ FILLED = {"thin_shell": {"of": BOWL, "shell": "glass", "inside": "water", "half_
 POURED = {"intersect_shape": {"shape": {"plane": {"offset": 0.25}}, "of": FILLED, "phases": "water"}}
 ICE = {"set": {"phase": "ice", "of": {"rounded_box": {"size": [0.5, 0.5, 0.5], "radius": 0.08}}}}
 GLASS_OF_WATER = {"over": [
-    {"translate": {"by": [-0.25, -0.2, 0.13], "of": {"rotate": {"axis": [0, 0, 1], "angle": 25, "of": ICE}}}},
+    {"translate": {"by": [-0.25, -0.2, 0.3], "of": {"rotate": {"axis": [0, 0, 1], "angle": 25, "of": ICE}}}},
     {"intersect_shape": {"shape": {"plane": {"offset": 0.6}}, "of": POURED}}]}

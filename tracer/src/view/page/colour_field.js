@@ -32,6 +32,10 @@ export class ColourField {
     if (this.input !== document.activeElement) this.input.value = isDefault ? "" : this.#hex;
     this.input.placeholder = this.#hex;
   }
+  showNone() {
+    this.button.style.setProperty("--swatch", "transparent");
+    this.input.placeholder = "none";
+  }
   #type(input) {
     if (!isHex(input.value)) {
       input.value = this.#hex;

@@ -19,7 +19,8 @@ function sortOf(spec, value) {
   switch (spec.control) {
     case "length": case "angle": case "number": case "integer": return isNumber ? "number" : "json";
     case "vector": case "direction": case "point": return value === null || isNumbers(value) ? "vector" : "json";
-    case "color": case "spectrum": return value === null || isColour(value) ? "color" : "json";
+    case "color": return value === null || isColour(value) ? "color" : "json";
+    case "spectrum": return isColour(value) ? "color" : "json";
     case "phase": case "phases": return Array.isArray(value) ? "phases" : "phase";
     case "boolean": return typeof value === "boolean" || value === null ? "boolean" : "json";
     case "choice": return typeof value === "string" || value === null ? "choice" : "json";
@@ -74,6 +75,7 @@ const makers = {
       power.element.hidden = strength === 1;
       power.show(strength);
       field.show(hex, value === null);
+      if (value === null && fallback === null) field.showNone();
     };
     return {element, show};
   },
@@ -81,7 +83,7 @@ const makers = {
     const choice = new Choice(row.title, (value) => row.change(value, null));
     const show = (value, fallback) => {
       const options = row.context.phases().map((name) => ({value: name, text: name, swatch: () => swatchOf(name)}));
-      choice.show(options, value ?? fallback, row.spec.required ? "choose a phase" : "all phases");
+      choice.show(options, value ?? fallback, row.spec.required ? "choose a phase" : row.spec.name === "phases" ? "all phases" : "none");
     };
     return {element: choice.element, show};
   },
