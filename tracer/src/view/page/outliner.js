@@ -5,7 +5,7 @@ import {icon, iconOf} from "./icons.js";
 import {nameOf, remarkOf} from "./names.js";
 import {indexOf, isInList, isSection, listOf, slotOf, typeOfPlace} from "./structure.js";
 import {isWithin, parentOf} from "./pointer.js";
-import {swatchOf} from "./swatch.js";
+import {lookOf, swatchOf} from "./swatch.js";
 
 const pixelsToDrag = 5;
 
@@ -17,7 +17,8 @@ export class Outliner {
   #act;
   #closed = new Set();   // pointers of entries whose children are hidden
   #shown = [];           // entries in the order of the rows
-  #rows = new Map();
+  #rows = new Map();     // by key
+  #looks = new Map();    // texts that are others if the rows look different
   #anchor = null;
 
   // `elements` are those of the panel: tree, search. `act` has menu(entry, row, event), drop(entry, place), rename(entry),
@@ -65,23 +66,36 @@ export class Outliner {
     const hadFocus = tree.contains(document.activeElement);
     this.#shown = [];
     this.#list(this.#scene.outline, 1);
-    this.#rows = new Map(this.#shown.map((entry) => [entry.key, this.#row(entry)]));
-    tree.replaceChildren(...this.#rows.values());
-    tree.scrollTop = scroll;
-    if (this.#shown.length === 0) tree.append(make("p", {class: "faint empty"}, "No matches."));
+    const before = [...this.#rows.values()];
+    this.#rows = new Map(this.#shown.map((entry) => [entry.key, this.#rowOf(entry)]));
+    const rows = [...this.#rows.values()], isSame = rows.length === before.length && rows.every((row, i) => row === before[i]);
+    if (!isSame || rows.length === 0) {
+      tree.replaceChildren(...rows);
+      tree.scrollTop = scroll;
+      if (rows.length === 0) tree.append(make("p", {class: "faint empty"}, "No matches."));
+    }
     this.#showSelection();
-    if (hadFocus) (this.#rows.get(focused) ?? this.#rows.get(this.#selection.active) ?? [...this.#rows.values()][0])?.focus();
+    if (hadFocus && !isSame) (this.#rows.get(focused) ?? this.#rows.get(this.#selection.active) ?? [...this.#rows.values()][0])?.focus();
   }
-  #row(entry) {
-    const hasChildren = (entry.children ?? []).length > 0, open = this.#isOpen(entry);
-    const name = nameOf(entry, this.#catalogue), remark = remarkOf(entry, this.#catalogue);
-    const phases = entry.type === "material" && entry.label ? [entry.label] : entry.phases.slice(0, 4);
+  // The row of an entry: the one that is there if it looks the same, which is quick while a number is dragged.
+  #rowOf(entry) {
+    const parts = {
+      name: nameOf(entry, this.#catalogue), remark: remarkOf(entry, this.#catalogue), hasChildren: entry.children.length > 0, open: this.#isOpen(entry),
+      phases: entry.type === "material" && entry.label ? [entry.label] : entry.phases.slice(0, 4),
+    };
+    const look = JSON.stringify([parts, entry.kind, entry.type, entry.level, parts.phases.map(lookOf)]), old = this.#rows.get(entry.key);
+    if (old && this.#looks.get(entry.key) === look) return old;
+    this.#looks.set(entry.key, look);
+    return this.#row(entry, parts);
+  }
+  #row(entry, {name, remark, hasChildren, open, phases}) {
+    const {key} = entry, now = () => this.#shown.find((one) => one.key === key);
     const row = make("div", {
       class: isSection(entry) ? "row section" : "row", role: "treeitem", tabIndex: -1, "aria-level": entry.level, "data-key": entry.key,
       "aria-expanded": hasChildren ? String(open) : undefined, "aria-selected": "false", title: this.#catalogue.titleOf(entry),
     }, make("span", {class: hasChildren ? "twist" : "twist none", "aria-hidden": "true", onclick: (event) => {
       event.stopPropagation();
-      this.#toggle(entry);
+      this.#toggle(now());
     }}, icon("chevron")), icon(iconOf(entry)), make("span", {class: "name"}, name), remark ? make("span", {class: "remark"}, remark) : null,
       isSection(entry) ? null : make("span", {class: "swatches"}, phases.map(swatchOf)));
     row.style.setProperty("--level", entry.level - 1);
@@ -89,17 +103,17 @@ export class Outliner {
       type: "button", class: "icon-button small", "aria-label": `Add to ${name.toLowerCase()}`, title: `Add to ${name.toLowerCase()}`, tabIndex: -1,
       onclick: (event) => {
         event.stopPropagation();
-        this.#act.add(entry);
+        this.#act.add(now());
       },
     }, icon("add")));
-    row.addEventListener("click", (event) => this.#choose(entry, event));
-    row.addEventListener("dblclick", () => (entry.label && !isSection(entry) ? this.#act.rename(entry) : this.#toggle(entry)));
+    row.addEventListener("click", (event) => this.#choose(now(), event));
+    row.addEventListener("dblclick", () => (entry.label && !isSection(entry) ? this.#act.rename(now()) : this.#toggle(now())));
     row.addEventListener("contextmenu", (event) => {
       event.preventDefault();
-      if (!this.#selection.has(entry.key)) this.#selection.set([entry.key]);
-      this.#act.menu(entry, row);
+      if (!this.#selection.has(key)) this.#selection.set([key]);
+      this.#act.menu(now(), row);
     });
-    row.addEventListener("pointerdown", (event) => this.#grab(entry, row, event));
+    row.addEventListener("pointerdown", (event) => this.#grab(now(), row, event));
     return row;
   }
   #toggle(entry, open = this.#closed.has(entry.key)) {

@@ -12,6 +12,9 @@ export function learn(phases) {
   }]));
 }
 
+// A text that is another one if the swatch looks different.
+export const lookOf = (phase) => JSON.stringify([phase, colours.get(phase)]);
+
 export function swatchOf(phase) {
   const colour = colours.get(phase) ?? {hex: "#808080", isClear: false};
   const swatch = make("span", {class: colour.isClear ? "swatch clear" : "swatch", title: phase, "aria-hidden": "true"});
