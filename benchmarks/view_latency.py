@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
 """The time from an edit to the first picture of it in the live view, for every scene of the gallery.
 
-    python3 benchmarks/view_latency.py [--command build/release/tracer/phasetree] [--edits 7] [SCENE …]
+    python3 benchmarks/view_latency.py [--command build/release/tracer/phasetree] [--edits 7] [--operations] [SCENE …]
 
 An edit is one of the numbers of the tree changed by a hundredth, as by a slider: the scene is read, its cells are built
 and a picture is taken. The time is the one that the page shows; it is the server's, from the request to the picture.
-Of this many edits of a scene the median counts. Numbers that may not be changed, as those on which the tree's validity
+With --operations, an edit is an operation on the text of the file, which is also saved (in a copy of the scene beside
+it). Of this many edits of a scene the median counts. Numbers that may not be changed, as those on which the tree's validity
 depends, are passed over.
 """
 
 import argparse
+import contextlib
 import json
 import pathlib
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 
@@ -41,6 +44,14 @@ class View:
         with urllib.request.urlopen(self.url + "numbers") as answer:
             return json.loads(answer.read())["numbers"]
 
+    def set(self, pointer, value):
+        with urllib.request.urlopen(self.url + "document") as answer:
+            base = json.loads(answer.read())["version"]
+        before = self.state()["version"]
+        body = json.dumps({"base": base, "label": "Edit", "operations": [{"set": pointer, "to": json.dumps(value)}]}).encode()
+        urllib.request.urlopen(urllib.request.Request(self.url + "document", body, {"Content-Type": "application/json"})).close()
+        return before
+
     def change(self, numbers):
         body = json.dumps({"numbers": numbers}).encode()
         request = urllib.request.Request(self.url + "change", body, {"Content-Type": "application/json"})
@@ -58,8 +69,17 @@ class View:
             version = state["version"]
 
 
-def measure(command, scene, edits):
-    with View(command, scene) as view:
+@contextlib.contextmanager
+def copied(scene):
+    """A copy that may be changed, in the same folder because of the files that the scene names."""
+    with tempfile.NamedTemporaryFile(dir=scene.parent, prefix=scene.stem + "-", suffix=".json") as copy:
+        copy.write(scene.read_bytes())
+        copy.flush()
+        yield pathlib.Path(copy.name)
+
+
+def measure(command, scene, edits, is_operation):
+    with copied(scene) if is_operation else contextlib.nullcontext(scene) as file, View(command, file) as view:
         state = view.state()
         while "picture" not in state:
             state = view.state(state["version"])
@@ -71,7 +91,9 @@ def measure(command, scene, edits):
                 break
             time.sleep(0.3)
             number = view.state()["picture"]["number"]
-            seconds = view.first_picture(view.change({n["pointer"]: 1.01 * n["value"]}), number)
+            value = 1.01 * n["value"]
+            version = view.set(n["pointer"], value) if is_operation else view.change({n["pointer"]: value})
+            seconds = view.first_picture(version, number)
             if seconds is not None:
                 times.append(seconds)
         return times
@@ -81,12 +103,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--command", default=str(ROOT / "build/release/tracer/phasetree"))
     parser.add_argument("--edits", type=int, default=7)
+    parser.add_argument("--operations", action="store_true", help="edit the text of a copy of the scene")
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
     scenes = options.scenes or sorted(p for p in (ROOT / "scenes").glob("*.json") if p.name != "scene.schema.json")
     medians = {}
     for scene in scenes:
-        if times := measure(options.command, scene, options.edits):
+        if times := measure(options.command, scene, options.edits, options.operations):
             medians[scene.stem] = statistics.median(times)
             print(f"{scene.stem:32} {medians[scene.stem]:6.2f} s  worst of {len(times)}: {max(times):.2f} s", flush=True)
         else:

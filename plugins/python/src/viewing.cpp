@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <memory>
 #include <thread>
 
 #include "command/viewed_file.hpp"
@@ -27,7 +28,9 @@ class View {
     View(const std::string& file, std::optional<int> width, std::optional<int> samples, int threads, int port)
         : file_{{file, std::nullopt, std::nullopt}, std::nullopt, std::nullopt} {
         view::require_server();
-        const view::ReadScene read = file_.reader();
+        document_ = file_.document(true);
+        const view::ReadScene read = file_.reader(*document_);
+        if (const auto state = document_->state(); state->error) throw *state->error;
         std::promise<std::string> served;
         std::future<std::string> url = served.get_future();
         serving_ = std::thread([=, this, served = std::move(served)]() mutable {
@@ -64,15 +67,18 @@ class View {
                    .threads = available.count(),
                    .samples = samples,
                    .width = width,
-                   .write_camera = [this](const std::string& camera) { file_.write_camera(camera); },
-                   .write_numbers = [this](const view::NumberEdits& numbers) { file_.write_numbers(numbers); }});
-        view::serve(session, {.port = port,
+                   .write_camera = [this](const std::string& camera) { write_camera(*document_, camera); },
+                   .write_numbers = [this](const view::NumberEdits& numbers) { write_numbers(*document_, numbers); }});
+        document_->on_change([&] { session.text_changed(); });
+        view::serve(session, {.document = document_.get(),
+                              .port = port,
                               .may_be_framed = true,
                               .is_over = [this] { return is_over_.load(); },
                               .serving = [&](const std::string& url) { served.set_value(url); }});
     }
 
     ViewedFile file_;
+    std::unique_ptr<studio::EditedDocument> document_;
     std::atomic<bool> is_over_ = false;
     std::string url_;
     std::thread serving_;

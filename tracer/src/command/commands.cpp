@@ -6,6 +6,7 @@ namespace phasetree::tracer {
 
 void add_commands(CLI::App& app, Run& run) {
     add_render(app, run);
+    add_new(app, run);
     add_view(app, run);
     add_merge(app, run);
     add_farm(app, run);

@@ -13,6 +13,7 @@ namespace phasetree::tracer {
 using Run = std::function<int()>;
 
 void add_render(CLI::App& app, Run& run);
+void add_new(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 void add_farm(CLI::App& app, Run& run);

@@ -12,7 +12,6 @@
 #include "command/viewed_file.hpp"
 #include "output/interrupt.hpp"
 #include "render/threads.hpp"
-#include "scene/camera_text.hpp"
 #include "view/server.hpp"
 
 namespace phasetree::tracer {
@@ -57,15 +56,8 @@ int view_scene(const ViewOptions& options) {
         .max_bytes = options.max_bytes,
         .samples = options.samples,
         .width = options.width,
-        .write_camera =
-            [&](const std::string& camera) {
-                document->edit("Write the camera", [&](const Document& text) { return with_camera(text, camera); });
-            },
-        .write_numbers =
-            [&](const view::NumberEdits& numbers) {
-                document->edit("Write numbers",
-                               [&](const Document& text) { return view::with_numbers(text, numbers); });
-            },
+        .write_camera = [&](const std::string& camera) { write_camera(*document, camera); },
+        .write_numbers = [&](const view::NumberEdits& numbers) { write_numbers(*document, numbers); },
         .tell = [](std::string_view text) { say(text); }};
     // Report an initially invalid scene as every other subcommand does.
     const view::ReadScene read = file.reader(*document);

@@ -8,6 +8,7 @@
 #include "command/unplaced_report.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
+#include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
@@ -147,6 +148,14 @@ view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
         files = first->files;
         return std::move(*known);
     };
+}
+
+void write_camera(studio::EditedDocument& document, const std::string& camera) {
+    document.edit("Write the camera", [&](const Document& text) { return with_camera(text, camera); });
+}
+
+void write_numbers(studio::EditedDocument& document, const view::NumberEdits& numbers) {
+    document.edit("Write numbers", [&](const Document& text) { return view::with_numbers(text, numbers); });
 }
 
 }  // namespace phasetree::tracer

@@ -22,4 +22,8 @@ struct ViewedFile {
     view::ReadScene reader(studio::EditedDocument& document) const;
 };
 
+// Write the change into the document and its file, as a step that can be undone. Throw SceneError and OutputError.
+void write_camera(studio::EditedDocument&, const std::string& camera);
+void write_numbers(studio::EditedDocument&, const view::NumberEdits&);
+
 }  // namespace phasetree::tracer

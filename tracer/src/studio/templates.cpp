@@ -134,8 +134,8 @@ constexpr Preferred preferred[] = {
     {"particles", "phases", "[\"<phase>\"]"},
     {"particles", "centres", "[[-0.3, 0, 0], [0.3, 0, 0]]"},
     {"particles", "radii", "[0.25]"},
-    {"labels", "phases", "[\"<phase>\"]"},
-    {"labels", "spacing", "[0.5, 0.5, 0.5]"},
+    {"labels", "spacing", "[0.1, 0.1, 0.1]"},
+    {"voxels", "spacing", "[0.1, 0.1, 0.1]"},  // for images; OpenVDB files have their own
     // Materials and textures.
     {"clear", "ior", "1.5"},
     {"conductor", "metal", "\"gold\""},

@@ -21,7 +21,7 @@ std::string key_text(const Document& document, Value member) {
 // Prints the values of a document.
 class Printer {
   public:
-    // `instead_of_null` is printed in the place of null, if given.
+    // `instead_of_null` is printed instead of null, if given.
     Printer(const Document& document, const Place& place, std::optional<std::string> instead_of_null)
         : document_(document), place_(place), instead_of_null_(std::move(instead_of_null)) {}
 
@@ -148,7 +148,7 @@ std::string wrapped_text(const Document& around, std::string_view piece, const P
     const Span span = span_of(around, around.root());
     const std::string_view text = span.of(around.text());
     const bool is_raw = has_comments(text);
-    // Print a mark in the place of the piece to see where it goes.
+    // Print a mark instead of the piece to see where it goes.
     const std::string mark = "\x01";
     std::string result;
     if (is_raw) {

@@ -27,7 +27,7 @@ namespace {
 
 // How long a request waits for the next picture, and how many requests may wait. Others get the current state at once.
 constexpr std::chrono::milliseconds longest_wait{5000};
-constexpr int most_waiting = 6;
+constexpr int most_waiting = 8;
 
 constexpr const char* plain = "text/plain; charset=utf-8";
 constexpr const char* json = "application/json";
