@@ -21,7 +21,7 @@ export class Handles {
   #entry = null;
   #drag = null;
 
-  // `view` has camera() and canvas; `failed(error)` hears what the server rejects.
+  // `view` has camera() and canvas; `failed(error)` is called when the server rejects a step.
   constructor(svg, {view, scene, failed}) {
     this.#svg = svg;
     this.#view = view;

@@ -3,14 +3,14 @@ import {followed, framed, membersOf, moved, turned, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
 import {icon} from "./icons.js";
-import {dressSelect} from "./menu.js";
+import {replaceSelect} from "./menu.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
 import {Changes, ask, askFile, follow, writeCamera} from "./server.js";
 import {fitPicture} from "./stage.js";
 import {Studio} from "./studio.js";
-import {learn} from "./swatch.js";
+import {setPhases} from "./swatch.js";
 import {Tabs} from "./tabs.js";
 import {Time} from "./time.js";
 
@@ -38,7 +38,7 @@ const time = new Time({
 }, (change) => changes.make(change));
 
 for (const button of document.querySelectorAll("[data-icon]")) button.prepend(icon(button.dataset.icon));
-const lists = {layer: dressSelect(element("layer")), direction: dressSelect(element("cut-direction"))};
+const lists = {layer: replaceSelect(element("layer")), direction: replaceSelect(element("cut-direction"))};
 const tabs = new Tabs(element("tabs"));
 const studio = new Studio({
   canvas,
@@ -129,7 +129,7 @@ function showPhases(shown) {
   const text = JSON.stringify(shown.map(({name, kind, color}) => [name, kind, color]));
   if (text === seenPhases) return;
   seenPhases = text;
-  learn(shown);
+  setPhases(shown);
   studio.outliner.show();
   studio.inspector.show();
 }

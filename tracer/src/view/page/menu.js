@@ -107,8 +107,8 @@ export class Choice {
   }
 }
 
-// Shows a <select> as a Choice, which keeps its keyboard and its look the same as every other list.
-export function dressSelect(select) {
+// Shows a Choice in place of a <select>, which keeps the value: all lists look and work the same.
+export function replaceSelect(select) {
   const label = select.getAttribute("aria-label") ?? document.querySelector(`label[for="${select.id}"]`)?.textContent.trim() ?? "";
   const choice = new Choice(label, (value) => {
     select.value = value;
@@ -117,7 +117,7 @@ export function dressSelect(select) {
   });
   choice.element.id = newId("choice");
   const show = () => choice.show([...select.options].map((o) => ({value: o.value, text: o.text})), select.value);
-  select.classList.add("undressed");
+  select.classList.add("replaced");
   select.tabIndex = -1;
   select.setAttribute("aria-hidden", "true");
   select.after(choice.element);

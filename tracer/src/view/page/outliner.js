@@ -203,7 +203,7 @@ export class Outliner {
       for (const other of this.#rows.values()) other.classList.remove("drop-into");
       if (isDragged && place && now.type === "pointerup") this.#act.drop(entry, place.pointer);
     };
-    // The row itself does not hear a fast pointer, which is over another one at once.
+    // Not the row: a fast pointer is over another one before its first event.
     document.addEventListener("pointermove", move);
     document.addEventListener("pointerup", end);
     document.addEventListener("pointercancel", end);

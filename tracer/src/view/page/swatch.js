@@ -4,8 +4,8 @@ import {make} from "./dom.js";
 
 let colours = new Map(); // by name of the phase: {hex, isClear}
 
-// From the phases of the state that the server sends.
-export function learn(phases) {
+// `phases` are those of the state that the server sends.
+export function setPhases(phases) {
   colours = new Map(phases.map((phase) => [phase.name, {
     hex: hexOf(phase.color ?? (phase.kind === "clear" ? [0.75, 0.87, 0.95] : [0.5, 0.5, 0.5])),
     isClear: phase.kind === "clear",
