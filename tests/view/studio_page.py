@@ -290,6 +290,23 @@ class Studio(unittest.TestCase, User):
         self.until("!document.querySelector('#text-lines .wrong') && studio.scene.text.includes('0.25')")
         self.assertEqual(self.file(), smaller)
 
+    def test_names_in_the_text_are_completed(self):
+        self.open(GLASSES)
+        self.key("e", CONTROL)
+        self.until("!document.getElementById('drawer').hidden")
+        at = GLASSES.index('"sphere": {"radius": 0.5') + len('"sphere": {')
+        self.browser.run(f"document.getElementById('text').setSelectionRange({at}, {at} + '\"radius\"'.length)")
+        self.type('"ra')
+        self.until("document.querySelector('#text-names .chip')?.textContent.startsWith('radius')")
+        self.shoot("studio-names")
+        self.browser.press("Tab")
+        self.assertEqual(self.browser.run("document.getElementById('text').value"), GLASSES)
+        # The name of a kind, in an empty object.
+        self.assertIn("rounded_box", self.browser.run("""(async () => {
+            const {completions} = await import("./completion.js"), text = '{"tree": {"set": {"phase": "glass", "of": {"round';
+            return completions(text, text.length, studio.actions.catalogue).names;
+        })()"""))
+
     def test_changes_from_elsewhere_are_shown_and_said(self):
         self.open(GLASSES)
         version = self.browser.run("studio.scene.version")

@@ -38,7 +38,7 @@ export class Studio {
     }});
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
     this.handles = new Handles(element("handles"), {view, scene: this.scene, failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true})});
-    this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem")}, this.scene);
+    this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem"), names: element("text-names")}, this.scene);
     this.scene.addEventListener("change", (event) => this.#changed(event.detail));
     this.selection.addEventListener("change", () => this.#selected());
     this.#connectButtons();
@@ -54,7 +54,7 @@ export class Studio {
       return;
     }
     this.scene.follow((error) => this.view.lost(error));
-    this.actions.catalogue = this.#catalogue;
+    this.actions.catalogue = this.text.catalogue = this.#catalogue;
     this.outliner.use(this.#catalogue);
     this.inspector.use(this.#catalogue);
   }

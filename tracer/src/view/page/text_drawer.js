@@ -1,7 +1,7 @@
 // The scene's text, with line numbers. What is typed becomes part of the scene after a short pause, and a mistake is
 // marked at its line; the picture stays as it was until the text is right again.
-import {newId} from "./dom.js";
-import {make} from "./dom.js";
+import {completions} from "./completion.js";
+import {make, newId} from "./dom.js";
 
 const pauseOfTyping = 500; // milliseconds
 
@@ -11,8 +11,10 @@ export class TextDrawer {
   #timer = null;
   #gesture = null;
   #isTyped = false;
+  #proposed = null; // {typed, names}
+  catalogue = null;
 
-  // `elements` are those of the drawer: drawer, area, lines, problem.
+  // `elements` are those of the drawer: drawer, area, lines, problem, names.
   constructor(elements, scene) {
     this.#elements = elements;
     this.#scene = scene;
@@ -21,21 +23,25 @@ export class TextDrawer {
       this.#isTyped = true;
       this.#gesture ??= newId("text");
       this.#number();
+      this.#propose();
       clearTimeout(this.#timer);
       this.#timer = setTimeout(() => this.#send(), pauseOfTyping);
     });
     area.addEventListener("blur", () => {
       if (this.#isTyped) this.#send();
       this.#gesture = null;
+      this.#propose(false);
     });
     area.addEventListener("scroll", () => { lines.scrollTop = area.scrollTop; });
     area.addEventListener("keydown", (event) => {
       if (event.key === "Tab" && !event.shiftKey) {
         event.preventDefault();
+        if (this.#proposed?.names.length > 0) return this.#complete(this.#proposed.names[0]);
         area.setRangeText("  ", area.selectionStart, area.selectionEnd, "end");
         area.dispatchEvent(new Event("input"));
       }
-      if (event.key === "Escape") this.toggle(false);
+      if (event.key === "Escape" && this.#proposed?.names.length > 0) this.#propose(false);
+      else if (event.key === "Escape") this.toggle(false);
     });
   }
   get isOpen() {
@@ -48,6 +54,25 @@ export class TextDrawer {
       this.#elements.area.focus();
     }
     return open;
+  }
+  // Shows the names that may be meant; Tab takes the first.
+  #propose(isOn = true) {
+    const {area, names} = this.#elements;
+    this.#proposed = isOn && this.catalogue ? completions(area.value, area.selectionStart, this.catalogue) : null;
+    const found = this.#proposed?.names ?? [];
+    names.hidden = found.length === 0;
+    names.replaceChildren(...found.map((name, i) => make("button", {
+      type: "button", class: "chip", tabIndex: -1, onpointerdown: (event) => {
+        event.preventDefault();
+        this.#complete(name);
+      },
+    }, name, i === 0 ? make("kbd", {}, "Tab") : null)));
+  }
+  #complete(name) {
+    const {area} = this.#elements, at = area.selectionStart;
+    const hasEnd = area.value[at] === '"';
+    area.setRangeText(`${name}"`, at - this.#proposed.typed.length, hasEnd ? at + 1 : at, "end");
+    area.dispatchEvent(new Event("input"));
   }
   async #send() {
     clearTimeout(this.#timer);
