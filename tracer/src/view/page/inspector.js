@@ -3,7 +3,7 @@
 import {plainText, summaryOf} from "./catalogue.js";
 import {make} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
-import {nameOf} from "./names.js";
+import {isPlacing, nameOf} from "./names.js";
 import {ParameterRow, titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
 import {shortMessage} from "./server.js";
@@ -19,7 +19,7 @@ class Section {
     this.pointer = entry.pointer;
     this.kind = entry.kind;
     const {catalogue, context} = inspector;
-    const title = kind?.title ?? nameOf(entry, catalogue);
+    const title = isPlacing(entry) ? nameOf(entry, catalogue) : kind?.title ?? nameOf(entry, catalogue);
     this.element = make("section", {class: "node", "aria-label": title});
     if (!isFirst) this.element.append(make("h3", {}, make("button", {
       type: "button", class: "node-title", title: "Select only this", onclick: () => inspector.select(entry.pointer),

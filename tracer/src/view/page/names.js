@@ -4,6 +4,7 @@ const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 const parts = {
   translate: "Move", rotate: "Rotate", scale: "Scale", stretch: "Stretch", affine: "Transform",
 };
+export const isPlacing = (entry) => entry.kind in parts;
 const sections = {
   tree: "Object", shapes: "Reusable shapes", phases: "Materials", lights: "Lights", meshes: "Surroundings", camera: "Camera",
   render: "Render settings", expect: "Statements", objects: "Objects", groups: "Groups", instances: "Instances",
