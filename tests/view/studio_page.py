@@ -215,6 +215,10 @@ class Studio(unittest.TestCase, User):
         self.assertEqual(len(self.tree()["over"]), 4)
         self.step(lambda: self.key("Delete"))
         self.assertEqual(self.tree(), {"over": [wood, sphere, box]})
+        # Forwards, where the list is shorter once the row is out of it.
+        (x, y), (_, to) = self.place(self.row("Wood ball")), self.place(self.row("Glass box"))
+        self.drag((x, y), (x, to - 9))
+        self.assertEqual(self.tree(), {"over": [sphere, wood, box]})
         self.assertIn("// on the right", self.file())
         self.assertIn('"ior": 1.50', self.file())
 
