@@ -22,8 +22,8 @@ GLASSES = f"""{{
   "version": 1,
   // Two phases.
   "phases": {{
-    "glass": {{"clear": {{"ior": 1.50}}}},
-    "wood": {{"diffuse": {{"color": [0.6, 0.3, 0.1]}}}}
+    "glass": {{"clear": {{"ior": 1.50}}, "density": 2500}},
+    "wood": {{"diffuse": {{"color": [0.6, 0.3, 0.1]}}, "density": 700}}
   }},
   "shapes": {{"ball": {{"sphere": {{"radius": 0.5}}}}}},
   "tree": {{"over": [

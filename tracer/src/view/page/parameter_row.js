@@ -13,6 +13,12 @@ import {swatchOf} from "./swatch.js";
 const isNumbers = (value, n) => Array.isArray(value) && (n === undefined || value.length === n) && value.every((x) => typeof x === "number");
 const isColour = (value) => isNumbers(value, 3) || (typeof value === "string" && value.startsWith("#"));
 
+// Whether a default is of the sort that a control shows; others are only mentioned in the help.
+const isShown = {
+  number: (value) => typeof value === "number", vector: (value) => isNumbers(value), color: isColour, boolean: (value) => typeof value === "boolean",
+  text: (value) => typeof value === "string",
+};
+
 // The sort of control for a parameter with a value, or null if it has none.
 function sortOf(spec, value) {
   const isNumber = value === null || typeof value === "number";
@@ -197,7 +203,7 @@ export class ParameterRow {
     } catch {
       this.value = text;
     }
-    const sort = parameter?.keyed ? "json" : sortOf(this.spec, this.value ?? this.fallback);
+    const sort = parameter?.keyed ? "json" : sortOf(this.spec, this.value);
     if (sort !== this.#sort) {
       this.#sort = sort;
       this.#control = makers[sort](this);
@@ -205,7 +211,8 @@ export class ParameterRow {
       this.place.replaceChildren(this.#control.element);
       this.element.classList.toggle("wide", sort === "vector" || sort === "json" || sort === "phases");
     }
-    this.#control.show(this.value, this.fallback, text);
+    const fits = isShown[sort] ?? (() => true);
+    this.#control.show(this.value, fits(this.fallback) ? this.fallback : null, text);
     this.resetButton.hidden = parameter === undefined || Boolean(this.spec.required);
     this.element.classList.toggle("present", parameter !== undefined);
   }
