@@ -480,7 +480,7 @@ TEST_CASE("what is impossible is said with its place") {
     const std::string text = "{\n  \"radius\": 1, \"of\": [1]\n}";
     CHECK(error_of(text, SetValue{"/raduis/x", "1"}).find("<text>:1:1: there is no \"raduis\" here") == 0);
     CHECK(error_of(text, SetValue{"/raduis/x", "1"}).find("did you mean \"radius\"?") != std::string::npos);
-    CHECK(error_of(text, RemoveValue{"/of/1"}).find("<text>:2:22: the list has 1 items") == 0);
+    CHECK(error_of(text, RemoveValue{"/of/1"}).find("<text>:2:22: the list has 1 item,") == 0);
     CHECK(error_of(text, InsertValue{"/radius", "1"}).find("<text>:2:3: there is a \"radius\" already") == 0);
     CHECK(error_of(text, InsertValue{"/of/01", "1"}) != "");
     CHECK(error_of(text, InsertValue{"/of/18446744073709551616", "1"}) != "");

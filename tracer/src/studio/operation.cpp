@@ -245,8 +245,8 @@ std::string with_inserted(const Document& document, const std::string& pointer, 
         throw document.error(parent, fmt::format("nothing can be inserted into {}", phasetree::name_of(parent.kind())));
     const std::optional<std::size_t> index = token == "-" ? std::optional(parent.size()) : index_of(token);
     if (!index || *index > parent.size())
-        throw document.error(parent,
-                             fmt::format("\"{}\" is not a place in this list of {} items", token, parent.size()));
+        throw document.error(parent, fmt::format("\"{}\" is not a place in this list, which has {}", token,
+                                                 count_of_items(parent.size())));
     return Insertion(document, parent, "").before(*index, write);
 }
 

@@ -59,6 +59,10 @@ std::optional<std::size_t> index_of(std::string_view token) {
     return index;
 }
 
+std::string count_of_items(std::size_t count) {
+    return fmt::format("{} item{}", count, count == 1 ? "" : "s");
+}
+
 std::optional<Value> child_of(Value value, std::string_view token) {
     if (value.is_object()) return value.find(token);
     if (!value.is_array()) return std::nullopt;
@@ -82,8 +86,8 @@ Value value_at(const Document& document, std::string_view pointer) {
                                  closest(token, std::span<const std::string_view>(keys)));
         }
         if (value.is_array())
-            throw document.error(value,
-                                 fmt::format("the list has {} items, so nothing is at {}", value.size(), pointer));
+            throw document.error(
+                value, fmt::format("the list has {}, so nothing is at {}", count_of_items(value.size()), pointer));
         throw document.error(value,
                              fmt::format("{} has no parts, so nothing is at {}", name_of(value.kind()), pointer));
     }

@@ -25,6 +25,9 @@ std::string pointer_of(const PointerTokens& tokens);
 /// The index that a token stands for: digits without leading zeros. nullopt for anything else.
 std::optional<std::size_t> index_of(std::string_view token);
 
+/// "1 item", "3 items"
+std::string count_of_items(std::size_t count);
+
 /// The child of a value; nullopt if there is none.
 std::optional<Value> child_of(Value value, std::string_view token);
 
