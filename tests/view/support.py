@@ -45,9 +45,11 @@ class Answer:
 class View:
     """`phasetree view` of a scene's text in a folder of its own."""
 
+    name = "scene.json"
+
     def __init__(self, text=SCENE, *options):
         self.folder = tempfile.TemporaryDirectory()
-        self.file = pathlib.Path(self.folder.name) / "scene.json"
+        self.file = pathlib.Path(self.folder.name) / self.name
         self.file.write_text(text, encoding="utf-8")
         self.prepare()
         self.errors = open(pathlib.Path(self.folder.name) / "errors", "w+", encoding="utf-8")  # noqa: SIM115

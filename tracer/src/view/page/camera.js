@@ -89,3 +89,25 @@ export function zoomed(camera, centre, radius, factor) {
     next.focus_distance = Math.max(members.focus_distance - distance * (1 - factor), 0.01 * radius);
   return withMembers(camera, next);
 }
+
+export const canProject = (camera) =>
+  camera !== null && Array.isArray(membersOf(camera).position) && Array.isArray(membersOf(camera).look_at);
+
+// Where a point of the scene is in the picture, as shares of its width and height from the upper left, how high the
+// picture is at that depth in scene units, and the picture's directions; null behind the camera.
+export function projected(camera, aspect, p) {
+  const members = membersOf(camera), axes = frame(members), seen = sub(p, members.position);
+  const depth = dot(seen, axes.forward);
+  if (!isOrthographic(camera) && depth <= 1e-6) return null;
+  const height = heightAt(camera, depth);
+  return {x: 0.5 + dot(seen, axes.right) / (height * aspect), y: 0.5 - dot(seen, axes.up) / height, height, axes};
+}
+
+// The camera that looks at a ball from the same direction.
+export function framed(camera, centre, radius) {
+  const members = membersOf(camera), axes = frame(members);
+  const distance = isOrthographic(camera) ? length(sub(members.look_at, members.position))
+    : 1.6 * radius / Math.tan((members.fov ?? 40) * Math.PI / 360);
+  const next = {position: sub(centre, times(axes.forward, distance)), look_at: centre};
+  return withMembers(camera, isOrthographic(camera) ? {...next, height: 3.2 * radius} : next);
+}

@@ -1,12 +1,17 @@
 // The page: shows the server's state in the elements, and sends the user's actions to the server.
-import {followed, membersOf, moved, turned, zoomed} from "./camera.js";
+import {followed, framed, membersOf, moved, turned, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
-import {Numbers} from "./numbers.js";
+import {icon} from "./icons.js";
+import {replaceSelect} from "./menu.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
-import {Changes, ask, askFile, askNumbers, follow, writeCamera, writeNumbers} from "./server.js";
+import {Changes, ask, askFile, follow, writeCamera} from "./server.js";
+import {fitPicture} from "./stage.js";
+import {Studio} from "./studio.js";
+import {setPhases} from "./swatch.js";
+import {Tabs} from "./tabs.js";
 import {Time} from "./time.js";
 
 const element = (id) => document.getElementById(id);
@@ -32,11 +37,19 @@ const time = new Time({
   play: element("time-play"),
 }, (change) => changes.make(change));
 
-const numbers = new Numbers({
-  filter: element("number-filter"),
-  rows: element("number-rows"),
-  said: element("numbers-said"),
-}, (change) => changes.make(change));
+for (const button of document.querySelectorAll("[data-icon]")) button.prepend(icon(button.dataset.icon));
+const lists = {layer: replaceSelect(element("layer")), direction: replaceSelect(element("cut-direction"))};
+const tabs = new Tabs(element("tabs"));
+const studio = new Studio({
+  canvas,
+  tabs,
+  camera: () => camera,
+  radius: () => state?.radius ?? 1,
+  lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  changed: () => showErrors(),
+  lost: (error) => { element("status").textContent = error.message; },
+});
+const fit = fitPicture(document.querySelector(".stage"), canvas, element("handles"), () => studio.handles.show());
 
 function showText(id, text) {
   const place = element(id);
@@ -46,7 +59,8 @@ function showText(id, text) {
 }
 
 function showErrors() {
-  const all = new Set([state?.error, refusal]);
+  // The empty scene says so itself.
+  const all = new Set([element("empty").hidden ? state?.error : "", refusal]);
   showText("error", [...all].filter(Boolean).join("\n\n"));
 }
 
@@ -76,7 +90,8 @@ function showLayers(state) {
   const known = [...select.options].slice(1).map((option) => option.value);
   if (known.join("\n") !== state.layers.join("\n"))
     select.replaceChildren(select.options[0], ...state.layers.map((layer) => new Option(layer.replaceAll("_", " "), layer)));
-  if (select !== document.activeElement) select.value = state.layer;
+  select.value = state.layer;
+  lists.layer.refresh();
 }
 
 function showExposure(stops) {
@@ -86,18 +101,20 @@ function showExposure(stops) {
 
 function told(next, pixels) {
   state = next;
-  element("scene").textContent = state.scene || "phasetree view";
+  element("scene").textContent = state.scene.replace(/^.*\//, "") || "phasetree view";
+  element("scene").title = state.scene;
   element("status").textContent = statusOf(state);
   showErrors();
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
+  if (pixels) fit();
   // Changes just made here are newer than the server's state.
   if (changes.arePending || state.version < changes.version) return;
-  phases.show(state.phases);
+  showPhases(state.phases);
   cut.show(state);
+  lists.direction.refresh();
   time.show(state);
   showLayers(state);
-  numbers.show(state, askNumbers).catch((error) => refuse(error.message));
   if (document.activeElement !== exposure) showExposure(state.exposure);
   if (state.camera) {
     camera = JSON.parse(state.camera);
@@ -105,19 +122,37 @@ function told(next, pixels) {
   }
 }
 
+// The swatches of the outline have the colours of the phases.
+let seenPhases = "";
+function showPhases(shown) {
+  phases.show(shown);
+  const text = JSON.stringify(shown.map(({name, kind, color}) => [name, kind, color]));
+  if (text === seenPhases) return;
+  seenPhases = text;
+  setPhases(shown);
+  studio.outliner.show();
+  studio.inspector.show();
+}
+
 function showCamera(text) {
   const area = element("camera");
   const said = `"camera": ${text}`;
   if (area.value !== said) area.value = said;
+  studio.handles.show();
 }
 
 function look(next) {
   camera = next;
+  studio.handles.show();
   changes.make({camera});
 }
 
-const askAt = (x, y) => attempt(async () => {
-  showPoint(element("point"), await ask(x, y), (name, pointer) => numbers.showNode(name, pointer));
+// What is at a point is shown, and selected unless only the point is of interest.
+const askAt = (x, y, selects) => attempt(async () => {
+  const told = await ask(x, y);
+  showPoint(element("point"), told, (pointer) => studio.selectNode(pointer));
+  if (selects) studio.selectNodes(told.path);
+  else tabs.show("point");
 });
 
 // Downloads the file by script and shows errors here. With an ordinary link, the browser would save the error message
@@ -142,8 +177,8 @@ const act = {
   reset: () => changes.make({camera: null}),
   cut: (right, up) => camera && cut.isOn && cut.move(followed(camera, state.centre, cut.normal, right, up)),
   stepCut: (direction) => cut.move(0.02 * direction * state.radius),
-  ask: (event) => askAt(...place(canvas, event)),
-  askMiddle: () => askAt(canvas.width / 2, canvas.height / 2),
+  ask: (event) => askAt(...place(canvas, event), !event.altKey),
+  askMiddle: () => askAt(canvas.width / 2, canvas.height / 2, false),
 };
 
 const {step} = listen(canvas, act);
@@ -166,12 +201,8 @@ element("copy").addEventListener("click", async () => {
   }
   element("copied").textContent = "Copied.";
 });
-element("numbers-reset").addEventListener("click", () => numbers.reset());
-element("numbers-write").addEventListener("click", () => attempt(async () => {
-  await writeNumbers();
-  element("numbers-said").textContent = "Written.";
-}));
 element("write").addEventListener("click", () => attempt(async () => {
+  studio.scene.isChangedHere = true;
   await writeCamera();
   element("copied").textContent = "Written.";
 }));
@@ -184,3 +215,5 @@ element("cut-facing").addEventListener("click", () => {
 });
 
 follow(told, (error) => { element("status").textContent = error.message; });
+window.studio = studio; // for the browser's console and for tests
+studio.start().catch((error) => refuse(error.message));

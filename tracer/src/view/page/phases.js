@@ -1,6 +1,7 @@
 // The list of phases: a checkbox for each, and the editable properties of its material. The elements are recreated only
 // if the phases or the kinds of their materials change, so that the focus is kept.
 import {hexOf} from "./colour.js";
+import {ColourField} from "./colour_field.js";
 
 const usualIor = 1.5, usualRoughness = 0;
 
@@ -17,8 +18,8 @@ function labelled(text, type, members) {
   return {label, input};
 }
 
+const colourOf = (phase) => hexOf(phase.look.color ?? phase.color ?? [0.5, 0.5, 0.5]);
 const valuesOf = {
-  color: (phase) => phase.look.color ? hexOf(phase.look.color) : hexOf(phase.color ?? [0.5, 0.5, 0.5]),
   ior: (phase) => phase.ior ?? usualIor,
   roughness: (phase) => phase.roughness ?? usualRoughness,
 };
@@ -26,6 +27,7 @@ const valuesOf = {
 class Row {
   #phase;
   #inputs = {};
+  #colour = null;
 
   constructor(phase, actions) {
     this.element = document.createElement("div");
@@ -47,11 +49,14 @@ class Row {
     const parts = [clear.label];
     const add = (member, text, type, members) => {
       const {label, input} = labelled(text, type, members);
-      input.addEventListener("input", () => edit({[member]: type === "color" ? input.value : Number(input.value)}));
+      input.addEventListener("input", () => edit({[member]: Number(input.value)}));
       this.#inputs[member] = input;
       parts.push(label);
     };
-    if (phase.has.color) add("color", "Colour", "color", {});
+    if (phase.has.color) {
+      this.#colour = new ColourField(`Colour of ${phase.name}`, (hex) => edit({color: hex}));
+      parts.push(this.#colour.element);
+    }
     if (phase.has.ior) add("ior", "Index", "range", {min: 1, max: 2.5, step: 0.01});
     if (phase.has.roughness) add("roughness", "Roughness", "range", {min: 0, max: 1, step: 0.01});
     const reset = document.createElement("button");
@@ -70,6 +75,7 @@ class Row {
     this.#inputs.clear.checked = phase.kind === "clear";
     // A phase that is clear in the file stays clear.
     this.#inputs.clear.disabled = phase.kind_in_file === "clear";
+    this.#colour?.show(colourOf(phase));
     for (const [member, value] of Object.entries(valuesOf)) {
       const input = this.#inputs[member];
       if (!input) continue;

@@ -6,12 +6,13 @@ function table(caption, heads, rows) {
   const made = document.createElement("table");
   made.createCaption().textContent = caption;
   const head = made.createTHead().insertRow();
-  for (const text of heads) {
+  heads.forEach((text, i) => {
     const cell = document.createElement("th");
     cell.scope = "col";
+    if (typeof rows[0]?.[i] === "number") cell.className = "number";
     cell.textContent = text;
     head.append(cell);
-  }
+  });
   const body = made.createTBody();
   for (const row of rows) {
     const line = body.insertRow();
@@ -24,7 +25,7 @@ function table(caption, heads, rows) {
   return made;
 }
 
-// The nodes that produced the surface, as buttons that show their numbers. Nodes added by the view itself are in no file.
+// The nodes that produced the surface, as buttons that select them. Nodes added by the view itself are in no file.
 function nodes(path, showNode) {
   const first = path.findIndex((node) => node.line > 0);
   const list = document.createElement("ol");
@@ -32,8 +33,8 @@ function nodes(path, showNode) {
   for (const node of first < 0 ? path.slice(-1) : path.slice(first)) {
     const item = document.createElement("li"), button = document.createElement("button");
     const place = node.line > 0 ? ` ${node.file.replace(/^.*\//, "")}:${node.line}:${node.column}` : " added by the viewer";
-    Object.assign(button, {type: "button", textContent: node.name, disabled: node.pointer === ""});
-    button.addEventListener("click", () => showNode(`${node.name},${place}`, node.pointer));
+    Object.assign(button, {type: "button", textContent: node.name.replaceAll("_", " "), disabled: node.pointer === ""});
+    button.addEventListener("click", () => showNode(node.pointer));
     item.append(button, place);
     list.append(item);
   }

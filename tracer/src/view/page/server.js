@@ -10,7 +10,7 @@ async function answerTo(address, request) {
   } catch {
     throw new Error(noAnswer);
   }
-  if (!answer.ok) throw new Error((await answer.text()).trim());
+  if (!answer.ok) throw Object.assign(new Error((await answer.text()).trim()), {status: answer.status});
   return answer;
 }
 
@@ -24,10 +24,45 @@ async function post(name, body) {
 }
 
 export const ask = (x, y) => post("ask", {x, y});
-export const askNumbers = async () => (await answerTo("numbers")).json();
 export const askFile = async (name) => (await answerTo(name)).blob();
-export const writeNumbers = () => post("write_numbers", {});
 export const writeCamera = () => post("write", {});
+export const askCatalogue = async () => (await answerTo("catalogue")).json();
+export const askDocument = async (after) => (await answerTo(`document?after=${after}`)).json();
+
+// The server rejected a step. `place` has the message, line and column if the result would be wrong; `isOutdated` if the
+// scene has changed meanwhile.
+export class Rejected extends Error {
+  constructor(status, text) {
+    let place = null;
+    try {
+      place = JSON.parse(text).error;
+    } catch {
+      // A plain message.
+    }
+    super(place?.message ?? text.trim());
+    this.place = place;
+    this.isOutdated = status === 409;
+  }
+}
+
+// What is wrong, without the place in the file and the lines quoted from it.
+export const shortMessage = (error) => error.message.split("\n")[0].replace(/^\S*?:\d+:\d+: /, "");
+
+async function postStep(name, body) {
+  let answer;
+  try {
+    answer = await fetch(name, {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)});
+  } catch {
+    throw new Error(noAnswer);
+  }
+  if (!answer.ok) throw new Rejected(answer.status, await answer.text());
+  return (await answer.json()).version;
+}
+
+export const sendStep = (step) => postStep("document", step);
+export const undo = () => postStep("undo", {});
+export const redo = () => postStep("redo", {});
+export const save = () => postStep("save", {});
 
 // Sends changes one at a time. Changes made while one is being sent are merged, so that a fast mouse does not build up
 // a queue. Calls `done` after each accepted change and `failed(error)` after each rejected one.
@@ -63,7 +98,7 @@ export class Changes {
   }
 }
 
-const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+export const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
 // Calls told(state, pixels) with every state shown, forever; pixels are null while the picture stays the same. Calls
 // lost(error) while the server does not answer or rejects requests.

@@ -1,0 +1,248 @@
+// What a person can do with the scene, for the tool bar, menus and keys: each makes one step that can be undone.
+import {askName} from "./dialog.js";
+import {addedKind, addedPhase, addedTo, boxed, deleted, duplicated, firstBall, freeName, grouped, moved, namedShape, replaced, templateOf, unwrapped,
+  withPhases, wrapped, wrapperOf} from "./edits.js";
+import {fits} from "./catalogue.js";
+import {iconOf} from "./icons.js";
+import {keysAt} from "./json_text.js";
+import {openMenu} from "./menu.js";
+import {nameOf} from "./names.js";
+import {choose} from "./palette.js";
+import {joined} from "./pointer.js";
+import {materials, wraps} from "./recipes.js";
+import {shortMessage} from "./server.js";
+import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
+
+const isSettings = (entry) => entry.type === "render" || entry.type === "scene";
+const isFixed = (entry) => isSettings(entry) || entry.pointer === "/camera";
+const ofSection = {lights: "light", meshes: "mesh", expect: "statement", phases: "material", tree: "object", shapes: "field"};
+
+export class Actions {
+  #scene;
+  #selection;
+  #announcer;
+  #phase = null; // the phase used last
+  catalogue = null;
+
+  constructor({scene, selection, announcer, radius}) {
+    this.#scene = scene;
+    this.#selection = selection;
+    this.#announcer = announcer;
+    this.radius = radius;
+    selection.addEventListener("change", () => {
+      const phases = this.active?.phases ?? [];
+      if (phases.length > 0) this.#phase = phases[0];
+    });
+  }
+  get active() {
+    return this.#scene.entry(this.#selection.active ?? "");
+  }
+  get selected() {
+    return this.#selection.pointers.map((key) => this.#scene.entry(key)).filter((entry) => entry && !isSection(entry));
+  }
+  // The phases of the scene, in the order in which something new would use them: those without a use yet, then the one
+  // selected last.
+  get phases() {
+    const names = keysAt(this.#scene.text, "/phases");
+    if (names.length === 0) return ["glass"];
+    const used = new Set(this.#scene.entries.filter(isNode).flatMap((entry) => entry.phases));
+    const rank = (name) => (!used.has(name) ? 0 : name === this.#phase ? 1 : 2);
+    return names.sort((a, b) => rank(a) - rank(b));
+  }
+  // Performs {label, operations, select}. If it is rejected, performs the step that `otherwise` makes of the error, or says
+  // why.
+  async run(step, {merge = null, strict = true, otherwise = () => null} = {}) {
+    if (!step) return false;
+    if (step.select) this.#selection.expect(step.select);
+    try {
+      await this.#scene.perform({label: step.label, operations: step.operations, merge, strict});
+      return true;
+    } catch (error) {
+      this.#selection.forget();
+      const other = otherwise(error);
+      if (other) return this.run(other, {merge, strict});
+      this.#announcer.say(shortMessage(error), {isWrong: true});
+      return false;
+    }
+  }
+  async #go(direction, label, done) {
+    if (label === null) return this.#announcer.say(done === "Undone" ? "There is nothing to undo." : "There is nothing to redo.");
+    try {
+      await (direction === "back" ? this.#scene.goBack() : this.#scene.goForward());
+      this.#announcer.say(`${done}: ${label}`);
+    } catch (error) {
+      this.#announcer.say(error.message, {isWrong: true});
+    }
+  }
+  undo() {
+    return this.#go("back", this.#scene.undo, "Undone");
+  }
+  redo() {
+    return this.#go("forward", this.#scene.redo, "Redone");
+  }
+  startWithBall() {
+    return this.run(firstBall(this.#scene, this.phases[0]));
+  }
+  // Lets the person choose a kind, and name its file if it has one.
+  async #chosen(title, kinds) {
+    const kind = await choose(title, kinds);
+    if (!kind?.template.includes('"<file>"')) return kind;
+    const name = await askName("Name of the file, from the scene's folder", "", "Use this file");
+    return name && {...kind, template: kind.template.replaceAll('"<file>"', JSON.stringify(name))};
+  }
+  // Adds a kind beside what is selected. What fills all of space is added within a box.
+  addKind(kind, active = this.active) {
+    const step = (some) => addedKind(this.#scene, some, active, this.phases);
+    return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
+  }
+  async add() {
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type));
+    const kind = await this.#chosen("Add", withoutTwins(kinds, this.active));
+    if (kind) await this.addKind(kind);
+  }
+  // Adds in a slot of an entry.
+  async addTo(entry, slot) {
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && (fits(slot.type, kind.type) || (fits(slot.type, "object") && kind.type === "field" && kind.chapter === "shapes")));
+    const kind = await this.#chosen(`Add to ${nameOf(entry, this.catalogue).toLowerCase()}`, withoutTwins(kinds, entry));
+    if (kind) await this.run(addedTo(this.#scene, entry, slot, kind, this.phases));
+  }
+  async addToSection(section, button = document.querySelector(`[data-key="${section.key}"]`)) {
+    if (section.name === "phases") return this.newMaterial(button);
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && kind.type === (ofSection[section.name] ?? "object"));
+    const kind = await this.#chosen(`Add to ${nameOf(section, this.catalogue).toLowerCase()}`, kinds);
+    if (!kind) return;
+    if (section.name !== "shapes") return this.addKind(kind, section);
+    const pointer = joined("/shapes", freeName(kind.kind, keysAt(this.#scene.text, "/shapes")));
+    return this.run({label: "Add a shape", operations: [{insert: pointer, value: JSON.stringify(templateOf(kind, this.phases))}], select: [pointer]});
+  }
+  newMaterial(button) {
+    // Before there is an object, phases alone are no valid scene.
+    const strict = this.#scene.entry("/tree") !== null;
+    const add = (name, value) => this.run(addedPhase(this.#scene, freeName(name, keysAt(this.#scene.text, "/phases")), value), {strict});
+    openMenu(button, [...materials.map((m) => ({text: m.text, icon: "material", run: () => add(m.name, m.value)})), null,
+      {text: "Other materials …", icon: "search", run: async () => {
+        const kind = await this.#chosen("New material", this.catalogue.kinds.filter((k) => k.type === "material"));
+        if (kind) await add(kind.kind, templateOf(kind, this.phases));
+      }}], {label: "New material"});
+  }
+  wrapMenu(button, entry = this.active) {
+    if (!entry || !isNode(entry)) return this.#announcer.say("Select an object or a shape first.");
+    const items = wraps[entry.type].map((wrap) => wrap && {
+      text: wrap.text, icon: iconOf({kind: wrap.kind, type: entry.type}), run: () => this.wrap(entry, wrap.kind, wrap.in),
+    });
+    openMenu(button, [...items, null, {text: "Something else …", icon: "search", run: () => this.wrapInAny(entry)}], {label: "Wrap the selection"});
+  }
+  wrap(entry, kindName, value = null) {
+    const kind = this.catalogue.named(kindName, entry.type) ?? this.catalogue.named(kindName);
+    const wrapper = value ? withPhases(value, this.#otherPhases(entry)) : wrapperOf(kind, entry.type, this.#otherPhases(entry), this.catalogue);
+    return this.run(wrapped(entry, wrapper, kind?.title ?? kindName));
+  }
+  // A coat of the phase that is inside would not be seen.
+  #otherPhases(entry) {
+    const isInside = (name) => entry.phases.includes(name);
+    return [...this.phases.filter((name) => !isInside(name)), ...this.phases.filter(isInside)];
+  }
+  async wrapInAny(entry) {
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && isNode(kind) && mayStandAt(entry, kind.type) && this.catalogue.slotsFor(kind, entry.type).length > 0);
+    const kind = await this.#chosen(`Wrap ${nameOf(entry, this.catalogue).toLowerCase()} in`, kinds);
+    if (kind) await this.run(wrapped(entry, wrapperOf(kind, entry.type, this.#otherPhases(entry), this.catalogue), kind.title));
+  }
+  async replace(entry = this.active) {
+    if (!entry || isSettings(entry)) return;
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && kind.kind !== entry.kind && (isNode(entry) ? mayStandAt(entry, kind.type) : kind.type === entry.type));
+    const kind = await this.#chosen(`Replace ${nameOf(entry, this.catalogue).toLowerCase()} with`, kinds);
+    const phases = [...entry.phases, ...this.phases.filter((name) => !entry.phases.includes(name))];
+    if (kind) await this.run(replaced(entry, kind, phases, this.catalogue));
+  }
+  duplicate() {
+    const entry = this.active;
+    if (!entry || isSection(entry)) return;
+    const step = duplicated(this.#scene, entry, Number((0.3 * this.radius()).toPrecision(2)));
+    if (step) return this.run(step);
+    this.#announcer.say("This cannot be duplicated: a scene has only one of it.");
+  }
+  delete() {
+    const entries = this.selected;
+    if (entries.length === 0) return;
+    // Without an object, the scene is not finished, but that is for the person to decide.
+    const step = deleted(entries), isLast = step.operations.some((operation) => operation.remove === "/tree");
+    return this.run(step, {strict: !isLast});
+  }
+  group() {
+    const step = grouped(this.selected);
+    if (step) return this.run(step);
+    this.#announcer.say("To group parts, select several of the same list: hold Ctrl and click.");
+  }
+  unwrap(entry = this.active) {
+    const step = entry && isNode(entry) ? unwrapped(entry) : null;
+    if (step) return this.run(step);
+    this.#announcer.say("There is nothing to remove: the selection wraps no other part that could stand in its place.");
+  }
+  async makeShape(entry = this.active) {
+    if (!entry || !isNode(entry) || entry.kind === "reference" || entry.pointer.startsWith("/shapes/") && !entry.parent?.parent) return;
+    const name = await askName("Make a reusable shape", freeName(entry.type === "field" ? "shape" : "object", keysAt(this.#scene.text, "/shapes")), "Make it reusable");
+    if (name) await this.run(namedShape(this.#scene, entry, freeName(name, keysAt(this.#scene.text, "/shapes"))));
+  }
+  // Puts a named shape in place of something, or beside it.
+  async rename(entry = this.active) {
+    if (!entry?.label || entry.kind === "reference") return;
+    const name = await askName("Rename", entry.label, "Rename");
+    if (name) await this.renameTo(entry, name);
+  }
+  renameTo(entry, name) {
+    if (name === "" || name === entry.label) return;
+    const pointer = joined(entry.pointer.slice(0, entry.pointer.lastIndexOf("/")), name);
+    return this.run({label: `Rename ${entry.label}`, operations: [{rename: entry.pointer, to: name, references: true}], select: [pointer]});
+  }
+  shift(by) {
+    const entry = this.active;
+    if (!entry || !isInList(entry)) return;
+    const to = indexOf(entry) + by;
+    if (to < 0 || to >= listLength(entry)) return;
+    return this.run({label: "Move in the outline", operations: [{move: entry.pointer, to: `${listOf(entry)}/${to}`}], select: [`${listOf(entry)}/${to}`]});
+  }
+  drop(entry, to) {
+    return this.run(moved(entry, to));
+  }
+  buttonsFor(entry) {
+    const node = isNode(entry), fixed = ["camera", "render"].includes(entry.name);
+    return [
+      {id: "wrap", text: "Wrap: move, rotate, cut, coat …", icon: "wrap", keys: "W", isOff: !node, run: (button) => this.wrapMenu(button, entry)},
+      {id: "replace", text: "Replace with another kind", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
+      {id: "duplicate", text: "Duplicate", icon: "duplicate", keys: "Ctrl+D", isOff: fixed, run: () => this.duplicate()},
+      {id: "delete", text: "Delete", icon: "delete", keys: "Delete", isOff: fixed, run: () => this.delete()},
+      {id: "more", text: "More", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},
+    ];
+  }
+  buttonsForMany(entries) {
+    const step = grouped(entries);
+    return [
+      {text: "Group", icon: "group", keys: "Ctrl+G", isOff: !step, why: step ? "" : "Only parts of the same list can be grouped.", run: () => this.group()},
+      {text: "Delete all", icon: "delete", keys: "Delete", run: () => this.delete()},
+    ];
+  }
+  menu(entry, button) {
+    if (isSection(entry)) return openMenu(button, [{text: "Add …", icon: "add", run: () => this.addToSection(entry, button)}], {label: "Actions"});
+    const node = isNode(entry), fixed = isFixed(entry), listed = isInList(entry);
+    return openMenu(button, [
+      {text: "Wrap …", icon: "wrap", keys: "W", isOff: !node, run: () => this.wrapMenu(button, entry)},
+      {text: "Replace …", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
+      {text: "Remove the wrapper", icon: "unwrap", keys: "Ctrl+Shift+G", isOff: !node || !unwrapped(entry), run: () => this.unwrap(entry)},
+      {text: "Make reusable …", icon: "link", isOff: !node || entry.kind === "reference" || !entry.parent, run: () => this.makeShape(entry)},
+      {text: "Rename …", icon: "text", keys: "F2", isOff: !entry.label || entry.kind === "reference", run: () => this.rename(entry)},
+      null,
+      {text: "Move up", icon: "up", keys: "Alt+↑", isOff: !listed || indexOf(entry) === 0, run: () => this.shift(-1)},
+      {text: "Move down", icon: "down", keys: "Alt+↓", isOff: !listed || indexOf(entry) + 1 >= listLength(entry), run: () => this.shift(1)},
+      {text: "Group", icon: "group", keys: "Ctrl+G", isOff: !grouped(this.selected), run: () => this.group()},
+      null,
+      {text: "Duplicate", icon: "duplicate", keys: "Ctrl+D", isOff: fixed, run: () => this.duplicate()},
+      {text: "Delete", icon: "delete", keys: "Delete", isOff: fixed, run: () => this.delete()},
+    ], {label: "Actions"});
+  }
+}
+
+// Kinds that exist for fields and for objects are offered once, for the type that the selection is of.
+function withoutTwins(kinds, active) {
+  const wanted = active?.type === "field" ? "field" : "object";
+  return kinds.filter((kind) => !["field", "object"].includes(kind.type) || kind.type === wanted || !kinds.some((other) => other !== kind && other.kind === kind.kind && other.type === wanted));
+}

@@ -1,0 +1,154 @@
+// The scene file as the server has it: its text, its outline, and the steps that change it. Every page that shows the
+// same scene follows it, so that all see the same.
+import {isListAt, textAt} from "./json_text.js";
+import {joined} from "./pointer.js";
+import {Rejected, askDocument, pause, redo, save, sendStep, undo} from "./server.js";
+
+const sections = ["tree", "objects", "shapes", "phases", "lights", "meshes", "camera", "render", "groups", "instances", "expect", ""];
+const single = new Set(["tree", "camera", "render", ""]);
+
+// The entries by the member of the scene that they are in. A member with one entry is that entry.
+function grouped(entries) {
+  const section = (name) => {
+    const pointer = name === "" ? "" : `/${name}`;
+    const inside = entries.filter((e) => e.pointer === pointer || (name !== "" && e.pointer.startsWith(`${pointer}/`)));
+    if (single.has(name)) return inside;
+    if (inside.length === 0 && !["phases", "lights", "meshes"].includes(name)) return [];
+    return [{pointer, kind: `section:${name}`, isSection: true, children: inside}];
+  };
+  return sections.flatMap(section);
+}
+
+// The pointer of what holds an entry's parameters: {"sphere": {…}}, or the entry itself, such as the render settings.
+function membersIn(text, entry) {
+  const inner = joined(entry.pointer, entry.kind);
+  return textAt(text, inner) === null ? entry.pointer : inner;
+}
+
+// Completes an entry. Its key is its pointer, with a prefix for sections, so that lists and their entries never mix.
+function addTo(map, entry, parent, text) {
+  entry.parent = parent;
+  for (const list of ["children", "slots", "phases"]) entry[list] ??= [];
+  entry.parameters ??= {};
+  entry.uses = []; // references to it
+  entry.name = entry.pointer.slice(1);
+  entry.key = entry.isSection ? `section:${entry.name}` : entry.pointer || "scene";
+  if (!entry.isSection) entry.members ??= membersIn(text, entry);
+  for (const parameter of Object.values(entry.parameters)) parameter.text ??= textAt(text, parameter.pointer);
+  if (entry.kind === "reference") entry.target ??= joined("/shapes", entry.label);
+  for (const slot of entry.slots) slot.pointer ??= slot.list && isListAt(text, entry.members) ? entry.members : joined(entry.members, slot.name);
+  map.set(entry.key, entry);
+  for (const child of entry.children) addTo(map, child, entry, text);
+  entry.phases = [...new Set([...entry.phases, ...entry.children.flatMap((child) => child.phases)])];
+}
+
+export class SceneDocument extends EventTarget {
+  text = "";
+  outline = [];
+  version = 0;
+  error = null;
+  undo = null;
+  redo = null;
+  saved = true;
+  file = "";
+  isChangedHere = false; // whether the next change is made by this page, but not as a step
+  #entries = new Map(); // by pointer
+  #waiting = [];        // steps to send
+  #isSending = false;
+  #isFollowed = false;
+  #own = new Set();     // versions made by this page
+
+  entry(pointer) {
+    return this.#entries.get(pointer) ?? null;
+  }
+  get entries() {
+    return [...this.#entries.values()];
+  }
+  // The section of the outline for a member of the scene, such as "lights".
+  section(name) {
+    return this.entry(`section:${name}`);
+  }
+  get isBusy() {
+    return this.#isSending || this.#waiting.length > 0;
+  }
+  async follow(lost) {
+    let failures = 0;
+    while (true) {
+      try {
+        const before = this.version;
+        this.#take(await askDocument(this.#isFollowed ? before : 0));
+        if (this.version === before) await pause(200);
+        failures = 0;
+      } catch (error) {
+        failures += 1;
+        this.#isFollowed = false; // a server that was restarted counts from the beginning
+        if (failures > 1) lost(error);
+        await pause(1000);
+      }
+    }
+  }
+  #take(told) {
+    if (told.version <= this.version && this.#isFollowed) return;
+    const isFirst = !this.#isFollowed;
+    this.#isFollowed = true;
+    // A version may also be new because the text has been checked or saved.
+    const isOwn = this.isBusy || this.isChangedHere || this.#own.has(told.version) || told.text === this.text;
+    if (told.text !== this.text) this.isChangedHere = false;
+    for (const member of ["version", "text", "error", "undo", "redo", "saved", "file"]) this[member] = told[member];
+    this.text ??= ""; // too large to be edited
+    this.isTooLarge = told.too_large ?? false;
+    this.saveError = told.save_error ?? null;
+    if (told.outline) {
+      this.outline = grouped(told.outline);
+      this.#entries = new Map();
+      for (const entry of this.outline) addTo(this.#entries, entry, null, this.text);
+      for (const entry of this.entries) if (entry.kind === "reference") this.entry(entry.target)?.uses.push(entry);
+    }
+    this.hasOutline = told.outline !== null;
+    this.dispatchEvent(new CustomEvent("change", {detail: {isFirst, isOwn}}));
+  }
+  // Sends a step and resolves when the page shows it. A step that waits is replaced by a later one of the same gesture,
+  // so that a fast mouse does not build up a queue; `merge` names the gesture.
+  perform({label, operations, merge = null, strict = true}) {
+    return new Promise((done, failed) => {
+      const last = this.#waiting.at(-1);
+      const step = {label, operations, merge, strict, done: [done], failed: [failed]};
+      if (last && merge !== null && last.merge === merge) {
+        step.done.push(...last.done);
+        step.failed.push(...last.failed);
+        this.#waiting.pop();
+      }
+      this.#waiting.push(step);
+      this.#send();
+    });
+  }
+  async #send() {
+    if (this.#isSending) return;
+    this.#isSending = true;
+    while (this.#waiting.length > 0) {
+      const {done, failed, ...step} = this.#waiting.shift();
+      await this.#run(() => sendStep({base: this.version, ...step}), done, failed);
+    }
+    this.#isSending = false;
+  }
+  async #run(request, done, failed) {
+    try {
+      const version = await request();
+      this.#own.add(version);
+      this.#take(await askDocument(0));
+      for (const tell of done) tell(version);
+    } catch (error) {
+      if (error instanceof Rejected && error.isOutdated) this.#take(await askDocument(0).catch(() => this));
+      for (const tell of failed) tell(error);
+    }
+  }
+  goBack() {
+    return new Promise((done, failed) => this.#run(undo, [done], [failed]));
+  }
+  save() {
+    return new Promise((done, failed) => this.#run(save, [done], [failed]));
+  }
+  goForward() {
+    return new Promise((done, failed) => this.#run(redo, [done], [failed]));
+  }
+}

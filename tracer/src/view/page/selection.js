@@ -1,0 +1,43 @@
+// The selected entries of the outline, by their pointers. The last one is the active one, which the inspector shows.
+import {parentOf} from "./pointer.js";
+
+export class Selection extends EventTarget {
+  #pointers = [];
+  #next = null; // what an action of this page has made, to be selected when the outline shows it
+
+  get pointers() {
+    return this.#pointers;
+  }
+  get active() {
+    return this.#pointers.at(-1) ?? null;
+  }
+  has(pointer) {
+    return this.#pointers.includes(pointer);
+  }
+  set(pointers) {
+    if (pointers.join("\n") === this.#pointers.join("\n")) return;
+    this.#pointers = [...pointers];
+    this.dispatchEvent(new Event("change"));
+  }
+  toggle(pointer) {
+    this.set(this.has(pointer) ? this.#pointers.filter((p) => p !== pointer) : [...this.#pointers, pointer]);
+  }
+  // After the next change of the scene, selects these pointers.
+  expect(pointers) {
+    this.#next = pointers;
+  }
+  forget() {
+    this.#next = null;
+  }
+  // Keeps what still exists; an entry that is gone leaves the selection to the nearest one around it.
+  update(scene) {
+    const wanted = this.#next?.some((p) => scene.entry(p)) ? this.#next : this.#pointers;
+    if (wanted === this.#next) this.#next = null;
+    const found = wanted.map((pointer) => {
+      let at = pointer;
+      while (at !== "" && !scene.entry(at)) at = parentOf(at);
+      return at;
+    });
+    this.set([...new Set(found)].filter((pointer) => pointer !== ""));
+  }
+}

@@ -1,0 +1,17 @@
+// Fits the picture into the space for it, and the handles over the picture.
+
+const most = 2.5; // times as large as its pixels
+
+export function fitPicture(stage, canvas, svg, shown) {
+  const fit = () => {
+    if (canvas.width <= 1) return;
+    const {clientWidth, clientHeight} = stage;
+    const factor = Math.min(most, clientWidth / canvas.width, clientHeight / canvas.height);
+    const width = Math.max(1, Math.floor(canvas.width * factor)), height = Math.max(1, Math.floor(canvas.height * factor));
+    Object.assign(canvas.style, {width: `${width}px`, height: `${height}px`});
+    Object.assign(svg.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop}px`});
+    shown();
+  };
+  new ResizeObserver(fit).observe(stage);
+  return fit;
+}

@@ -1,0 +1,131 @@
+// The editor: outline, inspector, palette, text and handles, around one document.
+import {Actions} from "./actions.js";
+import {Announcer} from "./announcer.js";
+import {Catalogue} from "./catalogue.js";
+import {SceneDocument} from "./document.js";
+import {Handles} from "./handles.js";
+import {Inspector} from "./inspector.js";
+import {listenForKeys, showKeys} from "./keys.js";
+import {Outliner} from "./outliner.js";
+import {Selection} from "./selection.js";
+import {askCatalogue, shortMessage} from "./server.js";
+import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
+import {at, mapTo} from "./affine.js";
+import {TextDrawer} from "./text_drawer.js";
+
+const element = (id) => document.getElementById(id);
+
+export class Studio {
+  #catalogue = null;
+
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), changed() and lost(error).
+  constructor(view) {
+    this.view = view;
+    this.scene = new SceneDocument();
+    this.selection = new Selection();
+    this.announcer = new Announcer(element("toasts"));
+    this.actions = new Actions({scene: this.scene, selection: this.selection, announcer: this.announcer, radius: view.radius});
+    const common = {scene: this.scene, selection: this.selection};
+    const failed = (error) => {
+      if (error.isOutdated) this.announcer.say(shortMessage(error), {isWrong: true});
+    };
+    this.outliner = new Outliner({tree: element("outline"), search: element("outline-search")}, {...common, act: {
+      menu: (entry, row) => this.actions.menu(entry, row),
+      drop: (entry, to) => this.actions.drop(entry, to),
+      rename: (entry) => this.actions.rename(entry),
+      add: (section) => this.actions.addToSection(section),
+      openEdit: () => this.#openEdit(),
+    }});
+    this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
+    this.handles = new Handles(element("handles"), {view, scene: this.scene, failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true})});
+    this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem"), names: element("text-names")}, this.scene);
+    this.scene.addEventListener("change", (event) => this.#changed(event.detail));
+    this.selection.addEventListener("change", () => this.#selected());
+    this.#connectButtons();
+  }
+  // Without a file, as for objects made in Python, there is nothing to edit, and only the view remains.
+  async start() {
+    try {
+      this.#catalogue = new Catalogue(await askCatalogue());
+    } catch (error) {
+      if (error.status !== 404) throw error;
+      document.body.dataset.studio = "off";
+      this.view.tabs.show("view");
+      return;
+    }
+    this.scene.follow((error) => this.view.lost(error));
+    this.actions.catalogue = this.text.catalogue = this.#catalogue;
+    this.outliner.use(this.#catalogue);
+    this.inspector.use(this.#catalogue);
+  }
+  #connectButtons() {
+    const {actions} = this, run = {
+      undo: () => actions.undo(), redo: () => actions.redo(), add: () => actions.add(), wrap: () => actions.wrapMenu(element("wrap")),
+      duplicate: () => actions.duplicate(), delete: () => actions.delete(), "text-toggle": () => this.#toggleText(), help: showKeys,
+      "save-file": () => this.scene.save().catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})),
+      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), frame: () => this.frame(),
+    };
+    for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", act);
+    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), wrapButton: element("wrap")});
+  }
+  #toggleText() {
+    const isOpen = this.text.toggle();
+    element("text-toggle").setAttribute("aria-pressed", String(isOpen));
+    if (isOpen) this.text.reveal(this.actions.active?.line);
+  }
+  #openEdit() {
+    this.view.tabs.show("edit");
+    element("inspector").querySelector("input, textarea, .choice")?.focus();
+  }
+  #changed({isFirst, isOwn}) {
+    const {scene} = this;
+    this.selection.update(scene);
+    this.outliner.show();
+    this.inspector.show();
+    this.text.show();
+    this.handles.select(this.actions.active);
+    element("undo").disabled = scene.undo === null;
+    element("redo").disabled = scene.redo === null;
+    element("undo").title = scene.undo === null ? "Nothing to undo" : `Undo: ${scene.undo} (Ctrl+Z)`;
+    element("redo").title = scene.redo === null ? "Nothing to redo" : `Redo: ${scene.redo} (Ctrl+Shift+Z)`;
+    element("saved").textContent = scene.saveError ?? (scene.saved ? "Saved" : "Not saved");
+    element("save-file").hidden = scene.saved;
+    element("empty").hidden = !scene.hasOutline || ["/tree", "section:objects"].some((key) => scene.entry(key));
+    this.view.changed();
+    if (!isFirst && !isOwn) this.announcer.say(scene.undo ? `Changed elsewhere: ${scene.undo}` : "Changed elsewhere");
+  }
+  #selected() {
+    const {active} = this.actions;
+    this.handles.select(active);
+    if (active) this.outliner.reveal(active.key);
+    this.text.reveal(active?.line);
+    if (active && this.view.tabs.shown === "view") this.view.tabs.show("edit");
+  }
+  // The entry of a node that a point of the picture leads to.
+  entryOf(pointer) {
+    return pointer === "" ? null : this.scene.entries.find((entry) => !isSection(entry) && (membersOf(entry) === pointer || entry.pointer === pointer)) ?? null;
+  }
+  // Selects what the picture shows at a point: the whole thing first, and then what it is made of.
+  selectNodes(path) {
+    const entries = path.map((node) => this.entryOf(node.pointer)).filter(Boolean), deepest = entries.at(-1);
+    if (!deepest) {
+      this.selection.set([]);
+      return;
+    }
+    const top = topOfChain(deepest), chain = chainOf(top), now = this.actions.active;
+    const index = now ? chain.indexOf(now) : -1;
+    this.selection.set([(index >= 0 && index + 1 < chain.length ? chain[index + 1] : top).key]);
+  }
+  selectNode(pointer) {
+    const entry = this.entryOf(pointer);
+    if (!entry) return;
+    this.selection.set([entry.key]);
+    this.view.tabs.show("edit");
+  }
+  // Turns the camera towards the selection.
+  frame() {
+    const entry = this.actions.active;
+    if (!entry || !isNode(entry)) return;
+    this.view.lookAt(at(mapTo(chainOf(entry).at(-1)), [0, 0, 0]));
+  }
+}
