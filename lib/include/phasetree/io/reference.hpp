@@ -26,7 +26,7 @@ struct ParameterPage {
 /// A node or another kind, with its parameters.
 struct KindPage {
     std::string name;
-    std::string section;   ///< of the paper; may be empty
+    std::string section;   ///< NodeInfo::section: of the paper (Galin et al.); may be empty
     std::string equation;  ///< may be empty
     std::string summary;
     /// Path of the example without extension, relative to the reference; may be empty. The picture has the extension
