@@ -73,7 +73,7 @@ std::vector<KindPage> pages_of(TypeList<Kinds...>) {
 std::vector<Chapter> node_chapters();
 
 /// Format chapters as text for a terminal, with parameters, units, limits, defaults, equations and sections of the
-/// paper.
+/// paper (Galin et al.).
 std::string reference_text(std::span<const Chapter>);
 
 /// The title in lower case with hyphens, such as "operators-on-fields". It names the chapter's page and folder.
