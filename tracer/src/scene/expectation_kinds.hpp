@@ -43,7 +43,7 @@ struct ExpectationContext {
 // A statement, and the unit in which its volume or mass is printed.
 struct MadeStatement {
     Statement statement;
-    double unit = 1;  // how many units of the statement's limits it is
+    double unit = 1;  // its size, in the unit of the statement's limits
     std::string unit_name{};
 };
 

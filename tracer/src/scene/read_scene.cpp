@@ -120,7 +120,7 @@ void read_placed_into(const Document& document, const Shutter& shutter, NodePlac
                       Scene& scene, std::vector<ObjectsModel::Source>& materials) {
     ObjectsModel model = read_placed_objects(document, shutter, places);
     // A model shows the document's time alone. Its objects are still read first for the whole time in which the shutter
-    // is open, so that errors in it are reported.
+    // is open, so that errors at any time in it are reported.
     if (purpose == Purpose::model && (shutter.open != 0 || shutter.close != 0)) model = read_placed_objects(document);
     scene.phases = std::move(model.phases);
     scene.placed = std::move(model.placed);
