@@ -337,7 +337,7 @@ TEST_CASE("principled: a coat darkens a coloured base, tints it, and roughens it
     p.coat_darkening = 0.0f;
     CHECK(furnace(Uniformly(p, {.coat_ior = 1.5f}).bsdf(), direction(0.0), 1 << 16).x ==
           doctest::Approx(0.04 + 0.96 * 0.5).epsilon(1e-3));
-    // At normal incidence, light crosses the coat twice, which c describes. Oblique light takes longer paths.
+    // The coat's colour is that of light which crosses it twice at normal incidence. Oblique light takes longer paths.
     p.coat_color = {0.5f, 1.0f, 0.25f};
     const glm::vec3 tinted = reflected(p);
     CHECK(tinted.x < 0.6f * tinted.y);
