@@ -1,13 +1,13 @@
-// What every BSDF must satisfy, as functions that give p-values, so that a test can also show that a defect fails.
+// What every BSDF must satisfy, as functions that return p-values. A test can thus also show that a defect is detected.
 //
 // Frame and conventions: shading/bsdf/sample.hpp. The sphere of wi is cut into cells by the polar angle θ and the
-// azimuth φ; expected counts are N times the integral of the pdf over a cell. It is summed over a lattice of 64 × 64
-// points a cell, skewed so that edges of the pdf along parallels (there is one where the microfacet stands upright)
-// average out; its error is far below the noise of the counts. Delta samples and samples that end the path are counted
-// in a cell of their own.
+// azimuth φ; the expected counts are N times the integral of the pdf over a cell. The integral is a sum over a lattice
+// of 64 × 64 points per cell. The lattice is skewed, so that edges of the pdf along parallels average out (there is one
+// where the microfacet is vertical). Its error is far below the noise of the counts. Delta samples and samples that end
+// the path are counted in a cell of their own.
 //
-// The planted defect is a skew of 1 %: both uniform numbers of the direction raised to the power 1.01. The density of
-// each then differs from uniform by 0.01 (1 + ln u), a χ²-distance of 1e-4. With 128 cells, samples_to_detect(1e-4,
+// The planted defect is a skew of 1 %: both uniform numbers of the direction are raised to the power 1.01. The density
+// of each then differs from uniform by 0.01 (1 + ln u), a χ²-distance of 1e-4. With 128 cells, samples_to_detect(1e-4,
 // 128) = 1.92 million.
 #pragma once
 
@@ -75,14 +75,14 @@ inline double total(const std::vector<double>& values) {
     return sum;
 }
 
-// Counts of sampled directions by cell, the last for delta samples and for none, and the moments of the red weight of
-// all samples that are not delta (0 for none).
+// Counts of sampled directions by cell, where the last cell is for delta samples and for no sample. Also the moments of
+// the red weight of all samples that are not delta (0 for no sample).
 struct Sampled {
     std::vector<double> counts = std::vector<double>(direction_cells + 1, 0.0);
     Moments weight;
 };
 
-// `power` other than 1 is the planted skew.
+// If `power` is not 1, it is the planted skew.
 inline Sampled draw(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::size_t samples, std::uint32_t seed,
                     float power = 1.0f) {
     Uniform uniform(seed);
@@ -101,14 +101,14 @@ inline Sampled draw(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::size_t s
     return result;
 }
 
-// χ² of the directions against `integrals` of the pdf times `scale` (other than 1: the planted defect of the pdf).
+// χ² of the directions against `integrals` of the pdf, times `scale`: 1, or the planted defect of the pdf.
 inline double direction_p_value(const Sampled& sampled, const std::vector<double>& integrals, double scale = 1.0) {
     const double samples = total(sampled.counts);
     std::vector<double> expected;
     for (const double integral : integrals) expected.push_back(samples * scale * integral);
     const double rest = 1.0 - scale * total(integrals);
     if (rest < -1e-5) return 0.0;  // a pdf that integrates to more than 1
-    // Rounding may lose a sample in a million, at the horizon.
+    // Rounding may lose one sample in a million, at the horizon.
     expected.push_back(samples * std::max(1e-6, rest));
     return chi_squared_test(sampled.counts, expected).p_value;
 }
@@ -123,7 +123,7 @@ inline glm::vec3 direction(double theta_degrees, double phi_degrees = 30.0) {
 // The p-values of one BSDF seen from one direction, and of the same with defects of 1 %.
 struct BsdfReport {
     double directions;         // sampled directions against the pdf
-    double directions_skewed;  // the same with samples skewed by 1 %; 1 if that is not tried
+    double directions_skewed;  // the same with samples skewed by 1 %; 1 if this is not tested
     double directions_scaled;  // the same with the pdf scaled by 1.01
     double pdf_integral;       // at most 1
     double weight;             // mean weight against the integral of evaluate
@@ -136,7 +136,7 @@ inline BsdfReport examine(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::ui
     const std::vector<double> pdf = integrate_cells([&](const glm::vec3& wi) { return bsdf.pdf(wo, wi); });
     const double albedo = total(integrate_cells([&](const glm::vec3& wi) { return bsdf.evaluate(wo, wi).x; }));
     const Sampled right = draw(bsdf, wo, samples, seed);
-    // The quadrature of `albedo` is good to some 1e-5.
+    // The quadrature of `albedo` is accurate to about 1e-5.
     return {direction_p_value(right, pdf),
             tries_skew ? direction_p_value(draw(bsdf, wo, samples, seed, 1.01f), pdf) : 1.0,
             direction_p_value(right, pdf, 1.01),
@@ -146,7 +146,7 @@ inline BsdfReport examine(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::ui
             albedo};
 }
 
-// The largest relative difference between what sample() says of a direction and what pdf() and evaluate() say of it.
+// The largest relative difference between what sample() returns for a direction and what pdf() and evaluate() return.
 inline double worst_disagreement(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::uint32_t seed) {
     Uniform uniform(seed);
     double worst = 0.0;

@@ -155,7 +155,7 @@ TEST_CASE("orthographic camera: parallel rays, a pixel apart by the same length 
     CHECK_FALSE(camera.single_origin());
     const CameraRay centre = camera.generate(0.5 * glm::dvec2(resolution), middle);
     CHECK(glm::length(centre.origin - p.position) < 1e-6f);
-    // The last two are outside of the picture, as pixels near its edge are for the filter, and continue the grid.
+    // The last two are outside the picture, like pixels beyond its edge that the filter uses, and continue the grid.
     for (const glm::dvec2 film :
          {glm::dvec2(0, 0), glm::dvec2(301, 201), glm::dvec2(17.3, 99), glm::dvec2(-2, 100), glm::dvec2(150, 202.5)}) {
         const CameraRay ray = camera.generate(film, {0.1f, 0.9f});

@@ -85,7 +85,7 @@ TEST_CASE("tilt-shift: all rays of a point of the film meet on the tilted plane 
             if (glm::length(o) > 0.2) by_one_percent = std::min(by_one_percent, off(1.01 * focus));
         }
         CHECK(farthest < 1e-5);
-        CHECK(by_one_percent > 1e-3);  // a plane that is 1 % farther away would be seen
+        CHECK(by_one_percent > 1e-3);  // a plane that is 1 % farther away would be detected
     }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("tilt-shift: shifted, it sees the part beside of a wider pinhole, with
     CHECK(same(camera.generate({50, 100}, no_lens).direction, {0, 1, 0}));
     const glm::vec3 top = camera.generate({50, 0}, no_lens).direction;
     CHECK(top.z / top.y == doctest::Approx(2 * std::tan(std::numbers::pi / 6)));
-    // Without a shift or tilt it is the thin lens.
+    // Without shift and tilt, the camera equals the thin lens.
     ThinLensParameters thin;
     thin.position = p.position;
     thin.look_at = p.look_at;
@@ -132,7 +132,7 @@ TEST_CASE("aperture: a polygon of blades is filled evenly, within its circle") {
         }
     }
     CHECK(outside == 0);
-    // The share of a disk of half of the inner radius.
+    // The share within a disk of half the inner radius.
     const double area = 5 * 0.5 * 4 * std::sin(2 * std::numbers::pi / 5);
     const double expected = std::numbers::pi * 0.25 * inner * inner / area;
     const double ratio = near / (samples * expected);

@@ -12,7 +12,8 @@ using tracer::CoatingAlbedo;
 
 namespace {
 
-// Everything reflected under uniform light of radiance 1: the integral of evaluate, and the mirror when it is smooth.
+// All light that is reflected under uniform light of radiance 1: the integral of evaluate, plus the mirror reflection
+// if the coating is smooth.
 double furnace(const CoatingAlbedo::At& coating, const glm::vec3& albedo, double theta) {
     const tracer::Bsdf bsdf(CoatedDiffuseBsdf(coating, albedo));
     const glm::vec3 wo = direction(theta);
@@ -54,8 +55,8 @@ TEST_CASE("coated diffuse: a white base is a white furnace") {
                 CAPTURE(eta);
                 CAPTURE(roughness);
                 CAPTURE(theta);
-                // Quadrature and table: the tabulated E is off by less than 1e-3, and the quadrature of a smooth
-                // one below 1 has the edge of total reflection in it.
+                // Quadrature and table: the tabulated E is off by less than 1e-3. For a smooth coating with an index
+                // below 1, the quadrature also contains the edge of total reflection.
                 CHECK(furnace(coating.at(roughness), glm::vec3{1.0f}, theta) ==
                       doctest::Approx(1.0).epsilon(roughness > 0.0f ? 1e-3
                                                    : eta < 1.0f     ? 5e-4

@@ -109,7 +109,7 @@ TEST_CASE("a metal of a reflectance is that of the index which has it, in air an
         CHECK(glm::length(found - expected) < 1e-4f);
         CHECK(glm::length(1.01f * found - expected) > 1e-3f);
     }
-    // What reflects all light, or none, has its limit.
+    // The limits: metals that reflect all light, or none.
     const ConductorSurface white = ConductorSurface::of_reflectance(1.0f, ValueRange{0.5f, 0.5f});
     CHECK(white.multiple(0.5f, {.reflectance = glm::vec3(1.0f)}).reflected.x == doctest::Approx(1).epsilon(1e-3));
     CHECK(white.multiple(0.5f, {.reflectance = glm::vec3(0.0f)}).reflected.x == 0.0f);

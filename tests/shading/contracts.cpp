@@ -1,5 +1,5 @@
-// The contracts of lights, BSDFs, textures, media and cameras: they accept what is of a kind, and refuse what is not.
-// That every kind of a list meets its contract is asserted where the list is.
+// The contracts of lights, BSDFs, textures, media and cameras: they accept types that belong to a kind, and reject
+// others. Each list of kinds asserts itself that all of its kinds meet their contract.
 #include <doctest/doctest.h>
 
 #include "camera/camera.hpp"
@@ -14,7 +14,7 @@ using namespace phasetree::tracer;
 
 namespace {
 
-// A kind of each sort with one member that is not as it should be.
+// A kind of each sort in which one member is wrong.
 struct InfiniteWithoutCentre {
     glm::vec3 radiance(const glm::vec3&) const;
     std::optional<DirectionSample> sample(const glm::vec2&) const;

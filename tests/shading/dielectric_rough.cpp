@@ -21,7 +21,7 @@ struct Case {
 constexpr Case cases[] = {
     {1.0f, 1.5f, 0.3f, 10.0}, {1.0f, 1.5f, 0.5f, 84.0}, {1.5f, 1.0f, 0.4f, 30.0}, {1.5f, 1.33f, 0.3f, 70.0}};
 
-// Part of the energy of a uniform furnace that is given back: in a medium of index η radiance is η².
+// The share of the energy of a uniform furnace that is returned. In a medium of index η, the radiance is η².
 double furnace(const Case& c, int points = 64) {
     const DielectricSurface surface(c.from, c.to, ValueRange{c.roughness, c.roughness});
     const tracer::Bsdf bsdf(RoughDielectricBsdf(surface, c.roughness));
@@ -60,7 +60,7 @@ TEST_CASE("rough dielectric: directions follow the pdf, weights the function, an
 TEST_CASE("rough dielectric: its function integrates to a white furnace") {
     for (const Case& c : cases) {
         CAPTURE(c.theta);
-        // The quadrature of narrow lobes is good to 2e-4.
+        // The quadrature of narrow lobes is accurate to 2e-4.
         CHECK(furnace(c) == doctest::Approx(1.0).epsilon(1e-3));
     }
 }
@@ -92,7 +92,7 @@ TEST_CASE("rough dielectric: the reverse density is that of the same interface, 
                 CHECK(transmitted > compared / 3);
                 CHECK(transmitted < compared);
             }
-    // Of what is opaque only reflection has one.
+    // Opaque surfaces have a reverse pdf only for reflection.
     const tracer::Bsdf diffuse(tracer::DiffuseBsdf(glm::vec3(0.5f)));
     const glm::vec3 up(0, 0, 1), aside(0.6f, 0, 0.8f);
     CHECK(diffuse.reverse_pdf(up, aside) == diffuse.pdf(aside, up));
@@ -143,7 +143,7 @@ TEST_CASE("rough dielectric: a slightly rough surface reflects and refracts near
 }
 
 TEST_CASE("rough dielectric: the transmitted weight carries the same factor of radiance as the smooth one") {
-    // Nearly smooth, so that masking is next to 1.
+    // Nearly smooth, so that masking is close to 1.
     const DielectricSurface surface(1.0f, 1.5f, ValueRange{0.001f, 0.001f});
     const tracer::Bsdf bsdf(RoughDielectricBsdf(surface, 0.001f));
     const auto sample = bsdf.sample(direction(30.0), 0.9999f, {0.3f, 0.6f});

@@ -29,7 +29,7 @@ TEST_CASE("smooth dielectric: the lobe is chosen with Fresnel's probability and 
         REQUIRE(transmitted);
         REQUIRE(transmitted->transmitted);
         CHECK(transmitted->weight == glm::vec3{tracer::radiance_factor(from, to)});
-        // Snell: the tangential part scales by η_from/η_to; the direction stays unit.
+        // Snell's law: the tangential part scales by η_from/η_to; the direction keeps unit length.
         CHECK(transmitted->wi.x == doctest::Approx(-wo.x * from / to));
         CHECK(transmitted->wi.y == doctest::Approx(-wo.y * from / to));
         CHECK(glm::length(transmitted->wi) == doctest::Approx(1.0f).epsilon(1e-6));
@@ -82,7 +82,7 @@ TEST_CASE("smooth dielectric: a path goes back the way it came") {
     const auto refracted = in.sample(wo, 0.9999999f, {});
     REQUIRE(refracted);
     const glm::vec3 w = refracted->wi;
-    // The same surface from the other side: z turned over.
+    // The same surface from the other side, with z reversed.
     const auto back = out.sample({w.x, w.y, -w.z}, 0.9999999f, {});
     REQUIRE(back);
     CHECK(glm::length(back->wi - glm::vec3{wo.x, wo.y, -wo.z}) < 2e-7f);

@@ -87,7 +87,7 @@ TEST_CASE("rough diffuse: a white surface gives back all light, from every direc
             CAPTURE(theta);
             CHECK(given_back(1.0f, theta) == doctest::Approx(1.0).epsilon(2e-3));
             CHECK(given_back(0.99f, theta) < 0.9925);
-            // What is scattered more than once is darker: less than the albedo is left.
+            // Light that is scattered more than once is darker than the albedo.
             CHECK(given_back(0.5f, theta) < 0.5 + 1e-3);
         }
     }

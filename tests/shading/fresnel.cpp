@@ -60,7 +60,7 @@ TEST_CASE("Fresnel: a conductor that does not absorb is a dielectric, also in to
             CAPTURE(eta);
             CAPTURE(cosine);
             const float difference = fresnel_conductor(cosine, eta, 0.0f) - fresnel_dielectric(cosine, eta).reflectance;
-            // Near the critical angle both have infinite slope; elsewhere they agree to rounding.
+            // Near the critical angle both have infinite slope; elsewhere they agree up to rounding errors.
             CHECK(std::abs(difference) < 2e-3f);
             if (eta > 1.0f) CHECK(std::abs(difference) < 2e-6f);
         }

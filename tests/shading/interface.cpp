@@ -50,7 +50,7 @@ TEST_CASE("interface: clear materials refract by the ratio of their indices, wit
     REQUIRE(sample->transmitted);
     CHECK(glm::length(glm::vec2{sample->wi}) == doctest::Approx(0.5 * 1.5 / 1.33));
     CHECK(sample->weight.x == doctest::Approx((1.5 / 1.33) * (1.5 / 1.33)));
-    // With an air gap light at 50° would be reflected totally; here it is not.
+    // With an air gap, light at 50° would be totally reflected; here it is not.
     CHECK(optics(glass, water)->sample(direction(50.0), 0.999999f, {})->transmitted);
     CHECK_FALSE(optics(glass, vacuum())->sample(direction(50.0), 0.999999f, {})->transmitted);
 }

@@ -71,8 +71,8 @@ void check_rectangle(const Rectangle& rectangle, const glm::vec3& p) {
     const RectangleLight light = rectangle.light();
     constexpr int cells = 8;
     constexpr int finer = 32;
-    // p dω = p cos θ/d² dA, by the midpoint rule on 256 × 256 points; its error, (cell/distance)², is below 1e-5 as
-    // long as the point is not nearer than a tenth of the light's size.
+    // p dω = p cos θ/d² dA, by the midpoint rule on 256 × 256 points; its error, (cell/distance)², is below 1e-5 unless
+    // the point is nearer than a tenth of the light's size.
     std::vector<double> probability(cells * cells, 0.0);
     const double area = glm::length(glm::cross(rectangle.edge_u, rectangle.edge_v)) / std::pow(cells * finer, 2.0);
     for (int j = 0; j < cells * finer; ++j) {
@@ -145,7 +145,7 @@ TEST_CASE("rectangle: solid angle from nearly its own plane, a half-space before
     const RectangleLight light({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, glm::vec3(1.0f));
     for (const float depth : {1e-2f, 1e-5f, 1e-9f, 1e-15f, 1e-30f}) {
         CAPTURE(depth);
-        // Edges at least 0.1 away hide, or show, no more than 2 depth/0.1 each, of their half-spaces.
+        // Each edge is at least 0.1 away, so it hides or reveals at most 2 depth/0.1 of its half-space.
         const double most = 80.0 * static_cast<double>(depth) + 1e-14;
         for (const float x : {-0.9f, 0.0f, 0.5f, 0.9f})
             for (const float y : {-0.4f, 0.0f, 0.3f}) {
@@ -173,8 +173,8 @@ TEST_CASE("rectangle: too small for the spherical parametrisation, sampled by ar
     REQUIRE(solid_angle < 1e-9);
     const glm::vec3 to_light = glm::normalize(tilted.centre - p);
     // E ≈ Ω cos θ; the light's extent changes that by (size/distance)² ≈ 1e-9. Directions in single precision miss such
-    // a light by 6e-8 of its 4e-5: half a percent is lost at the rim, more than the test would allow, so the tolerance
-    // is that, and samples that hit must carry the right density.
+    // a light by 6e-8 of its 4e-5. So half a percent is lost at the rim, which is the tolerance here. Samples that hit
+    // must have the right density.
     const RectangleLight light = tilted.light();
     CHECK(light.solid_angle(p) == doctest::Approx(solid_angle).epsilon(1e-3));
     Uniform random(9);
@@ -254,7 +254,7 @@ TEST_CASE("sphere: however small, it gives E = π (r/d)² cos θ, though directi
             const auto sample = lights.sample(p, random.two());
             if (!sample) continue;
             sum += static_cast<double>(glm::dot(sample->wi, normal)) / static_cast<double>(sample->pdf);
-            // What samples the light and what meets it agree.
+            // Sampling and intersection agree.
             CHECK(lights.seen(p, sample->wi, INFINITY, false)->distance < 20);
             CHECK(lights.pdf(p, sample->wi) == sample->pdf);
         }
@@ -302,7 +302,8 @@ TEST_CASE("rectangle light: the rough solid angle is never far off, and zero whe
             const glm::vec3 p(x, 0.3f * x, 1 + height);
             const double ratio = light.approximate_solid_angle(p) / light.solid_angle(p);
             CHECK(ratio > 0.2);
-            // At grazing angles, where the solid angle goes to zero, it is generous: as if seen from r higher up.
+            // At grazing angles, where the solid angle tends to zero, the estimate is generous: as if seen from r
+            // higher up.
             const double generous = (static_cast<double>(height) + 0.8) / static_cast<double>(height);
             CHECK(ratio < 1.5 * generous);
         }

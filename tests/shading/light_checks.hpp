@@ -1,5 +1,5 @@
-// What the tests of lights share: random numbers, χ² tests of directions and z-tests of estimators, each run once as
-// it is and once with a defect of 1 % planted, which must be found.
+// Shared code of the tests of lights: random numbers, χ² tests of directions and z-tests of estimators. Each test is
+// run once without and once with a planted defect of 1 %, which must be detected.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -19,8 +19,8 @@
 
 namespace phasetree::tests {
 
-// Below this a result counts as wrong: with some 40 tests in a file a correct program fails for one in 2,500 choices of
-// the seeds, and the seeds are fixed.
+// A p-value below this counts as wrong. With about 40 tests in a file, a correct program fails for one in 2,500 choices
+// of the seeds, and the seeds are fixed.
 inline constexpr double significance = 1e-5;
 
 // The probability of each of columns × rows lat-long bins under a density per steradian, by the midpoint rule on a grid
@@ -61,9 +61,9 @@ struct PValues {
     double defect;
 };
 
-// χ² test of sampled directions. `sample(u)` gives an optional direction, `bin(direction)` its cell or -1.
-// The defect draws 1 % of the samples from half of the unit square only; its χ²-distance is 0.01² = 1e-4 or more. The
-// number of samples is large enough to detect it.
+// χ² test of sampled directions. `sample(u)` gives an optional direction, `bin(direction)` its cell or -1. The defect
+// draws 1 % of the samples from only half of the unit square; its χ²-distance is 0.01² = 1e-4 or more. The number of
+// samples is large enough to detect it.
 template <class Sample, class Bin>
 PValues direction_test(const std::vector<double>& probability, const Sample& sample, const Bin& bin) {
     const std::size_t cells = probability.size();
@@ -117,7 +117,7 @@ class ConeBins {
     double rim_;
 };
 
-// The mean of an estimator must be `expected`, and so precise that 1 % more would have been seen.
+// The mean of an estimator must be `expected`, and precise enough to detect an error of 1 %.
 struct EstimatorResult {
     double p_value;
     double p_value_of_defect;
@@ -134,7 +134,7 @@ EstimatorResult estimator_test(double expected, std::size_t count, const Estimat
         moments.add(value);
         defective.add(1.01 * value);
     }
-    // 2e-6 for single-precision arithmetic: some thirty roundings of 6e-8.
+    // 2e-6 for single-precision arithmetic: about thirty rounding errors of 6e-8.
     const double rounding = 2e-6 * std::abs(expected);
     return {mean_p_value(moments, expected, rounding), mean_p_value(defective, expected, rounding),
             moments.mean() / expected - 1.0};

@@ -1,4 +1,5 @@
-// All lights together: the mixture's density, what samples and rays see, and multiple importance sampling.
+// All lights together: the density of the mixture, the light that samples and rays find, and multiple importance
+// sampling.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -39,13 +40,13 @@ Lights everything() {
     return lights;
 }
 
-// What a ray from p sees when there is no geometry.
+// The radiance along a ray from p if there is no geometry.
 Lights::Emission seen(const Lights& lights, const glm::vec3& p, const glm::vec3& w, bool camera_ray = false) {
     return lights.seen(p, w, infinity, camera_ray).value();
 }
 
-// ∫ L max(0, n·ω) dω, by the midpoint rule on a grid of 1,024² directions: edges of lights cross a few in a thousand
-// of its cells, with random sign, so its error is of the order of 1e-4, a fifth of the statistical one.
+// ∫ L max(0, n·ω) dω, by the midpoint rule on a grid of 1,024² directions. Edges of lights cross a few in a thousand of
+// its cells, with random sign, so the error is about 1e-4, a fifth of the statistical error.
 double irradiance_by_quadrature(const Lights& lights, const glm::vec3& p, const glm::vec3& normal, int finer = 1024) {
     return sum_of(lat_long_probabilities(1, 1, finer, [&](const glm::vec3& w) {
         const float cosine = glm::dot(normal, w);
@@ -71,7 +72,7 @@ TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
         REQUIRE(std::abs(glm::length(s->wi) - 1.0f) < 1e-6f);
         (s->distance == infinity ? infinite : area) += 1;
     }
-    CHECK(infinite + area > 99900);  // nearly nothing is lost to rounding at rims
+    CHECK(infinite + area > 99900);  // almost nothing is lost to rounding at rims
     CHECK(infinite > 1000);
     CHECK(area > 1000);
 }
@@ -79,7 +80,7 @@ TEST_CASE("lights: samples and rays agree on radiance, distance and density") {
 TEST_CASE("lights: of a lamp so small that rounding misses it, what missed is no sample") {
     Lights lights;
     lights.add(ConstantEnvironment(glm::vec3(1e-6f)));
-    // Seen under an angle of 1e-6, of which the rounding of a direction, 6e-8, is more than a hundredth.
+    // Its angular size is 1e-6, and the rounding error of a direction, 6e-8, is more than a hundredth of that.
     const auto lamp = RectangleLight::facing({700000, 600000, 800000}, {0, 0, 0}, 1.3f, 1.1f, glm::vec3(1e7f));
     lights.add(lamp);
     const glm::vec3 p(0.0f);
@@ -101,8 +102,8 @@ TEST_CASE("lights: of a lamp so small that rounding misses it, what missed is no
 TEST_CASE("lights: a direction that several lights can propose counts all of them") {
     const Lights lights = everything();
     const glm::vec3 p(0.0f);
-    // Fluences, and from them the shares: environment, sun, rectangle, sphere. An even environment is chosen by a tenth
-    // of its own, since paths find it by themselves.
+    // Fluences, and from them the shares: environment, sun, rectangle, sphere. A uniform environment counts with only a
+    // tenth of its fluence, because paths find it without help.
     const auto lamp = RectangleLight::facing({-0.5f, 0.0f, 2.0f}, {-0.5f, 0.0f, 0.0f}, 1.5f, 1.0f, {});
     const double rectangle_angle = lamp.solid_angle(p);
     const double sphere_angle = SphereLight({0.3f, 0.0f, 1.0f}, 0.25f, {}).solid_angle(p);
@@ -133,7 +134,7 @@ TEST_CASE("lights: a direction that several lights can propose counts all of the
 
 TEST_CASE("lights: light from all around is chosen by what of it is above its mean") {
     CHECK(DiffuseIrradiance(ConstantEnvironment(glm::vec3(0.5f))).unevenness() == doctest::Approx(0.1f));
-    CHECK(DiffuseIrradiance(ConstantEnvironment(glm::vec3(0.0f))).unevenness() == 1.0f);  // which is chosen by nothing
+    CHECK(DiffuseIrradiance(ConstantEnvironment(glm::vec3(0.0f))).unevenness() == 1.0f);  // it is never chosen
     // L = S(|z|) above and 0 below, S(t) = t² (3 − 2t): the mean is 1/4, above which L is from z = 0.32635 on. There
     // ∫ (L − 1/4) dz = 0.298, of all that is 1/2.
     const GradientEnvironment above(glm::vec3(1), glm::vec3(0), glm::vec3(0), 1.0f);
@@ -145,7 +146,7 @@ TEST_CASE("lights: light from all around is chosen by what of it is above its me
         all += radiance;
     }
     CHECK(DiffuseIrradiance(above).unevenness() == doctest::Approx(sum / all).epsilon(0.01));
-    // A sun in a grey sky has nearly all that there is.
+    // A sun in a grey sky has almost all of the light.
     std::vector<glm::vec3> sky(256 * 128, glm::vec3(0.1f));
     sky[40 * 256 + 30] = glm::vec3(1e5f);
     CHECK(DiffuseIrradiance(ImageEnvironment(256, 128, sky)).unevenness() > 0.9f);
@@ -211,7 +212,7 @@ TEST_CASE("lights: light samples, BSDF samples and both together estimate the sa
                        glm::dot(normal, daylight_parts.sun.direction());
     Lights rectangle;
     rectangle.add(RectangleLight::facing({0.5f, 0.2f, 1.5f}, {0, 0, 0}, 1.0f, 1.0f, glm::vec3(1.0f)));
-    // Samples of the rectangle alone vary so little that what the grid makes of its edges shows: a finer one for it.
+    // Samples of the rectangle alone vary so little that the grid's error at its edges shows, so it needs a finer grid.
     const Case cases[] = {{"everything", everything(), irradiance_by_quadrature(everything(), p, normal), true},
                           {"sky and sun", day, irradiance_by_quadrature(sky, p, normal) + sun, false},
                           {"rectangle", rectangle, irradiance_by_quadrature(rectangle, p, normal, 4096), true}};
@@ -274,7 +275,7 @@ TEST_CASE("lights: none, black ones, and ones that are turned away yield nothing
     CHECK_FALSE(lights.empty());
     CHECK_FALSE(lights.sample(glm::vec3{}, {0.5f, 0.5f}));
     CHECK(lights.sample(glm::vec3{0, 0, 2}, {0.5f, 0.5f}));
-    // A light that takes no part is never chosen, at either end of the range.
+    // A light with a share of zero is never chosen, even at either end of the range.
     lights.add(ConstantEnvironment(glm::vec3(0.0f)));
     for (const float choice : {0.0f, 0x1.fffffep-1f}) {
         CHECK(lights.sample(glm::vec3{0, 0, 2}, {choice, 0.5f})->radiance.x == 1.0f);
@@ -286,7 +287,7 @@ TEST_CASE("lights: the brightest one that has a place, on one side") {
     const glm::vec3 up(0, 0, 1), p(0.5f, 0, 0);
     Lights lights;
     CHECK_FALSE(lights.towards_brightest(p, up));
-    lights.add(ConstantEnvironment(glm::vec3(100.0f)));  // is everywhere
+    lights.add(ConstantEnvironment(glm::vec3(100.0f)));  // visible in all directions
     CHECK_FALSE(lights.towards_brightest(p, up));
     const Sun sun({3, 0, 4}, glm::vec3(1.0f));
     lights.add(sun);
@@ -296,7 +297,7 @@ TEST_CASE("lights: the brightest one that has a place, on one side") {
     lights.add(SphereLight({0.5f, 3, 0.1f}, 1, glm::vec3(10.0f)));
     const glm::vec3 to_sphere = lights.towards_brightest(p, glm::normalize(glm::vec3(0, 1, 1))).value();
     CHECK(glm::distance(p + 3.0f * to_sphere, glm::vec3(0.5f, 3, 0.1f)) < 1.1f);
-    // Below the horizon none counts.
+    // Below the horizon, no light counts.
     CHECK_FALSE(lights.towards_brightest(p, -up));
     CHECK(glm::distance(lights.towards_brightest(p, glm::vec3(-0.6f, -0.8f, 0)).value(), glm::vec3(0, -1, 0)) <
           1e-4f);  // the rectangle

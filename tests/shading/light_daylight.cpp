@@ -62,7 +62,7 @@ TEST_CASE("sun: density, samples and irradiance at any size") {
     }
 }
 
-// What was sampled in the disk is a direction of floats, which lies a hair outside of a small disk.
+// A direction sampled in the disk is rounded to floats, so it may lie slightly outside a small disk.
 TEST_CASE("sun: of a small one no light is lost") {
     Uniform random(77);
     for (const float diameter : {1e-30f, 1e-6f, 1e-4f, 1e-3f, 0.01f, 0.1f, 0.53f}) {
@@ -80,7 +80,7 @@ TEST_CASE("sun: of a small one no light is lost") {
                 REQUIRE(sun.pdf(s->direction) == s->pdf);
                 irradiance += static_cast<double>(radiance) / static_cast<double>(s->pdf) / samples;
             }
-            // But for cos θ about the disk's middle.
+            // The tolerance allows for cos θ, which varies over the disk.
             REQUIRE(irradiance == doctest::Approx(3.0).epsilon(3e-5));
         }
     }
@@ -127,7 +127,7 @@ TEST_CASE("daylight: colours and directions one expects of a clear day") {
     CHECK(glm::length(noon.sun.direction() - direction_of_degrees(45.0f, 60.0f)) < 1e-6f);
     CHECK(luminance(evening.sky.radiance(direction_of_degrees(45.0f, 6.0f))) >
           5.0f * luminance(evening.sky.radiance(direction_of_degrees(225.0f, 6.0f))));
-    // Haze takes from the sun and gives to the sky.
+    // Haze moves light from the sun to the sky.
     const Daylight clear = daylight_at(45.0f, 2.0f);
     const Daylight hazy = daylight_at(45.0f, 8.0f);
     CHECK(luminance(hazy.sun.radiance(hazy.sun.direction())) < luminance(clear.sun.radiance(clear.sun.direction())));
@@ -161,7 +161,8 @@ TEST_CASE("daylight: finite, never negative, without steps, from night to noon")
                 }
             }
             CHECK(usable);
-            // Near a low sun the sky falls off within a degree; a tenth of that is a tenth of a degree.
+            // Near a low sun the sky falls off within a degree, so a tenth of the brightness corresponds to a tenth of
+            // a degree.
             CHECK(largest_step < 0.1f);
             CHECK((luminance(day.sun.radiance(day.sun.direction())) > 0.0f) == (elevation > -0.5f));
         }

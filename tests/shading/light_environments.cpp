@@ -91,7 +91,7 @@ void check_density(const Environment& environment, int finer) {
     check_density(environment, probability, [](const glm::vec3& w) { return lat_long_bin(columns, rows, w); });
 }
 
-// Of a density that depends on z alone, in bins of equal height, which have equal solid angles.
+// For a density that depends on z alone: bins of equal height, which have equal solid angles.
 template <class Environment>
 void check_zonal_density(const Environment& environment) {
     constexpr int finer = 32;
@@ -113,7 +113,8 @@ void check_zonal_density(const Environment& environment) {
 TEST_CASE("constant environment: density and irradiance") {
     const ConstantEnvironment environment(glm::vec3(1.0f));
     check_density(environment, 2);
-    // Variance of 4π cos⁺ over its mean π squared is 16/6 − 1, so 2.5 million samples see 1 % at 12 deviations.
+    // The variance of 4π cos⁺ over the square of its mean, π, is 16/6 − 1. So with 2.5 million samples, 1 % is 12
+    // standard deviations.
     check(irradiance_test(environment, {0.0f, 0.6f, 0.8f}, half_turn, 2500000));
     CHECK(environment.fluence() == doctest::Approx(4.0 * half_turn));
 }
@@ -152,8 +153,8 @@ TEST_CASE("image environment: density and irradiance, turned or not") {
         const ImageEnvironment environment = test_image(rotation, 0.5f);
         check_density(environment, 2);
         for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::vec3(0.6f, -0.8f, 0), glm::vec3(0, 0.6f, -0.8f)}) {
-            // Measured: the estimates deviate by less than 2 of their mean, so a million samples see 1 % at 5
-            // deviations.
+            // As measured, the standard deviation is less than twice the mean. So with a million samples, 1 % is 5
+            // standard deviations.
             check(irradiance_test(environment, normal, irradiance_by_quadrature(environment, normal), 2000000));
         }
     }
@@ -168,7 +169,8 @@ TEST_CASE("image environment: a black texel beside a bright one is sampled, beca
         int bright = 0;
         for (int i = 0; i < 200000; ++i) {
             const glm::vec3 w = direction_of(2.0 * half_turn * random(), 2.0 * random() - 1.0);
-            // Rounding decides on which side of a cell a direction lies; 1e-3 of the bright texel is clear of that.
+            // Rounding decides on which side of a cell's edge a direction lies; 1e-3 of the bright texel is well above
+            // that effect.
             if (environment.radiance(w).x <= 0.1f) continue;
             ++bright;
             CHECK(environment.pdf(w) > 0.0f);
@@ -199,7 +201,7 @@ TEST_CASE("image environment: its bright parts are caps around what is much brig
     };
     CHECK(parts_of({}).empty());
     CHECK(parts_of({}, 0.0f).empty());
-    CHECK(parts_of({{10 * width + 20, 0.5f}}).empty());  // five times the sky is no sun
+    CHECK(parts_of({{10 * width + 20, 0.5f}}).empty());  // a texel five times as bright as the sky is not a sun
     // All directions in which a part shines are in its cap, which is no larger than the texel and those around it.
     const auto check_part = [](const Cap& part, int column, int row) {
         const auto direction = [&](float x, float y) {
@@ -214,7 +216,7 @@ TEST_CASE("image environment: its bright parts are caps around what is much brig
     const auto one = parts_of({{10 * width + 20, 1000.0f}});
     REQUIRE(one.size() == 1);
     check_part(one[0], 20, 10);
-    // Across the seam they are one part, and one at the zenith is round.
+    // Texels on both sides of the seam form one part, and a part at the zenith is round.
     const auto seam = parts_of({{10 * width, 1000.0f}, {10 * width + width - 1, 1000.0f}});
     REQUIRE(seam.size() == 1);
     CHECK(glm::length(seam[0].axis() - glm::normalize(glm::vec3(0, seam[0].axis().y, seam[0].axis().z))) < 1e-3f);
@@ -230,7 +232,7 @@ TEST_CASE("image environment: its bright parts are caps around what is much brig
     REQUIRE(four.size() == 4);
     check_part(four[0], 55, 12);
     check_part(four[3], 25, 12);
-    // They turn with the image.
+    // The parts rotate with the image.
     std::vector<glm::vec3> pixels(width * height, glm::vec3(0.1f));
     pixels[10 * width + 20] = glm::vec3(1000);
     const ImageEnvironment turned(width, height, pixels, 70);
@@ -239,7 +241,7 @@ TEST_CASE("image environment: its bright parts are caps around what is much brig
 }
 
 TEST_CASE("image environment: orientation and rotation") {
-    // One bright texel; its centre is at azimuth 2π (column + 1/2)/16 − π, 45° being to the right of +y.
+    // One bright texel; its centre is at azimuth 2π (column + 1/2)/16 − π. The azimuth 45° is to the right of +y.
     std::vector<glm::vec3> pixels(16 * 8, glm::vec3(0.0f));
     pixels[2 * 16 + 9] = glm::vec3(1.0f, 2.0f, 3.0f);
     const double cos_theta = std::cos(half_turn * 2.5 / 8.0);
@@ -249,7 +251,7 @@ TEST_CASE("image environment: orientation and rotation") {
     CHECK(there.z > 0.0f);
     const glm::vec3 seen = ImageEnvironment(16, 8, pixels).radiance(there);
     CHECK(glm::length(seen - glm::vec3(1.0f, 2.0f, 3.0f)) < 1e-4f);
-    // Turned by 90° clockwise seen from above, what was at +y is at +x.
+    // After a rotation by 90°, clockwise as seen from above, the part that was at +y is at +x.
     const glm::vec3 turned(there.y, -there.x, there.z);
     const glm::vec3 seen_turned = ImageEnvironment(16, 8, pixels, 90.0f).radiance(turned);
     CHECK(glm::length(seen_turned - glm::vec3(1.0f, 2.0f, 3.0f)) < 1e-4f);

@@ -17,7 +17,7 @@ using namespace phasetree::tests;
 
 namespace {
 
-// A profile whose candelas are c(θ) = 100 − θ/2, in two planes of which the second has twice as much.
+// A profile in two planes: c(θ) = 100 − θ/2 candelas in the first, and twice as much in the second.
 const std::string file =
     "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n"
     "1 1000 2.0 3 3 1 2 0 0 0\n0.5 1 60\n0 45 90\n0 90 180\n"
@@ -96,7 +96,7 @@ TEST_CASE("spot light: its flux, its edge and its dark side") {
     CHECK(at(30.1) == 0.0);
     CHECK(at(25.0) > 1.0);
     CHECK(at(25.0) < 4.0);
-    // ∫ I dω = 2π I ((1 − c₂) + (c₂ − c₁)/2), with the cosines of where the edge begins and ends.
+    // ∫ I dω = 2π I ((1 − c₂) + (c₂ − c₁)/2), with the cosines of the angles at which the edge begins and ends.
     double flux = 0.0;
     constexpr int steps = 20000;
     for (int i = 0; i < steps; ++i) {
@@ -174,7 +174,7 @@ TEST_CASE("photometric files: what is wrong is said with its line") {
     CHECK(says(file.substr(0, file.size() - 20), "the file ends before the candelas"));
     CHECK(says(replaced(file, "2.0 3", "0 3"), "must be positive"));
     CHECK(problem_of(file).empty());
-    // Tilts of the lamp are read over.
+    // Tilts of the lamp are skipped.
     CHECK(problem_of(replaced(file, "TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1 0.9")).empty());
 }
 
@@ -295,7 +295,7 @@ TEST_CASE("portals: directions follow the density of the whole mixture, and an e
         if (!s) return std::nullopt;
         return s->wi;
     };
-    // The edge of the portal is not on the lattice, so cells that it crosses are left to the estimator below.
+    // The edge of the portal is not on the lattice, so the cells that it crosses are tested by the estimator below.
     int through = 0;
     Uniform random(9);
     for (int i = 0; i < 40000; ++i) {
@@ -306,18 +306,18 @@ TEST_CASE("portals: directions follow the density of the whole mixture, and an e
     const double solid_angle = RectangleLight::facing({0, 0, 2}, {0, 0, 0}, 2.0f, 1.0f, glm::vec3(0.0f)).solid_angle(p);
     const double expected = 0.75 + 0.25 * solid_angle / (4 * std::numbers::pi);
     CHECK(through / 40000.0 == doctest::Approx(expected).epsilon(0.02));
-    // Irradiance of a white sky is π, whatever proposes the directions.
+    // The irradiance of a white sky is π, whichever technique proposes the directions.
     check(estimator_test(std::numbers::pi, 2000000, [&](Uniform& uniform) {
         const auto s = lights.sample(p, uniform.two());
         return s ? static_cast<double>(s->radiance.x * std::max(0.0f, s->wi.z) / s->pdf) : 0.0;
     }));
-    // What sample() says of a direction is what pdf() does.
+    // sample() and pdf() agree about a direction.
     for (int i = 0; i < 1000; ++i) {
         const auto s = lights.sample(p, random.two());
         REQUIRE(s);
         CHECK(s->pdf == doctest::Approx(lights.pdf(p, s->wi)).epsilon(1e-4));
     }
-    // From behind it is not there.
+    // From behind, the portal has no effect.
     CHECK(lights.pdf(glm::vec3(0, 0, 5), {0, 0, -1}) == doctest::Approx(1 / (4 * std::numbers::pi)));
 }
 

@@ -1,5 +1,5 @@
-// Lamps in clusters: none that shines is lost, the choice has the probability that it says, and rays meet the same
-// lamps.
+// Lamps in clusters: no lamp that emits is lost, choices have the reported probability, and rays meet the same lamps as
+// without clusters.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ glm::vec3 three(Uniform& random) {
     return {two, random()};
 }
 
-// Some lamps of each kind that is not infinite, of many sizes and strengths, in bunches.
+// Some lamps of each finite kind, of many sizes and strengths, in groups.
 Lights lamps_of_all_kinds(int count, std::uint32_t seed) {
     Lights lights;
     Uniform random(seed);
@@ -105,7 +105,7 @@ TEST_CASE("clustered lamps: each that shines on a receiver is chosen with a prob
         lights.cluster_lamps();
         int shining = 0;
         for (int i = 0; i < 2000; ++i) {
-            // Also close to the lamps, and where they are just in sight.
+            // Also close to the lamps, and where they are barely visible.
             LightReceiver at = receiver(random);
             if (i % 2 == 0) {
                 const auto& lamp = one_by_one.area()[static_cast<std::size_t>(i) % one_by_one.area().size()].light;
@@ -166,7 +166,8 @@ TEST_CASE("clustered lamps are chosen as often as their probabilities say") {
                                            std::exp(3.0f * random()) * glm::vec3(1.0f))));
     lights.cluster_lamps();
     const LightReceiver at({0.5f, 0.2f, 0.1f}, {0, 0, 1});
-    // The last one is that there is no sample: a cluster may promise light of which its lamps give none.
+    // The last outcome is that there is no sample: a cluster's bound may be positive although none of its lamps sends
+    // light.
     std::vector<double> expected(101), observed(101), defective(101);
     const auto count = static_cast<int>(samples_to_detect(1e-4, 100.0));
     double sum = 0;
@@ -197,7 +198,7 @@ TEST_CASE("clustered lamps give the irradiance that all of them give together") 
     const LightReceiver at({0.3f, -0.2f, 0.0f}, {0, 0, 1});
     double expected = 0;
     for (int i = 0; i < 400; ++i) {
-        // They are all around, near and far, and so small that hardly one hides another.
+        // They are all around, near and far, and so small that they hardly hide each other.
         const float distance_to = 1.0f + 19.0f * random();
         const glm::vec3 centre = at.p + distance_to * square_to_uniform_sphere(random.two());
         const float radius = 0.002f * distance_to * (0.1f + random()), radiance = std::exp(6.0f * random());

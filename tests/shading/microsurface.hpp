@@ -1,9 +1,9 @@
 // An oracle for rough surfaces: a random walk on Smith's microsurface of GGX normals, which follows light through all
-// of its scatterings. It shares with the BSDFs only the sampling of visible normals and Fresnel's equations.
+// its scattering events. It shares with the BSDFs only the sampling of visible normals and Fresnel's equations.
 //
-// Heights are uniform in [−1, 1], with C(h) = (h + 1)/2. A ray at height h in direction w gets away with probability
-// C(h)^Λ(w), and else meets the surface at the height h′ with C(h′) = C(h) / (1 − U)^(1/Λ(w)), with U uniform; going
-// downwards Λ is below −1, and it always does.
+// Heights are uniform in [−1, 1], with C(h) = (h + 1)/2. A ray at height h in direction w escapes with probability
+// C(h)^Λ(w). Otherwise it meets the surface at the height h′ with C(h′) = C(h) / (1 − U)^(1/Λ(w)), where U is uniform.
+// Downward rays have Λ < −1, and always meet the surface.
 //
 // Reference: Heitz, Hanika, d'Eon & Dachsbacher, Multiple-Scattering Microfacet BSDFs with the Smith Model, SIGGRAPH
 // 2016, sections 4 and 5.
@@ -27,8 +27,8 @@ class Microsurface {
     // Of brushed metal with strokes along x.
     Microsurface(float along_x, float along_y) : along_x_(along_x), along_y_(along_y), ggx_(along_x, along_y) {}
 
-    // How light that comes from wo leaves again. `bounces` counts its reflections at normals; `transmitted` says on
-    // which side it leaves, of a dielectric with that relative index; nothing if it takes longer than a thousand.
+    // How light that arrives from wo leaves. `bounces` counts its reflections at normals. `transmitted` is the side on
+    // which it leaves, for a dielectric with this relative index. nullopt after a thousand reflections.
     struct Left {
         glm::vec3 direction;
         glm::vec3 weight;
@@ -60,7 +60,7 @@ class Microsurface {
         double height = 1.0;
         bool outside = true;
         for (int scatterings = 0; scatterings < 1000; ++scatterings) {
-            // Seen from inside the surface stands on its head.
+            // Seen from inside, the surface is upside down.
             const float up = outside ? 1.0f : -1.0f;
             const std::optional<double> met =
                 meets(up * ray, static_cast<double>(up) * height, static_cast<double>(uniform()));
@@ -90,7 +90,7 @@ class Microsurface {
         return 0.5 * (std::copysign(std::sqrt(1.0 + tan2), z) - 1.0);
     }
 
-    // The height at which a ray meets the surface; nothing if it gets away.
+    // The height at which a ray meets the surface; nullopt if it escapes.
     std::optional<double> meets(const glm::vec3& w, double height, double u) const {
         const double below = std::clamp(0.5 * (height + 1.0), 0.0, 1.0);
         if (w.z > 0.99999f) return std::nullopt;

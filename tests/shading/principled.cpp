@@ -1,5 +1,5 @@
-// The layered material: white furnaces at all corners of its parameters, the limits in which it is one of the other
-// BSDFs, reciprocity without coat and fuzz, sampling, and its parts alone.
+// The layered material: white furnaces at all corners of its parameters, the limits in which it equals one of the other
+// BSDFs, reciprocity without coat and fuzz, sampling, and its components alone.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -36,7 +36,7 @@ std::vector<double> angles() {
     return {20.0, 70.0, 88.0};
 }
 
-// The mean weight in a furnace of radiance 1, by a net of points.
+// The mean weight in a furnace of radiance 1, from a net of points.
 glm::dvec3 furnace(const tracer::Bsdf& bsdf, const glm::vec3& wo, std::uint32_t samples) {
     const auto fraction = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f + 0x1p-25f; };
     glm::dvec3 sum(0.0);
@@ -54,7 +54,7 @@ double largest(const glm::dvec3& v) {
 }
 
 // How far the reflected light is above a limit, or below it if negative: `excess` of the mean weight. Most means are
-// well within the tolerance after a few samples; the others get more.
+// well within the tolerance after a few samples; the others receive more samples.
 template <class Excess>
 double excess_of(const tracer::Bsdf& bsdf, const glm::vec3& wo, const Excess& excess) {
     struct Level {
@@ -187,7 +187,7 @@ TEST_CASE("principled: random settings reflect at most what they receive, and wh
     ranges.roughness = ranges.coat_roughness = {0.0f, 0.0f};
     const PrincipledSurface in_water(ranges, shared);
     Uniform uniform(36);
-    // Corners are met as often as the inside.
+    // Corners are drawn as often as the interior.
     const auto number = [&](float low = 0.0f, float high = 1.0f) {
         const float u = 2.0f * uniform() - 0.5f;
         return low + (high - low) * std::clamp(u, 0.0f, 1.0f);
@@ -235,7 +235,7 @@ TEST_CASE("principled: directions follow the pdf, weights the function, and 1 % 
         PrincipledPoint point;
         double theta;
         float aspect = 1.0f;
-        bool tries_skew = false;  // not where lobes with different maps overlap and hide each other's skew
+        bool tries_skew = false;  // false where lobes with different maps overlap and hide each other's skew
     };
     const glm::vec3 red(0.7f, 0.3f, 0.2f);
     std::vector<Case> cases = {{{.base_color = red,
@@ -280,7 +280,7 @@ TEST_CASE("principled: the base is reciprocal") {
 }
 
 TEST_CASE("principled: limits are the other BSDFs") {
-    // A metal, whose reflectance is that of the colours alone.
+    // A metal, whose reflectance depends on the colours alone.
     PrincipledPoint p{.base_color = {0.9f, 0.6f, 0.3f},
                       .metalness = 1.0f,
                       .specular_weight = 0.9f,
@@ -291,7 +291,7 @@ TEST_CASE("principled: limits are the other BSDFs") {
     tracer::ConductorSurface::Place place;
     place.by_colours = F82Metal{p.base_color, p.specular_color, p.specular_weight};
     check_equal(Uniformly(p).bsdf(), tracer::RoughConductorBsdf(metal, alpha, place), 1e-5f);
-    // White metals are the same by any description.
+    // White metals are the same in either description.
     PrincipledPoint mirror = white();
     mirror.metalness = 1.0f, mirror.roughness = 0.6f;
     const tracer::ConductorSurface silver(1.0f, glm::vec3(1.0f), glm::vec3(1e6f), only(alpha));
@@ -302,7 +302,7 @@ TEST_CASE("principled: limits are the other BSDFs") {
     CHECK(smooth.is_metal());
     CHECK(smooth.sample(direction(50.0), 0.3f, {})->weight == glm::vec3(1.0f));
 
-    // A gloss over a diffuse base: `coated` with the base that is seen in the same colour.
+    // Gloss over a diffuse base: `coated`, with the base whose visible colour is the same.
     for (const float roughness : {0.0f, 0.5f}) {
         PrincipledPoint plastic{.base_color = {0.7f, 0.3f, 0.2f}, .roughness = roughness};
         const tracer::CoatingAlbedo coating(1.5f, roughness * roughness);
@@ -310,14 +310,14 @@ TEST_CASE("principled: limits are the other BSDFs") {
         const glm::vec3 base = plastic.base_color / (1.0f - f + f * plastic.base_color);
         const tracer::Bsdf expected(tracer::CoatedDiffuseBsdf(coating.at(roughness * roughness), base));
         check_equal(Uniformly(plastic).bsdf(), expected, 3e-3f);
-        // A coat and fuzz that cover nothing change nothing.
+        // A coat and fuzz with no coverage change nothing.
         const Uniformly range(plastic);
         PrincipledRanges ranges{.roughness = only(roughness), .coat_weight = {0.0f, 1.0f}, .fuzz_weight = {0.0f, 1.0f}};
         SharedSurfaces shared;
         const PrincipledSurface coatable(ranges, shared);
         check_equal(coatable.at(plastic), range.bsdf(), 0.0f);
     }
-    // Without a gloss, rough diffuse and Lambert.
+    // Without gloss: rough diffuse and Lambert.
     PrincipledPoint clay{.base_color = {0.7f, 0.3f, 0.2f}, .diffuse_roughness = 0.6f, .specular_weight = 0.0f};
     check_equal(Uniformly(clay).bsdf(), tracer::RoughDiffuseBsdf(clay.base_color, 0.6f), 2e-3f);
     clay.diffuse_roughness = 0.0f;
@@ -337,7 +337,7 @@ TEST_CASE("principled: a coat darkens a coloured base, tints it, and roughens it
     p.coat_darkening = 0.0f;
     CHECK(furnace(Uniformly(p, {.coat_ior = 1.5f}).bsdf(), direction(0.0), 1 << 16).x ==
           doctest::Approx(0.04 + 0.96 * 0.5).epsilon(1e-3));
-    // At normal incidence, light crosses the coat twice; c is for that. Other light takes longer ways.
+    // The coat's colour is that of light which crosses it twice at normal incidence. Oblique light takes longer paths.
     p.coat_color = {0.5f, 1.0f, 0.25f};
     const glm::vec3 tinted = reflected(p);
     CHECK(tinted.x < 0.6f * tinted.y);
@@ -366,7 +366,7 @@ TEST_CASE("F82: the colours at 0° and 82°, and the mean are those asked for") 
     for (int i = 0; i <= 100; ++i) CHECK(black.reflectance(static_cast<float>(i) / 100, nullptr).x >= 0.0f);
 }
 
-// Without thicker films: they have more fringes than the sum has wavelengths.
+// Thicker films are left out, because they have more fringes than the sum has wavelengths.
 TEST_CASE("film colours: those of the spectrum, for any metal, thickness and angle") {
     const auto weights = tracer::spectral_weights();
     const tracer::FilmColours colours;

@@ -1,5 +1,5 @@
-// Rough surfaces in a white furnace give back all that they get, whatever their roughness, their index and the angle;
-// and they give it back to the side, and in the colour, that a random walk on the microsurface does.
+// Rough surfaces in a white furnace return all the light that they receive, whatever their roughness, index and the
+// angle. They return it to the same sides and in the same colours as a random walk on the microsurface.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -31,14 +31,15 @@ namespace {
 constexpr float roughnesses[] = {0.001f, 0.05f, 0.2f, 0.5f, 1.0f};
 constexpr double angles[] = {0.0, 40.0, 70.0, 80.0, 86.0, 89.0, 89.9};
 constexpr double tolerance = 0.001;
-// Where what is lost is interpolated between roughnesses or azimuths; the most is at 89.9° and small roughness.
+// Where the lost light is interpolated between roughnesses or azimuths. The largest error is at 89.9° and small
+// roughness.
 constexpr double tolerance_between = 0.002;
 
-// The mean weight in a furnace of radiance 1, of which a medium of index η has η²: `square` is that of the other side's
-// over this side's.
+// The mean weight in a furnace of radiance 1, where a medium of index η has radiance η². `square` is η² of the other
+// side over that of this side.
 glm::dvec3 furnace(const tracer::Bsdf& bsdf, const glm::vec3& wo, double square = 1.0) {
-    // The first dimension in equal steps and two of Sobol's are a net, whose error is far below that of chance: with an
-    // eighth of the points it would be as large as the tolerance.
+    // Equal steps in the first dimension and two of Sobol's dimensions form a net, whose error is far below that of
+    // random points. With an eighth of the points, it would be as large as the tolerance.
     constexpr std::uint32_t samples = 1 << 17;
     const auto fraction = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f + 0x1p-25f; };
     glm::dvec3 sum(0.0);
@@ -51,7 +52,8 @@ glm::dvec3 furnace(const tracer::Bsdf& bsdf, const glm::vec3& wo, double square 
     return sum / static_cast<double>(samples);
 }
 
-// The farthest from 1 over all angles, `scale` other than 1 being a planted defect. φ is the angle to the grain.
+// The largest difference from 1 over all angles. If `scale` is not 1, it is a planted defect. φ is the angle to the
+// grain.
 double worst(const tracer::Bsdf& bsdf, double square = 1.0, double scale = 1.0, double phi = 30.0) {
     double most = 0.0;
     for (const double theta : angles) {
@@ -107,7 +109,7 @@ TEST_CASE("rough furnace: glass is white from both sides, at every roughness, an
 }
 
 TEST_CASE("rough furnace: surfaces whose roughness varies are as white between the tables") {
-    const ValueRange range{tracer::least_roughness, 1.0f};  // as interfaces make it
+    const ValueRange range{tracer::least_roughness, 1.0f};  // the range that interfaces use
     const ConductorSurface metal(1.0f, glm::vec3(1.0f), all_reflecting, range);
     const DielectricSurface glass(1.0f, 1.5f, range);
     const CoatingAlbedo coating(DielectricSurface(1.0f, 1.5f), range, {});
@@ -163,7 +165,7 @@ TEST_CASE("rough furnace: copper and gold are as deep in colour as a walk on the
             }
             return sum / static_cast<double>(walks);
         };
-        // Under uniform light: at the middles of equal parts of μ², each from an azimuth of its own.
+        // Under uniform light: at the middles of equal parts of μ², each with its own azimuth.
         glm::dvec3 expected(0.0), ours(0.0);
         constexpr int parts = 16;
         for (int i = 0; i < parts; ++i) {
@@ -179,7 +181,7 @@ TEST_CASE("rough furnace: copper and gold are as deep in colour as a walk on the
             CHECK(std::abs(ratio - 1.0) < 0.015);
             CHECK_FALSE(std::abs(1.03 * ratio - 1.0) < 0.015);
         }
-        // From single directions it is a model's: more of the light gets away early where it grazes.
+        // For single directions, the result depends on the model: at grazing angles, more of the light escapes early.
         for (const double theta : {0.0, 50.0, 75.0}) {
             CAPTURE(theta);
             expected = walked(direction(theta), 30000);
@@ -209,7 +211,7 @@ TEST_CASE("rough furnace: from outside, glass lets through about as much as a wa
                 CAPTURE(eta);
                 CAPTURE(roughness);
                 CAPTURE(theta);
-                // How the part that is scattered again is shared among the two sides is a model's.
+                // How light that is scattered again is divided between the two sides depends on the model.
                 CHECK(std::abs(through - ours) < 0.08 * walks);
             }
         }

@@ -130,14 +130,14 @@ TEST_CASE("sampler: in [0, 1), never 1") {
     }
     CHECK(least >= 0.0f);
     CHECK(most < 1.0f);
-    // Of 2.4 million multiples of 2⁻²⁴ some are among the last 0.0001 %.
+    // Among 2.4 million multiples of 2⁻²⁴, some are in the last 0.0001 %.
     CHECK(least < 1e-5f);
     CHECK(most > 0.99999f);
 }
 
 TEST_CASE("sampler: over pixels and seeds, numbers are uniform and groups independent; 1 % of skew is seen") {
-    // One sample a pixel, a 16 × 16 histogram of two numbers: of one group, of different groups, of neighbouring
-    // pixels. The skew u^1.01 is a χ²-distance of 1e-4 a coordinate.
+    // One sample per pixel, and a 16 × 16 histogram of two numbers: from one group, from different groups, from
+    // neighbouring pixels. The skew u^1.01 is a χ²-distance of 1e-4 per coordinate.
     constexpr std::size_t cells = 16;
     const std::size_t samples = samples_to_detect(1e-4, cells * cells - 1);
     const double significance = sidak(1e-4, 3);
@@ -184,12 +184,13 @@ TEST_CASE("sampler: estimates are unbiased and converge faster than random ones"
     Moments many;
     const double coarse = variance(16, few);
     const double fine = variance(256, many);
-    // Truncation to 24 bits lowers every number by 2⁻²⁵ in the mean.
+    // Truncation to 24 bits lowers every number by 2⁻²⁵ on average.
     CHECK(mean_p_value(few, exact, 1e-7) > sidak(1e-4, 2));
     CHECK(mean_p_value(many, exact, 1e-7) > sidak(1e-4, 2));
     CHECK(mean_p_value(few, 1.01 * exact, 1e-7) < sidak(1e-4, 2));
     CHECK(mean_p_value(many, 1.01 * exact, 1e-7) < sidak(1e-4, 2));
-    // Random points: variance 0.327/N, a ratio of 16. Scrambled nets go towards N⁻³, a ratio of 4096.
+    // Random points: variance 0.327/N, a ratio of 16. The variance of scrambled nets tends towards N⁻³, a ratio of
+    // 4096.
     CHECK(fine * 500.0 < coarse);
     CHECK(fine * 256.0 < 0.327 / 200.0);
 }

@@ -1,4 +1,4 @@
-// Surfaces that are made once and kept from scene to scene.
+// Surfaces that are created once and kept from scene to scene.
 #include "shading/shared_surfaces.hpp"
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ TEST_CASE("between scenes coatings that are in use stay, and all else is recreat
     surfaces.begin_scene();
     CHECK(coating(1.5f) == used);
     CHECK(unused.expired());
-    // What is made of the other side of another surface might differ from it in its last bits.
+    // A surface derived from the other side of another one might differ in its last bits.
     CHECK(dielectric() != surface);
 }
 

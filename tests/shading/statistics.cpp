@@ -39,7 +39,7 @@ TEST_CASE("statistics: the test of counts") {
     // Small cells are pooled: here into {1 + 2 + 3}, {50}.
     const std::array<double, 4> small{1.0, 2.0, 3.0, 50.0};
     CHECK(chi_squared_test(small, small).degrees_of_freedom == 1.0);
-    // Something where nothing can be.
+    // A count where the expected count is zero.
     const std::array<double, 2> impossible_observed{100.0, 10.0};
     const std::array<double, 2> impossible_expected{110.0, 0.0};
     CHECK(chi_squared_test(impossible_observed, impossible_expected).p_value < 1e-4);

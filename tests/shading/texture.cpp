@@ -42,7 +42,8 @@ TEST_CASE("textures: a reflectance in [0, 1] everywhere, also where there is no 
         }
         CHECK(all);
         for (const float far : {1e10f, -1e30f, 3.4e38f}) CHECK(sane({far, 1.0f, far}));
-        color_at(texture, glm::vec3{nan, 0.0f, infinity});  // any colour, but no trap and no undefined conversion
+        color_at(texture,
+                 glm::vec3{nan, 0.0f, infinity});  // any colour will do, without a trap or an undefined conversion
     }
 }
 
@@ -76,7 +77,7 @@ TEST_CASE("noise: zero on the lattice, smooth, bounded, mean zero") {
     CHECK(most <= 1.0f);
     CHECK(steepest < 5.0f);  // continuous across the lattice
     // Points are independent and far apart compared with the wavelength; the mean of the field itself over a million
-    // cells is off by some 3e-4 more.
+    // cells is off by about another 3e-4.
     CHECK(phasetree::tests::mean_p_value(moments, 0.0, 1e-3) > 1e-4);
     CHECK(moments.variance() > 0.03);
     CHECK(gradient_noise({3.0f, -7.0f, 11.0f}, 3) == 0.0f);

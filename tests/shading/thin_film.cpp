@@ -31,7 +31,7 @@ FilmOfSurface soap(float thickness) {
     return {1.33f, {thickness, thickness}};
 }
 
-// The mean weight over both outcomes of a smooth surface: what a furnace sees, per channel.
+// The mean weight over both outcomes of a smooth surface, as in a furnace, per channel.
 glm::dvec3 given_back(const tracer::Bsdf& bsdf, const glm::vec3& wo, double square) {
     glm::dvec3 sum(0.0);
     for (const float lobe : {0.0f, 0x1.fffffep-1f}) {
@@ -110,7 +110,7 @@ TEST_CASE(
         }
     }
     CHECK(film.reflectance(0.0f, 380.0f) == glm::vec3(1.0f));
-    // It is a colour indeed.
+    // The result is coloured.
     const glm::vec3 straight = film.reflectance(1.0f, 380.0f);
     CHECK(std::max({straight.x, straight.y, straight.z}) > 1.5f * std::min({straight.x, straight.y, straight.z}));
 }

@@ -21,7 +21,7 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
     out.upper_z = box.high.z;
 }
 
-/// Where a ray enters a box; meaningless if it misses the box.
+/// The distance at which a ray enters a box; meaningless if it misses the box.
 inline double entry(const Bounds& box, const TracedRay& ray) {
     double result = -std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,10 +32,10 @@ inline double entry(const Bounds& box, const TracedRay& ray) {
     return result;
 }
 
-/// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. If crossings are
-/// equally near, that of the first object is the hit, and within an object, that of the cell that the ray enters first.
-/// So the hit does not depend on the order in which Embree visits cells. (Embree may skip a cell that is entered only
-/// at the hit.)
+/// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. Of equally near
+/// crossings, the hit is that of the object with the lower IDs (in the order of ObjectInstance), and within an object,
+/// that of the cell that the ray enters first. So the hit does not depend on the order in which Embree visits cells.
+/// Embree may skip a cell that the ray enters only at the hit, but such a cell comes last among those of its object.
 inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object,
                          const PreparedRay& prepared, float t, float far, const RTCHit& hit) {
     if (t < far || hit.geomID == RTC_INVALID_GEOMETRY_ID) return true;

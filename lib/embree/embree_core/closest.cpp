@@ -208,7 +208,7 @@ class Search {
     const glm::vec3 point_;
     const Metric metric_;
     const double tolerance_;
-    const float rounding_;      // the rounding error of a distance that the search allows for
+    const float rounding_;      // the rounding error of distances for which the search makes allowance
     const double near_enough_;  // in world space: the search ends once the bounds differ by at most this
     const PhaseSet opaque_;
 

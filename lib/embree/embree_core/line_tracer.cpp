@@ -8,7 +8,7 @@ LineTracer line_tracer(const CellScene& scene) {
     return [&scene](const glm::vec3& origin, const glm::vec3& direction, float length,
                     std::vector<CrossingOnLine>& found) {
         const std::optional<UnitRay> ray = UnitRay::of(origin, direction, 0, length);
-        if (!ray) return;  // not finite in floats, so far from the origin: no crossings
+        if (!ray) return;  // too far from the origin for floats, where there are no crossings
         Walk walk(scene, *ray, vacuum);
         while (const auto hit = walk.next()) {
             const Crossing& c = hit->crossing;

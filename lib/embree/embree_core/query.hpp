@@ -28,9 +28,10 @@ struct Query {
     StartHint start;
     /// In: whether to skip cells, so that only other geometries of the scene are found.
     bool skips_cells = false;
-    /// Out: the crossing of the last hit reported by a CellGeometry, in object space. If the ray's final hit is on a
-    /// CellGeometry, this is the crossing of that hit. The hit's primID is then the cell, whose
-    /// InterfaceCells::normal() returns the normal, and ObjectInstance::of(hit) is the object whose phase changes.
+    /// Out: the crossing of the hit that a CellGeometry reported last during the query, in object space. If the closest
+    /// hit, which the query returns, is on a CellGeometry, this is its crossing. The hit's primID is then the cell,
+    /// whose InterfaceCells::normal() returns the normal, and ObjectInstance::of(hit) is the object whose phase
+    /// changes.
     Crossing crossing;
     /// Out: the cost of searching all cells, added to the previous values.
     TraceCounters counters;

@@ -43,8 +43,7 @@ class BackwardSweep {
         return LiveSet(rest, rest.outputs, arenas_.scratch).program(arenas_);
     }
 
-    /// After run(): the upper limits up to which the values of local primitives are required. The result outlives the
-    /// sweep.
+    /// After run(): the largest values that matter of local primitives. The result outlives the sweep.
     std::span<const RequiredOfLocal> required_of_locals() const {
         const std::span<const std::uint32_t> live = live_.first(live_count_);
         const auto is_local = [&](std::uint32_t i) { return program::traits(program_.code[i].op).is_local; };
@@ -80,9 +79,9 @@ class BackwardSweep {
         return outputs.size() > 1 &&
                !std::ranges::all_of(outputs, [&](const ProgramOutput& o) { return opaque_.contains(o.phase); });
     }
-    /// Whether the sweep has changed nothing: all instructions and outputs are left, and their slopes are the program's
-    /// own. If there are two phases, they must also share one value already; otherwise, by_one_component() may shorten
-    /// the program.
+    /// Whether the sweep has changed nothing: all instructions and outputs are kept, with the program's own Lipschitz
+    /// bounds. A program of two phases counts as unchanged only if both outputs already use the same value; otherwise,
+    /// by_one_component() may shorten it.
     bool is_unchanged(std::span<const ProgramOutput> outputs) const {
         return !rules_.is_changed() && outputs.size() == program_.outputs.size() &&
                (outputs.size() != 2 || outputs[0].value == outputs[1].value) &&

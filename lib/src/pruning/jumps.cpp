@@ -34,11 +34,13 @@ bool may_jump(const WorkingProgram& program) {
     return std::ranges::any_of(program.lipschitz, [](float l) { return l > least_slope_of_jump; });
 }
 
-// The guard above a fold shows whether the fold may jump in the ball: the guard's first operand (its bound) is at least
-// half of the guard's constant wherever the fold jumps (`guarded` in math/number.hpp). A guard and its fold are matched
-// by their point: endless_grid measures the bound at the very point that it folds. Pruning may replace the bound only
-// by a value that equals it, because a guard requires its bound for all values (resolve_guarded). If that value is
-// computed from another point, no fold matches the guard. A fold without a guard counts as one that may jump.
+// A guard is the instruction `guarded`, max(a, min(b, c − a)), of a bound a and a field b that depends on a fold
+// (math/number.hpp). It shows whether the fold may jump in the ball, because a ≥ c/2 wherever the fold jumps.
+//
+// A guard belongs to the folds that map the point from which its bound is computed, because endless_grid uses one point
+// for both. Pruning can replace the bound by another value, though only by an equal one (resolve_guarded). If that
+// value is computed from another point, the fold has lost its guard. A fold without a guard counts as one that may
+// jump.
 std::span<const float> slopes_in_ball(const WorkingProgram& program, const ValuesAtPoint& centre, float radius,
                                       const ProgramContext& context, Arena& arena) {
     const std::span<float> slope = arena.copy(program.lipschitz);

@@ -181,8 +181,8 @@ void OperationRules<Ranges>::resolve_maximum(std::uint32_t i) {
 }
 
 /// Replaces a minimum or maximum by one of its operands (by a if both are possible), or keeps it. The code has no
-/// branches, because every other comparison here would be mispredicted. If a single operand is left, it is required
-/// twice in the same way.
+/// branches, because about half of the comparisons here would be mispredicted. If one operand replaces the result, both
+/// calls of require() get this operand and the same interval; the second has no effect.
 template <class Ranges>
 void OperationRules<Ranges>::resolve_extremum(std::uint32_t i, const Choice& choice) {
     const Instruction& in = program_.code[i];
@@ -207,8 +207,8 @@ void OperationRules<Ranges>::resolve_smooth_minimum(std::uint32_t i) {
     // If a is above r by more than the radius, b replaces the smooth minimum:
     //  - Where b ≤ r.high, it is more than the radius below a, so it is the smooth minimum.
     //  - Where b > r.high, the smooth minimum is above r as well. If b is the smaller, blending lowers it by at most a
-    //    sixth of ρ − (a − b), which is less than its distance above r. If a is the smaller, it is above r by more than
-    //    ρ, and is lowered by at most a sixth of ρ.
+    //    sixth of ρ − (a − b), which is less than b − r.high because a > r.high + ρ. If a is the smaller, it is above r
+    //    by more than ρ, and is lowered by at most a sixth of ρ.
     // The same holds with a and b exchanged.
     if (low(in.a) > r.high() + radius) return replace(i, in.b);
     if (low(in.b) > r.high() + radius) return replace(i, in.a);
@@ -288,8 +288,8 @@ void OperationRules<Ranges>::resolve_corner(std::uint32_t i) {
     // An operand above r replaces the corner, which is then above r as well.
     if (low(in.a) > r.high()) return replace(i, in.a);
     if (low(in.b) > r.high()) return replace(i, in.b);
-    // For the same reasons, an operand does not matter below `least`, where it is negative and below the smallest value
-    // of the other, or above r.
+    // For the same reasons, an operand does not matter in three ranges: below `least`; where it is negative and below
+    // every value of the other operand; and above r.
     require(in.a, {std::max(least, std::min(low(in.b), 0.f)), r.high()});
     require(in.b, {std::max(least, std::min(low(in.a), 0.f)), r.high()});
 }

@@ -26,21 +26,21 @@
 /// same side of the interval. Both operands of min(a, b) may be replaced at once, a by a′ and b by b′. Let the minimum
 /// be required in [l, u], and let A and B be the largest values of a and b in the region. Then a is required in [l,
 /// min(u, B)] and b in [l, min(u, A)]. Where a ≤ b (and likewise where b ≤ a),
-///     l ≤ a ≤ u   a′ = a, for a ≤ b ≤ B;  b′ = b, or both are above min(u, A) ≥ a   so min(a′, b′) = a
-///     a > u       a′ > u;                 b′ > u, for b ≥ a > u                     so min(a′, b′) > u
-///     a < l       a′ < l                                                            so min(a′, b′) < l
+///     l ≤ a ≤ u   a′ = a, because a ≤ b ≤ B;   b′ = b ≥ a or b′ > min(u, A) ≥ a   so min(a′, b′) = a
+///     a > u       a′ > u;                      b′ > u, because b ≥ a > u          so min(a′, b′) > u
+///     a < l       a′ < l                                                          so min(a′, b′) < l
 /// A replacement has the same sign relative to each threshold and is itself Lipschitz. So its distance from the
 /// threshold is still a lower bound of the distance to where the sign changes.
 ///
 /// *A replacement is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components of a
 /// pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first to the
 /// last; operations are those of program.hpp.
-///   - An instruction that is kept has the bound that follows from the bounds of its operands, with three
-///     exceptions. `corner` is no steeper than its steeper operand because its operands vary along orthogonal
-///     directions; an operand's replacement is made of parts of it, so it varies along the same directions. `guarded`
-///     is as steep as its first operand, which is required everywhere and hence is not changed. A node that proves its
-///     own bound (`one_lipschitz` in tree/domain.hpp), as a blob does for its sum of `falloff`s, has a smaller bound
-///     than their sum; each falloff is required wherever it is not zero, so none of them is changed.
+///   - An instruction that is kept has the bound that follows from the bounds of its operands, with three exceptions.
+///     `corner` is no steeper than its steeper operand because its operands vary along orthogonal directions; an
+///     operand's replacement is made of parts of it, so it varies along the same directions. `guarded` is as steep as
+///     its first operand, which is required everywhere and hence is not changed. A node may prove a bound of its own
+///     (`one_lipschitz` in tree/domain.hpp) that is smaller than the one that follows from its operands, as a blob does
+///     for its sum of `falloff`s. Each falloff is required wherever it is not zero, so none of them is changed.
 ///   - An operand that replaces a minimum, a maximum, a smooth minimum or a corner is no steeper than the steeper
 ///     operand, which is the instruction's bound. An operand that replaces a sum whose other operand is zero is no
 ///     steeper than the sum of both bounds.
@@ -48,9 +48,9 @@
 ///
 /// Functions here use types of the namespace `rewriting`. A WorkingProgram is a program derived from an object's
 /// program for a part of space. ProgramContext holds what all of these share: constants, the error bound, the opaque
-/// phases. Arenas are where results and scratch data are allocated. RequiredOfLocal is the upper limit up to which a
-/// local primitive is required. The sweep uses LiveSet (the instructions on which outputs depend) and SignedValue (a
-/// value or its negative).
+/// phases. Arenas are where results and scratch data are allocated. RequiredOfLocal names a primitive that can be
+/// specialised to a small box (LocalPrimitive in model/concepts.hpp), and the largest of its values that matters. The
+/// sweep uses LiveSet (the instructions on which outputs depend) and SignedValue (a value or its negative).
 namespace phasetree::pruning {
 
 using bounding::ValueRanges;
@@ -77,13 +77,13 @@ struct RangesInBall {
 /// in the region: an interface needs two phases, at least one of them not opaque. The result is allocated in `results`.
 /// If nothing can be deleted from the program, the program itself may be returned.
 ///
-/// In the region, the result gives the same labels, and the absolute values of its components are still lower bounds of
-/// the distance to where the label changes.
+/// In the region, the result gives the same labels (the phases with the smallest components), and the absolute values
+/// of its components are still lower bounds of the distance to where the label changes.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
-/// Does the same, and also returns the upper limits up to which the values of local primitives (LocalPrimitive in
-/// model/concepts.hpp) are required. A primitive whose constants are used by several instructions is left out, because
-/// smaller boxes cannot find its specialisation again.
+/// Does the same, and also returns the largest values that matter of local primitives. In smaller boxes, where
+/// instructions are renumbered, a primitive is recognised by the index of its constants (Specialisation::source). So
+/// primitives of several instructions that share constants are left out.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&,
                                     std::span<const RequiredOfLocal>& required);
 

@@ -15,8 +15,8 @@ namespace phasetree::rewriting {
 
 using program::traits;
 
-/// The upper limit up to which the values of a local primitive are required in a region
-/// (pruning/required_interval.hpp). Larger values need not be exact, only larger.
+/// The largest value of a local primitive that matters in a region (pruning/required_interval.hpp). Where the primitive
+/// is larger, its value need not be exact, only larger than this limit.
 struct RequiredOfLocal {
     std::uint32_t source;  ///< see Specialisation::source
     float high;
@@ -27,9 +27,8 @@ struct Specialisation {
     static constexpr std::uint32_t no_source = 0xffffffff;
 
     std::uint32_t value = 0;  ///< the primitive's instruction
-    /// The index of the general primitive's constants. A smaller box uses it to find this specialisation again,
-    /// although instructions are renumbered. It is no_source if several instructions of the program share these
-    /// constants.
+    /// The index of the general primitive's constants. It identifies this specialisation in smaller boxes, where
+    /// instructions are renumbered. It is no_source if several instructions of the program share these constants.
     std::uint32_t source = no_source;
     Op op{};                               ///< the operation of P::Specialised
     std::span<const float> data{};         ///< its data; empty if the primitive is not replaced

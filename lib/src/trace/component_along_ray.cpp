@@ -48,8 +48,10 @@ class StepsUpToJump : public RoutineSteps {
 };
 
 // Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
-// lies below the chord through its values at both ends, so it is at most the larger of these. It also lies above the
-// extension of any chord. So with L = 2 half, for t between −half and half:
+// lies below the chord through its values at both ends, so it is at most the larger of these. It lies above any chord
+// that is extended beyond its ends. Take the chord of length L = 2 half that ends at t = −half. Within L of that end,
+// its extension falls by at most as much as the chord itself. The same holds for the chord that begins at t = half. So
+// for t between −half and half:
 //     f(t) ≥ f(−half) − max(f(−half − L) − f(−half), 0),   f(t) ≥ f(half) − max(f(half + L) − f(half), 0).
 // This holds even where the derivatives of the equation are unknown, such as those of a square root at zero.
 template <class P>

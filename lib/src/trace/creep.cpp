@@ -110,8 +110,8 @@ class Creep {
         if (end > t_ && !go_to(std::max(t_, end - 8 * resolution), end)) go_to(t_, end);
     }
     // Walks in steps while the label stays the same and the interface is near. If the search has taken too long, the
-    // step is doubled first. It returns to one resolution once the ray is away from the interface. Returns whether the
-    // ray still creeps, so that enclosing another stretch may help.
+    // step is doubled first. Once the ray is away from the interface, the step becomes one resolution again. Returns
+    // whether the ray still creeps, so that enclosing another stretch may help.
     bool walk(float& step) {
         if (spent_ > max_batches) step *= 2;
         const float resolution = visit_.resolution, length = step_length * step;

@@ -6,19 +6,21 @@
 // ways.
 //
 // *Enclosed stretches.* Interval arithmetic with derivatives bounds the component φ of the ray's phase over a whole
-// stretch of the ray (ComponentAlongRay). If φ < resolution/16 all along it, no other phase is deeper than the rounding
-// error, and the ray passes the stretch. Here, creeping rays differ from others: for other rays, a phase that is never
-// deeper than the rounding error still counts if it lasts for one and a half resolutions (March::decide_crossing). A
-// creep along a plane is one such stretch; along a curved surface, stretches are about √(resolution · radius) long.
+// stretch of the ray (ComponentAlongRay). The sum of the components of two phases is never negative. So if φ <
+// resolution/16, the rounding error, all along the stretch, no other phase is deeper there than the rounding error, and
+// the ray passes the stretch. Here, creeping rays differ from others: for other rays, a phase that is never deeper than
+// the rounding error still counts if it lasts for one and a half resolutions (March::decide_crossing). A creep along a
+// plane is one such stretch; along a curved surface, stretches are about √(resolution · radius) long.
 //
 // *Walks.* Where nothing can be proven (outlines, patterns and images, whose derivatives are unknown), the ray walks in
-// steps of a resolution, eight per batch, while the interface is near. Where the label flickers because of rounding
-// errors, the kernel takes over, at three resolutions per batch.
+// steps of a resolution, eight per batch, while the interface is near. Where the label (the phase found at a sample)
+// flickers because of rounding errors, the kernel takes over, at three resolutions per batch.
 //
 // So the work is bounded by the length of the creep. At the resolution chosen for an object, the longest ray through it
 // has half a million resolutions. Finer resolutions allow more. Once a search has taken more than max_batches batches,
 // the step doubles with each further walk (of at most 256 batches), so that every ray terminates. Once the ray is away
-// from the interface, steps are a resolution again. The kernel searches what follows a walk at the resolution.
+// from the interface, steps are a resolution again. After a walk, the kernel searches the rest of the ray, at the
+// object's resolution.
 #pragma once
 
 #include "kernel/kernel.hpp"

@@ -13,14 +13,17 @@ using evaluation::Component;
 /// The normal of a crossing, from the gradients of the components on its two sides.
 ///
 /// At the bracket's ends, components are usually half a resolution from zero. Sometimes they are zero up to rounding
-/// errors, where the gradient is meaningless. For example, the gradient of √(x² + z²) is along an axis if the
-/// coordinates are an ulp each, and zero if they are zero; near an edge it may belong to a face that the ray does not
-/// cross. So a gradient is accepted only if it agrees with the component's value: a plane with this normal and distance
-/// must cross the ray within the bracket. If the gradient at the near end does not, others are tried, in this order:
+/// errors, where the gradient is meaningless. For example, if rounding leaves x and z an ulp or zero each, the gradient
+/// of √(x² + z²) is along an axis or a diagonal, whatever the true direction, and zero if both are zero. Near an edge,
+/// the gradient may be that of a face that the ray does not cross. So a gradient is accepted only if it agrees with the
+/// component's value: a plane with this normal and distance must cross the ray within the bracket. If the gradient at
+/// the near end does not, others are tried, in this order:
 ///  * a resolution before the bracket on the ray;
-///  * a resolution from the near end into `from`, against the normal of the previous point, then against its own;
-///  * the far end, a resolution beyond it on the ray, and a resolution from it into `to`, along the last normal;
-///  * two resolutions from both ends along the coordinate axes, taking the point deepest in its phase.
+///  * a resolution from the near end into `from`: against the normal found by the previous point, then against the near
+///    end's own normal;
+///  * the far end; a resolution beyond it on the ray; and a resolution from the far end into `to`, along the normal
+///    found by the previous point;
+///  * two resolutions from each end in both directions of each coordinate axis, taking the point deepest in its phase.
 /// If none agrees, the normal with the smallest angle to the ray is taken.
 ///
 /// `component(p, phase)` returns a component and its gradient, and `holds(p)` says whether it is valid at p.
@@ -76,8 +79,8 @@ class NormalOf {
         // The gradient is wrong more often at an end of the bracket, so the test is stricter there.
         const bool is_end = away == glm::vec3(0);
         const float rounding_error = (is_end ? 1.f / 16 : 1.f / 8) * resolution_, across = glm::dot(s.normal, away);
-        // According to the plane: the depth of this end of the bracket, and the depth it would have if the plane
-        // crossed the ray at the other end.
+        // According to the plane of the sample, this end of the bracket is at depth_at_end. If the plane crossed the
+        // ray at the other end, it would be at bracket_depth.
         const float depth_at_end = s.depth + (is_near ? across : -across), bracket_depth = width_ * s.cosine;
         s.is_sound = s.depth >= rounding_error && depth_at_end >= std::min(bracket_depth, 0.f) - rounding_error &&
                      depth_at_end <= std::max(bracket_depth, 0.f) + rounding_error;

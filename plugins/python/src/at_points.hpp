@@ -11,7 +11,7 @@
 
 namespace phasetree::python {
 
-/// Points per block, which take some hundred microseconds for a program of medium size.
+/// Points per block. A block takes a few hundred microseconds for a program of medium size.
 inline constexpr std::size_t points_a_block = 2048;
 
 struct PointBatch {

@@ -1,4 +1,5 @@
-// Volumes, masses and moments of an object's phases, and numbers for which they have a value.
+// Measures volumes, masses and moments of an object's phases, and solves for the number that gives one of them a
+// requested value.
 #include <pybind11/stl.h>
 
 #include <array>
@@ -75,7 +76,7 @@ py::object point(const std::optional<SolvePoint>& p) {
     return py::make_tuple(p->at, measure.array());
 }
 
-// `make` returns the handle of the object for a number. It is called without other Python code running meanwhile.
+// `make` returns the handle of the object for a number. No other Python code runs during the call.
 py::tuple solution(const py::function& make, const std::vector<std::pair<int, double>>& weights, double value,
                    double low, double high, double width, std::optional<double> seconds, const py::object& tell) {
     SolveTarget target{{}, value};

@@ -126,7 +126,7 @@ py::class_<Handle> add_handle(py::module_& module, const char* name) {
 }  // namespace
 
 void add_nodes(py::module_& module) {
-    // As the object made of it, which consists of the first of these phases.
+    // text() returns the text of an object: the field, filled with the first of these phases.
     add_handle<Field>(module, "FieldHandle")
         .def("renumbered", &with_numbers<Field>)
         .def("text", [](const Field& field, const std::vector<std::string>& phases) {

@@ -17,7 +17,7 @@ namespace phasetree::python {
 
 namespace {
 
-// `text` is a scene file that has only "expect". Densities are those of the phases with these numbers, in kg/m³.
+// `text` is a scene file that has only "expect". `densities` holds pairs of a phase's number and its density in kg/m³.
 py::list proofs(const Phased& object, const std::vector<std::string>& names, const std::string& text,
                 const std::string& unit, const std::vector<std::pair<int, double>>& densities, double resolution,
                 std::optional<double> seconds, const py::object& tell) {

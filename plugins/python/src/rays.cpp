@@ -12,7 +12,7 @@ using embree::PreparedObject;
 
 namespace {
 
-// Rays per block: few, because a ray may take long.
+// Rays per block: few, because a single ray may take a long time.
 constexpr std::size_t rays_a_block = 256;
 constexpr std::size_t queries_a_block = 16;
 

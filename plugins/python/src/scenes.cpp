@@ -26,7 +26,8 @@ namespace phasetree::python {
 
 namespace {
 
-// With `document`, that of a scene, the fields of materials become handles, because they may be names of shapes.
+// If `document` is given, which is that of a scene, the fields of materials become handles, because they may be names
+// of shapes.
 py::object as_python(Value value, const Document* document = nullptr) {
     switch (value.kind()) {
         case Kind::null:
@@ -106,8 +107,8 @@ py::list instances_of(const tracer::PlacedObjects& all, const std::vector<tracer
     return result;
 }
 
-// For a scene of several objects: the names and transforms of the objects, the instances in each group, and those of
-// the scene. Reports all errors of the scene.
+// For a scene of several objects: the names and transforms of the objects, the instances in each group, and the
+// instances of the scene itself. Reports all errors of the scene.
 py::tuple placed_in(const Document& document) {
     const Value root = document.root();
     tracer::PlacedObjects all = while_watching_signals([&] {
@@ -126,9 +127,9 @@ py::tuple placed_in(const Document& document) {
     return py::make_tuple(objects, groups, instances_of(all, all.instances));
 }
 
-// The keys of everything in a scene file that reads a file, each with the name of the parameter that has the file. Keys
-// are names of kinds, or names of parameters whose value is of such a kind, as "density_grid" is of voxels. A set,
-// because chapters share names: `image` is both a texture and a light.
+// Everything in a scene file that reads a file: its key, and the name of the parameter that holds the path. A key is
+// the name of a kind, or that of a parameter whose value is such a kind, as "density_grid" is for voxels. The result is
+// a set, because chapters share names: `image` is both a texture and a light.
 std::set<std::pair<std::string, std::string>> keys_with_files() {
     std::set<std::pair<std::string, std::string>> all;
     const std::string type = ParameterType<std::filesystem::path>::describe({}).name;

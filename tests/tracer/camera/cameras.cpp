@@ -1,4 +1,4 @@
-// Cameras as scenes spell them, and a picture of a camera without perspective.
+// Cameras in scene files, and a picture of a camera without perspective.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ TEST_CASE("an orthographic camera, and what is none") {
 }
 
 TEST_CASE("in an orthographic picture a ball is a disk of its own radius, from near and from far") {
-    // A black ball before white light: pixels are 0.1 wide, and those that touch the rim are not asked about.
+    // A black ball in front of white light. Pixels are 0.1 wide, and those that touch the rim are not tested.
     constexpr int width = 41, height = 31;
     for (const double distance : {2.0, 2000.0}) {
         CAPTURE(distance);
@@ -148,8 +148,8 @@ TEST_CASE("the largest orthographic picture has no ray that Embree cannot bear")
 }
 
 TEST_CASE("orthographic rays start in the phase at their own origins") {
-    // The plane on which rays start cuts a ball of glass that looks like its surroundings, but absorbs: from half its
-    // way through, e⁻¹ is left in the middle, and everything beside it.
+    // The plane on which rays start cuts a ball with the index of its surroundings that absorbs. After half of the
+    // ball, e⁻¹ is left in the middle, and all light beside the ball.
     const Scene scene = scene_of(
         R"("haze": {"clear": {"ior": 1, "absorption": [1, 1, 1]}})",
         R"({"set": {"phase": "haze", "of": {"sphere": {"radius": 1}}}})",

@@ -1,4 +1,4 @@
-// Pictures of what moves while the shutter is open, against closed forms and each other.
+// Pictures of objects that move while the shutter is open, compared with closed forms and each other.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -29,18 +29,18 @@ Scene scene_with(const std::string& rest, const std::string& render, const std::
 
 const std::string along_x =
     R"({"keys": [[0, {"translate": {"by": [-3, 0, 0]}}], [2, {"translate": {"by": [1, 0, 0]}}]]})";
-// Of eight metres in height and forty in width: a pixel is a metre.
+// Eight metres high and forty wide: a pixel is a metre.
 const std::string from_above =
     R"({"orthographic": {"position": [0, -9, 0], "look_at": [0, 0, 0], "height": 8, "filter": "box"}})";
 
-// How much of the time, in the mean over the pixel, the wall leaves a column free that is from x to x + 1, if it moves
-// by this much at an even speed from where its middle is at `start`: it is 4 wide.
+// The share of the time, averaged over the column from x to x + 1, in which the wall does not cover it. The wall is 4
+// wide, and moves by this much at a constant speed; its middle is at `start` first.
 double free_time(double x, double start, double moved) {
     double sum = 0;
     constexpr int n = 4000;
     for (int i = 0; i < n; ++i) {
         const double at = x + (i + 0.5) / n;
-        // It is there while its middle is within 2.
+        // It covers a point while its middle is within 2.
         const double first = std::clamp((at - 2 - start) / moved, 0.0, 1.0);
         const double last = std::clamp((at + 2 - start) / moved, 0.0, 1.0);
         sum += 1 - (last - first);
@@ -77,10 +77,10 @@ Image image_of(const Scene& scene, int threads = 0) {
 TEST_CASE("a blurred wall covers each pixel for as long as it is before it") {
     const std::string render = R"("samples": 4096, "shutter": [0, 2])";
     const Image image = image_of(scene_with("", render, along_x, from_above));
-    // Time and place in a pixel are drawn apart, so in a column at an edge the mean of 8 × 4096 samples is uncertain by
-    // some 0.0005.
+    // Time and position in a pixel are drawn independently, so in a column at an edge, the mean of 8 × 4096 samples has
+    // a standard error of about 0.0005.
     CHECK(worst_column(image, -3, 4) < 0.003);
-    // 1 % more of the way would be found.
+    // A path that is 1 % longer would be detected.
     CHECK(worst_column(image, -3, 4.04) > 0.006);
     CHECK(worst_column(image, -3.04, 4) > 0.006);
     // A shutter that is open for half of that time, and one before the time of the picture.
@@ -112,7 +112,7 @@ TEST_CASE("a shutter changes no bit of what stands still") {
     const Image without = image_of(scene_with(ball, R"("samples": 7)", stands, from_above));
     const Image with = image_of(scene_with(ball, R"("samples": 7, "shutter": [0, 2])", stands, from_above));
     CHECK(equal_bits(without, with));
-    // What moves before it opens stands there.
+    // An object whose motion ends before the shutter opens is at rest.
     const std::string done =
         R"({"keys": [[-2, {"translate": {"by": [0, 0, 0]}}], [0, {"translate": {"by": [-3, 0, 0]}}]]})";
     CHECK(equal_bits(without, image_of(scene_with(ball, R"("samples": 7, "shutter": [1, 1])", done, from_above))));
@@ -121,7 +121,7 @@ TEST_CASE("a shutter changes no bit of what stands still") {
 }
 
 TEST_CASE("photons light what is there at their time") {
-    // A ball of glass over a floor, and a lamp; once the ball moves, and once it stands at nine places of its way.
+    // A ball of glass over a floor, and a lamp. Once the ball moves, and once it is at rest at nine points of its path.
     const auto scene = [](const std::string& transform, const std::string& more) {
         return read_scene(Document::from_text(
             R"({"version": 1, "phases": {"glass": {"clear": {"ior": 1.5}}, "floor": {"diffuse": {"color": [0.8, 0.8, 0.8]}}},
@@ -153,7 +153,8 @@ TEST_CASE("photons light what is there at their time") {
         expected += still[k];
     }
     CHECK(std::abs(mean / expected - 1) < 0.02);
-    // Paths of another time than their photons would find the light where the ball shades it: compare pixel by pixel.
+    // Paths at another time than their photons would find light in the ball's shadow, so pictures are compared pixel by
+    // pixel.
     for (std::size_t k = 0; k < still.size(); ++k)
         dark = std::max(dark, std::abs(static_cast<double>(blurred.pixels[k].y) - still[k]));
     CHECK(dark < 0.25 * expected / static_cast<double>(still.size()));

@@ -1,4 +1,5 @@
-// Photons: against closed forms behind flat interfaces, against paths alone behind curved ones, and the map by itself.
+// Photons: compared with closed forms behind flat interfaces, and with paths alone behind curved ones; and the map by
+// itself.
 #include "caustics/caustics.hpp"
 
 #include <doctest/doctest.h>
@@ -22,15 +23,15 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// A dark floor, so that light which it sends back and which comes again does not matter for the closed forms.
+// A dark floor, so that light which it reflects and which returns to it does not matter for the closed forms.
 constexpr double albedo = 0.001;
 const std::string floor_material = R"({"diffuse": {"color": [0.001, 0.001, 0.001]}})";
 const std::string sun_at_60_degrees = R"({"sun": {"direction": [0, 0.8660254, 0.5], "irradiance": [4, 4, 4]}})";
 
-// What a member "render" says for few photons, gathered in a wide radius.
+// The member "render" for few photons, gathered within a large radius.
 const std::string few_wide_photons = R"(, "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 6})";
 
-// That the floor below what hangs there is as bright with photons as by paths alone.
+// Checks that the floor below the hanging objects is as bright with photons as with paths alone.
 void check_against_paths(const Scene& scene, int passes_of_photons, double significance) {
     phasetree::tracer::tests::check_against_paths(scene, {-2, -2, 0.1f}, {1.9f, 1.9f, -0.1f}, passes_of_photons,
                                                   significance);
@@ -54,7 +55,7 @@ TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
             R"("glass": {"clear": {"ior": 1.5}})",
             R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.5], "of": {"box": {"size": [3, 3, 0.2]}}}}}})",
             R"("meshes": [{"floor": {"material": )" + floor_material + "}}], ");
-        // (1 − r)² Σ r^(2k): what passes after any number of reflections inside.
+        // (1 − r)² Σ r^(2k): the light that passes after any number of reflections inside.
         const double expected = irradiance * (1 - r) / (1 + r);
         const Moments m = with_photons(scene, {-1, -1, 0.2f}, {1, 1, -0.2f});
         CAPTURE(m.mean() / expected);
@@ -67,7 +68,7 @@ TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
             R"({"over": [{"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 12, 1]}}}}}},
                          {"set": {"phase": "water", "of": {"box": {"size": [3, 12, 2]}}}}]})",
             "");
-        // Seen from within the water, so far from the sides that what comes in there falls elsewhere.
+        // Seen from within the water, far enough from the sides that light which enters there falls elsewhere.
         const Moments m = with_photons(scene, {-0.5f, -0.5f, 0.2f}, {0.5f, 0.5f, -0.7f});
         const double expected = irradiance * (1 - r);
         CAPTURE(m.mean() / expected);
@@ -77,7 +78,8 @@ TEST_CASE("the sun through a pane, and at the ground of a pool: closed forms") {
 }
 
 TEST_CASE("a point above a pane, and above a pool: closed forms") {
-    // Straight below it, a point at the height h above a plane of index n shines as from h n, if it is seen within.
+    // Seen from straight below, inside a medium of index n, a point light at the height h above its flat surface
+    // appears at the height h n.
     const double significance = sidak(1e-4, 2);
     const double r = reflectance(1, 1.5), intensity = 20;
     const auto check_radiance = [&](const Scene& scene, const glm::vec3& from, double irradiance) {
@@ -86,14 +88,15 @@ TEST_CASE("a point above a pane, and above a pool: closed forms") {
         CAPTURE(m.mean() / expected);
         CHECK(mean_p_value(m, expected, 2e-3 * expected) > significance);
         CHECK(mean_p_value(m, planted * expected, 2e-3 * expected) < significance);
-        // It is photons alone that find it.
+        // Only photons find this light.
         CHECK(radiance_along(World(scene), scene, from, -from, 1000)[0].mean() < 1e-4 * expected);
     };
-    // Around that place it is darker by 3/4 of (radius/distance)², for which 0.2 % are allowed.
+    // Around that point, the floor is darker by 3/4 of (radius/distance)², for which the tolerance is 0.2 %.
     const std::string near_photons = R"(, "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})";
     const std::string point = R"("lights": [{"point": {"position": [0, 0, 2], "intensity": 20}}])";
     SUBCASE("a pane over the floor") {
-        // What passes straight, and what is reflected twice within, which comes from further away; more is nothing.
+        // Light that passes straight, and light that is reflected twice inside, which comes from farther away. More
+        // reflections are negligible.
         const double once = 2 - 0.2 * (1 - 1 / 1.5), twice = once + 0.4 / 1.5;
         const double passed = (1 - r) * (1 - r) * (1 / (once * once) + r * r / (twice * twice));
         check_radiance(
@@ -121,7 +124,7 @@ TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright
                                       "radiance": [5, 5, 5]}})";
     const std::string sphere = R"({"sphere": {"centre": [1, 1, 4], "radius": 2, "radiance": [5, 5, 5]}})";
     const std::string coloured = R"("absorption": [0.3, 0.3, 0.3])";
-    // Photons lose all that is scattered on their way, which paths find.
+    // Photons lose all light that is scattered on their way. Paths find it.
     const std::string murky = R"("absorption": [0.1, 0.1, 0.1], "scattering": [0.5, 0.5, 0.5], "anisotropy": 0.3)";
     const std::string cloudy = R"("scattering": [1, 1, 1], "density_depth": 0.5, "density": {"translate":
                                   {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 0.8}}}})";
@@ -130,7 +133,7 @@ TEST_CASE("behind a ball of coloured glass, or of what scatters, it is as bright
         int passes;  // in multiples: the sphere's photons differ most in their power
     };
     std::vector<Case> cases{{sun, coloured, 1}, {sphere, coloured, 3}, {rectangle, cloudy, 1}};
-    // caustics_in_media.cpp has photons in what scatters.
+    // Photons in scattering media are in caustics_in_media.cpp.
     if (long_form) cases.insert(cases.end(), {{rectangle, coloured, 1}, {sun, murky, 1}});
     const double significance = sidak(1e-4, cases.size());
     for (const Case& c : cases) {
@@ -175,7 +178,8 @@ TEST_CASE("lines are as dense from lamps in clusters as from the same lamps one 
 }
 
 TEST_CASE("light that passes between two balls of glass does not count as found by photons") {
-    // Photons aim at both balls, and at what is between them. What they meet there nothing has bent, so it is not kept.
+    // Photons aim at both balls and at the space between them. Photons through that space were not bent, so they are
+    // not kept.
     const Scene scene = scene_of(R"("glass": {"clear": {"ior": 1.2, "absorption": [0.3, 0.3, 0.3]}})",
                                  R"({"set": {"phase": "glass", "of": {"union": {"of": [
               {"translate": {"by": [-2, 0, 1.1], "of": {"sphere": {"radius": 1}}}},
@@ -188,7 +192,7 @@ TEST_CASE("light that passes between two balls of glass does not count as found 
 }
 
 TEST_CASE("what glows before the sun, through a ball of glass, hides it from photons and sends its own") {
-    // The sun is weak, and what glows in front of it is not.
+    // The sun is weak, and the glowing object in front of it is not.
     const Scene scene = scene_of(
         R"("glass": {"clear": {"ior": 1.2, "absorption": [0.3, 0.3, 0.3]}}, "hot": {"glowing": {"radiance": 4}})",
         R"({"over": [
@@ -213,7 +217,7 @@ TEST_CASE("a lamp in water, behind a ball of glass: as bright as by paths alone"
 }
 
 TEST_CASE("the bright parts of an image, through a ball of glass: as bright as by paths alone") {
-    // Two suns of some degrees in a grey sky, turned. One is on the seam of the image.
+    // Two suns with a diameter of a few degrees in a grey sky, rotated. One is on the seam of the image.
     constexpr int width = 96, height = 48;
     std::vector<glm::vec3> pixels(width * height, glm::vec3(0.3f));
     const auto shine = [&](int column, int row, float radiance) {
@@ -292,9 +296,10 @@ TEST_CASE("photons of a flame start in it, and nowhere else") {
         ++started;
         CHECK(photon->ray.phase == world.geometry().label(photon->ray.origin));
         CHECK(photon->emission.radiance.x > 0.0f);
-        CHECK(photon->emission.radiance.x < 3.0f);  // as far as the flame is long
+        CHECK(photon->emission.radiance.x < 3.0f);  // at most the flame's length
     }
-    // The flame fills less than a hundredth of the box around it, and its balls are larger than it by half or more.
+    // The flame fills less than a hundredth of its bounding box, and its balls are larger than the flame by at least
+    // half.
     CHECK(started > 400);
 }
 

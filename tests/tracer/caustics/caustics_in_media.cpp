@@ -1,4 +1,4 @@
-// Photons in media that scatter: against a closed form behind a plane, and against paths alone behind curved
+// Photons in scattering media: compared with a closed form behind a plane, and with paths alone behind curved
 // interfaces.
 #include <doctest/doctest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr float half_length = 0.1f;
 
-// How often places count for points at these depths, against the coverage.
+// How often places count for points at these depths, compared with the coverage.
 void check_coverage(const PhotonPlacement& placement, std::initializer_list<float> at_depths) {
     Sampler sampler(1, 2, 3, 4);
     constexpr int count = 500000;
@@ -51,7 +51,7 @@ TEST_CASE("a place on a line counts for a point as often as the coverage says") 
         R"({"set": {"phase": "fog", "of": {"sphere": {"radius": 1}}}})");
     check_coverage(PhotonPlacement::in(std::get<Clear>(varying.materials[1]).interior, half_length).value(),
                    {-0.05f, 0.0f, 0.07f, 0.3f, 1.5f, 4.0f});
-    // Also where hardly anything is left, nothing is infinite.
+    // Even where almost no light is left, nothing is infinite.
     for (const float depth : {-0.1f, 0.0f, 0.1f, 1e6f}) {
         const float coverage = placement_in({0, 0, 0}, {1e-30f, 1e30f, 1}).coverage(depth);
         CHECK(coverage >= 0);
@@ -61,7 +61,7 @@ TEST_CASE("a place on a line counts for a point as often as the coverage says") 
 }
 
 TEST_CASE("the map tells how deep on a photon's line the point next to another is, and which count there") {
-    // A line that comes in at the origin and goes down, kept at the depth 2.
+    // A line that enters at the origin and goes down, kept at the depth 2.
     const glm::vec3 back(0, 0, 1);
     TracedPhotons traced;
     traced.in_media.push_back({{{0, 0, -2}, back, glm::vec3(1), 1, phasetree::Phase{1}, {}, back}, 2});
@@ -101,14 +101,15 @@ TEST_CASE("roulette of chains keeps the mean of what is left") {
 }
 
 TEST_CASE("a point above a tank of murky water: a closed form") {
-    // A field may tell the density, which is 1 all over the tank.
+    // A field may determine the density, which is 1 everywhere in the tank.
     std::string density;
     SUBCASE("homogeneous") {}
     SUBCASE("of a density that a field tells") {
         density = R"(, "density": {"box": {"size": [9, 9, 9]}}, "density_depth": 0.5)";
     }
-    // At the depth z on the axis the point, h above the plane, shines as from h + z/n. What is scattered back along the
-    // axis once comes to ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz; more often, to next to nothing.
+    // At the depth z on the axis, the point light, which is h above the plane, appears at the distance h + z/n. Light
+    // that is scattered back along the axis once is ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz. Light that is
+    // scattered more often is negligible.
     constexpr double scattering = 0.006, extinction = 3, intensity = 20, height = 1, index = 1.5, g = -0.3;
     const auto r = static_cast<double>(fresnel_dielectric(1, 1.5f).reflectance);
     const double backwards = (1 - g * g) / std::pow(1 + g * g + 2 * g, 1.5) / (4 * std::numbers::pi);
@@ -127,7 +128,7 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
         R"("lights": [{"point": {"position": [0, 0, 1], "intensity": 20}}],
            "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})");
     const glm::vec3 origin(0, 0, -0.2f), direction(0, 0, -1);
-    // Where the density varies fewer photons count, and more often.
+    // Where the density varies, fewer photons count, and each counts more often.
     const Moments m = with_photons(scene, origin, direction, (density.empty() ? 3 : 12) * passes);
     CAPTURE(m.mean() / expected);
     CAPTURE(m.standard_error() / expected);
@@ -135,7 +136,7 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
     const double significance = sidak(1e-4, 2);
     CHECK(mean_p_value(m, expected, 3e-3 * expected) > significance);
     CHECK(mean_p_value(m, planted * expected, 3e-3 * expected) < significance);
-    // It is photons alone that find it.
+    // Only photons find this light.
     CHECK(radiance_along(World(scene), scene, origin, direction, 1000)[0].mean() < 1e-4 * expected);
 }
 
@@ -146,13 +147,14 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     const std::string thin = R"("absorption": [0.3, 0.3, 0.3], "scattering": [0.9, 0.9, 0.9], "anisotropy": 0.4)";
     const std::string thinnest = R"("absorption": [0.02, 0.02, 0.02], "scattering": [0.4, 0.4, 0.4])";
     const std::string thick = R"("absorption": [0.5, 0.5, 0.5], "scattering": [6, 6, 6])";
-    // Of the first channel, which is examined, the others differ much.
+    // The other channels differ much from the first one, which is examined.
     const std::string coloured = R"("absorption": [0.2, 2, 0.1], "scattering": [1.5, 12, 0.2], "anisotropy": -0.2)";
-    // With many photons they alone bring the light; with few they share it with the other techniques, by their weights.
+    // Many photons find all of the light. A few share it with the other techniques, according to the weights.
     struct Case {
         std::string light, inside, around, photons;
     };
-    // A line ends where it leaves the ball, and does not go on straight into the next one, of the same phase.
+    // A line ends where it leaves the ball. It does not continue straight into the next ball, which is of the same
+    // phase.
     const std::string neighbour =
         R"(, {"set": {"phase": "jelly", "of": {"translate": {"by": [0.45, 0.65, 2.2], "of": {"sphere": {"radius": 1}}}}}})";
     const std::string water = R"(, {"set": {"phase": "water", "of": {"box": {"size": [4, 4, 4]}}}})";

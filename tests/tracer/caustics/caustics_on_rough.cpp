@@ -1,5 +1,5 @@
-// Rough interfaces at which photons are gathered, because no earlier place of a path gathers them: what the camera sees
-// is held against paths alone.
+// Rough interfaces at which photons are gathered, because no earlier point of a path gathers them. Pictures are
+// compared with paths alone.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// Runs check_against_paths(), and checks that the photons that are gathered bring 3 % of the light at least.
+// Runs check_against_paths(), and checks that gathered photons contribute at least 3 % of the light.
 void check(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int times, double significance) {
     check_against_paths(scene, origin, direction, times * passes, significance);
     const Moments all = with_photons(scene, origin, direction, 4 * passes);
@@ -49,7 +49,8 @@ TEST_CASE("light that falls through smooth glass onto rough glass is as bright a
 TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright as by paths alone") {
     const double significance = sidak(1e-4, 2);
     const std::string ball = R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})";
-    // Absorption dims light that is reflected often inside. It is rare and bright, and would need many more photons.
+    // Absorption dims light that is reflected often inside. Such light is rare and bright, and would need many more
+    // photons.
     const std::string absorbing = R"(, "absorption": [1, 1, 1])";
     const glm::vec3 origin(-3, -3, 0.8f), direction(1, 1, 0.1f);
     SUBCASE("within a smooth one") {
@@ -68,7 +69,7 @@ TEST_CASE("a rough ball within a smooth one, and a rough ball alone: as bright a
 }
 
 TEST_CASE("light that falls onto rough glass past smooth glass does not count as found by photons") {
-    // The pane is nearly black, so that what it reflects is all that is seen.
+    // The pane is nearly black, so that only its reflection is visible.
     const Scene scene = scene_of(
         clear("glass", 1.4, 0) + ", " + clear("pane", 1.5, 0.4, R"(, "absorption": [9, 9, 9])"),
         R"({"over": [)" +
@@ -80,7 +81,7 @@ TEST_CASE("light that falls onto rough glass past smooth glass does not count as
 }
 
 TEST_CASE("a point light shines through smooth glass onto rough glass as a small ball does") {
-    // Photons alone find the point, and the ball is found by all techniques.
+    // Only photons find the point light. All techniques find the ball.
     constexpr double intensity = 20, radius = 0.2;
     const auto with = [](const std::string& light, int times) {
         const Scene scene = scene_of(
@@ -106,7 +107,7 @@ TEST_CASE("a point light shines through smooth glass onto rough glass as a small
         return phasetree::tests::normal_two_sided((factor * of_point.mean() - of_ball.mean()) / error);
     };
     CHECK(p_value(1) > 1e-4);
-    // The ball is noisy, for which an error of a tenth would take minutes to find.
+    // The ball is noisy: detecting an error of a tenth would take minutes.
     CHECK(p_value(1.2) < 1e-4);
 }
 

@@ -1,4 +1,4 @@
-// Pictures with photons that rough interfaces scatter on their way are held against pictures by paths alone.
+// Pictures with photons that rough interfaces scatter, compared with pictures by paths alone.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -16,7 +16,7 @@ namespace {
 const std::string grey_floor = R"("meshes": [{"floor": {"material": {"diffuse": {"color": [0.6, 0.6, 0.6]}}}}], )";
 const std::string ball = R"({"translate": {"by": [0, 0, 1.1], "of": {"sphere": {"radius": 1}}}})";
 
-// As check_against_paths(), and that photons bring a part of the light, but not all.
+// Like check_against_paths(). Also checks that photons contribute a part of the light, but not all.
 void check(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int passes_of_photons,
            double significance) {
     check_against_paths(scene, origin, direction, passes_of_photons, significance);
@@ -36,7 +36,7 @@ TEST_CASE("behind a ball of ground glass it is as bright as by paths alone") {
     struct Case {
         std::string light;
         double roughness, photons;
-        int times;  // how many times `passes` find the planted error
+        int times;  // the multiple of `passes` that detects the planted error
     };
     std::vector<Case> cases{{sun, 0.3, 0.04, 10}, {rectangle, 0.1, 0.04, 12}};
     if (long_form) cases.insert(cases.end(), {{sun, 0.8, 0.04, 12}, {point, 0.8, 0.4, 40}});
@@ -58,7 +58,7 @@ TEST_CASE("smooth interfaces and rough ones behind each other: as bright as by p
             scene_of(phases, R"({"over": [)" + first + ", " + second + "]}", grey_floor + lit_by(rectangle, photons));
         check(scene, above_floor, below_ball, passes_of_photons, significance);
     };
-    // An interface is as rough as the rougher of its sides.
+    // The roughness of an interface is that of its rougher side.
     const std::string core =
         in_phase("core", R"({"translate": {"by": [0.2, 0, 1.2], "of": {"sphere": {"radius": 0.6}}}})");
     SUBCASE("a rough ball within a smooth one") {

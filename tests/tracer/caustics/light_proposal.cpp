@@ -1,5 +1,5 @@
-// Light that comes in through a boundary is looked for where it comes from: the density of the directions, and the sun
-// over the ground of a lake, which nothing else finds.
+// Proposals for light that enters through a boundary: the density of their directions, and the sun on the ground of a
+// lake, which no other technique finds.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -29,8 +29,9 @@ constexpr double half_turn = std::numbers::pi;
 }  // namespace
 
 TEST_CASE("directions bent at a plane have the density that is said of them") {
-    // In light of the same radiance from everywhere: half of the directions are uniform; of the other half those from
-    // above the plane are bent, rings of equal height outside into rings of equal height there, and the rest is lost.
+    // In light of the same radiance from everywhere, half of the directions are uniform. In the other half, those from
+    // above the plane are refracted, rings of equal height outside into rings of equal height inside, and the rest is
+    // lost.
     constexpr int rings = 8, sectors = 6, beyond = rings * sectors, lost = beyond + 1;
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
     const Frame frame(normal);
@@ -53,7 +54,7 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
         for (const double p : probability) expected.push_back(p * static_cast<double>(count));
         Uniform random(5);
         Moments inverse;
-        int others = 0;  // than what is said of their direction
+        int others = 0;  // those whose pdf differs from that of their direction
         for (std::size_t i = 0; i < count; ++i) {
             const auto sample = proposal.sample(lights, random.two());
             inverse.add(sample ? 1 / static_cast<double>(sample->pdf) : 0);
@@ -74,7 +75,7 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
                                                 std::min(static_cast<int>(turn * sectors), sectors - 1))];
         }
         CHECK(others == 0);
-        // ∫ p · 1/p over all directions, which straight ones reach alone as well.
+        // ∫ p · 1/p over all directions; straight ones alone also reach all of them.
         return std::array{chi_squared_test(observed, expected).p_value, mean_p_value(inverse, 4 * half_turn, 1e-3)};
     };
     for (const double eta : {1.33, 1.5, 2.4}) {
@@ -85,14 +86,15 @@ TEST_CASE("directions bent at a plane have the density that is said of them") {
 }
 
 TEST_CASE("directions bent at two planes have the density that is said of them") {
-    // ∫ over an eighth of all directions, from samples whose density is said by a proposal with other indices, or not.
+    // ∫ over an eighth of all directions, from samples whose density is computed by a proposal with other indices, or
+    // by the same one.
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
     const glm::vec3 other = glm::normalize(glm::vec3(-0.8f, -0.4f, 0.1f));
     Lights lights;
     lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(1))));
     const auto proposal_of = [&](float eta) {
         LightProposal proposal(glm::vec3{0.1f, 0.2f, 0.3f}, normal, eta);
-        proposal.add_plane(normal);  // which changes nothing
+        proposal.add_plane(normal);  // no effect
         proposal.add_plane(other);
         return proposal;
     };
@@ -149,12 +151,12 @@ TEST_CASE("the flat sides of an object that its lamps shine on") {
     const auto of_cylinder = found(set(R"({"cylinder": {"height": 3, "radius": 0.8}})"));
     CHECK(of_cylinder.size() == 1);
     CHECK(contains(of_cylinder, {0, 0, 1}));
-    // Not by what is opaque.
+    // Not by opaque phases.
     CHECK(found(R"({"set": {"phase": "ground", "of": {"box": {"size": [1, 1, 1]}}}})").empty());
 }
 
 TEST_CASE("the top of a lake is a flat side under a sun exactly above it") {
-    // The direction to the sun is then the very normal of the side, and no other side sees the sun.
+    // The direction to the sun is then exactly the normal of the side, and no other side faces the sun.
     const Scene scene = scene_of(R"("water": {"clear": {"ior": 1.33}})",
                                  R"({"set": {"phase": "water", "of": {"box": {"size": [4, 3, 1]}}}})",
                                  R"("lights": [{"sun": {"direction": [0, 0, 1]}}, {"constant": {}}])");
@@ -164,8 +166,8 @@ TEST_CASE("the top of a lake is a flat side under a sun exactly above it") {
 }
 
 TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
-    // Rounding puts one in some thousands beyond it; taken as found by the sky's density, it would be a hundred
-    // thousand times too bright.
+    // Rounding puts one in a few thousand beyond the edge. With the sky's density, it would be a hundred thousand times
+    // too bright.
     Lights lights;
     const glm::vec3 towards = glm::normalize(glm::vec3(0.6f, 0.3f, 0.8f));
     const float diameter = 0.01f;
@@ -194,7 +196,7 @@ namespace {
 const std::string lake_phases =
     R"("water": {"clear": {"ior": 1.33}}, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})";
 
-// Water up to z = 0 over ground that is turned about (0, 0, -0.5), so wide that its ends do not matter.
+// Water up to z = 0 over ground that is rotated about (0, 0, -0.5), so wide that its ends do not matter.
 std::string lake(double tilt) {
     return R"({"under": [{"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {
         "size": [30, 30, 2]}}}}}}, {"set": {"phase": "ground", "of": {"translate": {"by": [0, 0, -0.5], "of": {"rotate": {
@@ -202,7 +204,7 @@ std::string lake(double tilt) {
            std::to_string(tilt) +
            R"(, "of": {"translate": {"by": [0, 0, -1.5], "of": {"box": {"size": [30, 30, 3]}}}}}}}}}}]})";
 }
-// The sun, and a sky as bright everywhere.
+// The sun, and a uniform sky.
 std::string light(double irradiance, double sky, int depth) {
     const auto grey = [](double x) {
         return "[" + std::to_string(x) + ", " + std::to_string(x) + ", " + std::to_string(x) + "]";
@@ -220,7 +222,8 @@ Moments seen(const std::string& tree, const std::string& rest, std::uint32_t cou
     return radiance_along(world, scene, from, glm::vec3(0, 0, -0.5f) - from, count)[0];
 }
 
-// That so much light comes from the ground, by more than luck; and that one per cent more would be noticed.
+// Checks that the ground reflects this much light within the statistical error, and that one per cent more would be
+// detected.
 void check_light(const std::string& tree, double expected, double irradiance, double sky, int depth) {
     const auto p_value = [&](double scale) {
         const Moments m = seen(tree, light(irradiance * scale, sky * scale, depth), 400000);
@@ -232,7 +235,7 @@ void check_light(const std::string& tree, double expected, double irradiance, do
     CHECK(p_value(1) > 1e-4);
     CHECK(p_value(1.01) < 1e-4);
 }
-// Of the sun alone, without what the ground reflects to itself.
+// Light of the sun alone, without reflections from the ground to itself.
 void check_sun(const std::string& tree, double expected) {
     check_light(tree, expected, 3, 0, 1);
 }
@@ -240,8 +243,8 @@ void check_sun(const std::string& tree, double expected) {
 }  // namespace
 
 TEST_CASE("the sun and the sky on the ground of a lake") {
-    // What comes in, and what goes to and fro between the ground and the surface above it, which returns R of diffuse
-    // light: L = ρ/π (T E cos θ + π (1 − R') L_sky) / (1 − ρ R), where R' is returned upwards.
+    // Light that enters, and light that is reflected between the ground and the surface above it, which returns a share
+    // R of diffuse light: L = ρ/π (T E cos θ + π (1 − R') L_sky) / (1 − ρ R), where R' is returned upwards.
     const double returned = integrate_cosines([](double c) { return 2 * c * fresnel(c, 1.33, 1); });
     const double returned_up = integrate_cosines([](double c) { return 2 * c * fresnel(c, 1, 1.33); });
     for (const double sky : {0.0, 0.3}) {
@@ -266,7 +269,8 @@ TEST_CASE("the sun on ground that is not parallel to the water above it") {
 }
 
 TEST_CASE("the sun on the ground of a lake that ends at a wall of air") {
-    // It comes in by the surface above and by the wall: the sum of both, each as in the case before.
+    // Light enters through the surface above and through the wall. The result is the sum of both, each as in the
+    // previous case.
     const std::string half_a_lake =
         R"({"under": [{"set": {"phase": "water", "of": {"translate": {"by": [-2.5, 0, -1], "of": {"box": {
             "size": [6, 6, 2]}}}}}}, {"set": {"phase": "ground", "of": {"translate": {"by": [-2.5, 0, -2], "of": {
@@ -283,7 +287,7 @@ TEST_CASE("the sun on the ground of a lake that ends at a wall of air") {
 }
 
 TEST_CASE("under curved glass and water, and lamps as bright as the sky, white paint is as bright") {
-    // A furnace whose walls are lamps in part: planes are bad guesses here, which must not matter.
+    // A furnace whose walls are partly lamps. Planes are bad guesses here, which must not matter.
     struct Case {
         std::string name, tree;
     };

@@ -1,5 +1,5 @@
-// What mirrors and rough metal throw onto other things: photons against the light of a lamp's mirror image, and against
-// paths alone.
+// Light that mirrors and rough metal reflect onto other surfaces: photons compared with the light of a lamp's mirror
+// image, and with paths alone.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 const std::string floor_below =
     R"({"set": {"phase": "floor", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [8, 8, 1]}}}}}})";
 
-// How many samples and passes of photons a picture takes, and from how far these are gathered.
+// The numbers of samples and passes of photons of a picture, and the gathering radius.
 struct Effort {
     std::uint32_t samples;
     float photons, photon_radius;
@@ -58,13 +58,13 @@ TEST_CASE("a point light before a flat mirror lights the floor twice, the second
 }
 
 TEST_CASE("photons and paths find the same light by mirrors, rough and brushed metal, bumps, and glass on the way") {
-    // Two lamps on either side: how likely each is sampled depends on the normal where shadow rays start.
+    // Two lamps, one on each side. The probability of sampling each depends on the normal where shadow rays start.
     struct Case {
         std::string name;
         std::string metal;
         std::string glass;
     };
-    // Slopes of one half, at which some of the light is scattered into the metal and once more.
+    // Slopes of one half, where some of the light is scattered into the metal, and then again.
     const std::string bumps =
         R"(, "bump": {"field": {"of": {"translate": {"by": [0, 0, -50], "of": {"box": {"size": [100, 100, 100]}}}},
              "ramp": [[-1, [0, 0, 0]], [1, [1, 1, 1]]]}}, "bump_height": 1)";
@@ -90,7 +90,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                                    {"sphere": {"centre": [2.5, -0.5, 0.8], "radius": 0.3, "radiance": [15, 15, 15]}}],
                        "camera": {"position": [0, -0.1, 5], "look_at": [0, 0, 0], "fov": 30},
                        "render": {"width": 24, "height": 24})");
-                // Photons are gathered from near, so that none are gathered from beyond the wall of the tube.
+                // The gathering radius is small, so that no photons from beyond the wall of the tube are gathered.
                 return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{48, 6, 0.3f});
             },
             planted, sidak(1e-4, 2 * 7));
@@ -98,8 +98,8 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
 }
 
 TEST_CASE("photons and paths find the same light by brushed metal, whichever way its strokes run") {
-    // Upright strokes throw the light of the lamp to both sides, level ones up and down. Without the grain both would
-    // be alike.
+    // Vertical strokes reflect the lamp's light to both sides, horizontal ones up and down. Without the grain, both
+    // pictures would be the same.
     for (const std::string along : {"[0, 1, 0]", "[0, 0, 1]"}) {
         CAPTURE(along);
         check_pictures(

@@ -1,4 +1,4 @@
-// Pictures of one ray with photons, held against paths alone.
+// Pictures of one ray with photons, compared with paths alone.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -17,12 +17,13 @@ namespace phasetree::tracer::tests {
 
 inline constexpr std::uint32_t paths_a_pass = 64;
 
-// The long form finds an error of 3 %, the short one of 15 %.
+// The long form detects an error of 3 %, the short form one of 15 %.
 inline const bool long_form = phasetree::tests::long_tests();
 inline const int passes = long_form ? 6000 : 100;
 inline const double planted = long_form ? 1.03 : 1.15;
 
-// Calls use(emitted, photon) for what falls on surfaces of this many photons. Each batch has others.
+// Emits this many photons, and calls use(emitted, photon) for those that fall on surfaces. Each batch has different
+// photons.
 template <class Use>
 void for_each_photon(const World& world, const Scene& scene, const PhotonEmission& emission, std::uint32_t count,
                      Use&& use, const std::optional<Wavelengths>& wavelength = {}, std::uint32_t batch = 0) {
@@ -37,8 +38,8 @@ void for_each_photon(const World& world, const Scene& scene, const PhotonEmissio
     }
 }
 
-// The radiance along a ray, by passes of which each has photons of its own. If they are not gathered, only what they
-// leave to the other techniques is found.
+// The radiance along a ray, by passes that each have their own photons. If the photons are not gathered, the result is
+// only the share of the other techniques.
 inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction, int count = passes,
                             bool are_gathered = true) {
     const phasetree::FlushSubnormals flush;
@@ -68,8 +69,8 @@ inline Moments with_photons(const Scene& scene, const glm::vec3& origin, const g
     return moments;
 }
 
-// That what a ray sees is as bright with photons as by paths alone. Both are estimates, so the error of their
-// difference is that of both.
+// Checks that the radiance along a ray is the same with photons as with paths alone. Both are estimates, so their
+// difference has the errors of both.
 inline void check_against_paths(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
                                 int passes_of_photons, double significance) {
     const World world(scene);
@@ -86,9 +87,9 @@ inline void check_against_paths(const Scene& scene, const glm::vec3& origin, con
     CHECK(p_value(planted) < significance);
 }
 
-// That a picture is as bright in the mean with photons as without: `made` gives the scene with "caustics" on or off
-// and `planted` is a factor of the brightness that is found. Pictures of grey scenes are compared by one channel.
-// How far photons blur a picture does not matter to its mean.
+// Checks that a picture has the same mean brightness with photons as without. `made` returns the scene with "caustics"
+// on or off, and `planted` is a factor of the brightness that must be detected. Pictures of grey scenes are compared by
+// one channel. The blur of photons does not change the mean.
 inline float red(const glm::vec3& pixel) {
     return pixel.x;
 }

@@ -1,4 +1,4 @@
-// Photons of lamps that an object is around: against paths alone, and against a lamp of another kind.
+// Photons of lamps inside an object, compared with paths alone, and with a lamp of another kind.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ std::string ball_at(const std::string& centre, double radius) {
 }  // namespace
 
 TEST_CASE("a small lamp in a shell of glass is not counted twice where photons are gathered from afar") {
-    // The lamp is smaller than the radius in which photons are gathered. From the point that gathers a photon it is
-    // seen in another direction than the photon's.
+    // The lamp is smaller than the gathering radius. From the point that gathers a photon, the lamp is in another
+    // direction than the photon's.
     for (const char* centre : {"[0.2, 0, -0.4]", "[0.25, 0.15, -0.45]"})
         check_floor(glass, shell_around(""), ball_at(centre, 0.21), passes / 2, sidak(1e-4, 2));
 }

@@ -1,4 +1,4 @@
-// Photons of media that shine, against paths alone.
+// Photons of emitting media, compared with paths alone.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -16,7 +16,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// Phases: glass, and a flame that shines, with more of its material.
+// Phases: glass, and an emitting flame, with further members of its material.
 std::string flame_and(const std::string& more) {
     return std::string(glass) + R"(, "flame": {"clear": {"emission": [6, 3, 1], )" + more + "}}";
 }
@@ -36,8 +36,8 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     std::vector<double> weights(places.bins());
     for (double& weight : weights) weight = static_cast<double>(random()) + 0.01;
     places.set_weights(weights);
-    // A line through a place, in a direction that is evenly spread, has the density ∫ v / 4π. So the mean of 1 over
-    // that is the measure of all lines that meet the ball, 4π · π r².
+    // A line through a random point in a uniformly distributed direction has the density ∫ v / 4π. So the mean of its
+    // reciprocal is the measure of all lines that meet the ball, 4π · π r².
     Moments measure;
     for (int i = 0; i < 200000; ++i) {
         const glm::vec3 direction = square_to_uniform_cone(random.two(), 2.0f);
@@ -51,12 +51,12 @@ TEST_CASE("places of photons are as dense along lines as they say") {
         REQUIRE(glm::distance(*place, ball.centre) <= ball.radius);
         const glm::vec3 before = *place - 7.0f * direction;
         const double all = static_cast<double>(places.density_along(before, direction, infinity));
-        // What is in two pieces of the line is all of it.
+        // Two pieces of the line add up to the whole.
         const float cut = 10 * random();
         const double pieces = static_cast<double>(places.density_along(before, direction, cut)) +
                               static_cast<double>(places.density_along(before + cut * direction, direction, infinity));
         REQUIRE(pieces == doctest::Approx(all).epsilon(1e-4));
-        // And it is the same the other way.
+        // It is the same in the opposite direction.
         REQUIRE(static_cast<double>(places.density_along(before + 14.0f * direction, -direction, infinity)) ==
                 doctest::Approx(all).epsilon(1e-4));
         measure.add(4 * std::numbers::pi / all);
@@ -64,8 +64,8 @@ TEST_CASE("places of photons are as dense along lines as they say") {
     const double expected = 4 * std::numbers::pi * std::numbers::pi * 4;
     CHECK(mean_p_value(measure, expected, 0) > 1e-4);
     CHECK(mean_p_value(measure, 1.02 * expected, 0) < 1e-4);
-    // Along axes and in coordinate planes, where steps along an axis have no end: places all alike are as dense, per
-    // length, on every line.
+    // Along axes and in coordinate planes, where steps along an axis are infinite. With equal places, the density per
+    // length is the same on every line.
     const PointsInBall even(ball);
     const auto per_length = [&](const glm::vec3& direction) {
         return static_cast<double>(even.density_along(ball.centre - 3.0f * direction, direction, infinity)) / 4;
@@ -79,7 +79,7 @@ TEST_CASE("places of photons are as dense along lines as they say") {
         CAPTURE(direction.y);
         CHECK(per_length(direction) == doctest::Approx(slanting).epsilon(1e-4));
     }
-    // Half of the line has half of it, and no line of no ball has any.
+    // Half of the line has half of the density, and a line that misses all balls has none.
     CHECK(static_cast<double>(even.density_along(ball.centre - glm::vec3(3, 0, 0), {1, 0, 0}, 3)) / 2 ==
           doctest::Approx(slanting).epsilon(1e-4));
     CHECK(places.density_along({1, 5, 3}, {1, 0, 0}, infinity) == 0.0f);

@@ -1,4 +1,4 @@
-// Photons of what glows, against paths alone.
+// Photons of glowing surfaces, compared with paths alone.
 #include <doctest/doctest.h>
 
 #include "tracer/support/shell_scenes.hpp"
@@ -17,7 +17,7 @@ TEST_CASE("what glows within glass is as bright with photons as by paths alone")
                                  {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
             "[]", 1.01);
     }
-    // Forty balls of flame hide each other in the test of flames.
+    // Forty balls of flame, which hide each other, are in the test of flames.
     if (long_form) {
         SUBCASE("beads on a line, which stand before each other, in a shell, and a wall of another phase") {
             check_picture_of_floor(

@@ -1,4 +1,4 @@
-// Photons that rough interfaces scatter: their power, how dense they are, and what they know of the densities of paths.
+// Photons that rough interfaces scatter: their power, their density, and the densities of paths that they record.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,15 +17,15 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// The rough surface of water that scattered a photon last, as a path sees it that comes along the photon's way
-// backwards from the ground: it arrives from wo, goes on to wi, and then looks along the shadow ray.
+// The rough surface of water that scattered a photon last, for a path that follows the photon backwards from the
+// ground: it arrives from wo, continues to wi, and then sends the shadow ray.
 struct ChainEnd {
     Bsdf bsdf;
     glm::vec3 wo, wi;
     Ray shadow;
 };
 
-// Nothing if the photon was scattered more than once, or was not refracted there.
+// nullopt if the photon was scattered more than once, or was not refracted there.
 std::optional<ChainEnd> chain_end(const World& world, const Photon& photon, const EmittedPhoton& emitted,
                                   PathCounters& counters) {
     const Hit hit = world.geometry().intersect({photon.position, photon.direction, photon.phase, {}}, counters);
@@ -35,7 +35,7 @@ std::optional<ChainEnd> chain_end(const World& world, const Photon& photon, cons
     const glm::vec3 wi = frame.to_local(photon.towards_light);
     if (!(wi.z < 0)) return std::nullopt;
     const Ray shadow = surface->transmitted(photon.towards_light);
-    // The photon's own line leads there if nothing else was in its way.
+    // The photon's own line leads there if nothing else was in the way.
     const glm::vec3 off = shadow.origin - emitted.ray.origin;
     if (glm::length(glm::cross(off, emitted.ray.direction)) > 1e-3f) return std::nullopt;
     return ChainEnd{surface->bsdf(), frame.to_local(-photon.direction), wi, shadow};
@@ -74,7 +74,7 @@ TEST_CASE("a rough interface scales the power of photons of one wavelength by th
             },
             wavelength);
         REQUIRE(left.size() > 200);
-        // Fresnel's choice has the weight 1, and that of a rough interface is near 1.
+        // The choice by Fresnel's equations has weight 1, and a rough interface has a weight near 1.
         std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2));
         CHECK(left[left.size() / 2] == doctest::Approx(1).epsilon(0.01).scale(0));
     }
@@ -112,7 +112,7 @@ TEST_CASE("a photon and a path that comes along its way backwards know the same 
             const auto arrival =
                 trace_shadow_ray({world, scene, {&emission, &map}, sampler, counters}, end->shadow, light, {}, 1);
             REQUIRE(arrival.light);
-            // Of a point light the line density that a shadow ray knows is q/(n'² d²), and the photon's is q.
+            // For a point light, the line density of a shadow ray is q/(n'² d²), and that of the photon is q.
             const float light_ior = c.in_oil ? ior_of_oil : 1;
             const float by_photons = arrival.light->line_density * factor_of(*end, light_ior) / photon.line_density;
             if (is_point)
@@ -128,10 +128,10 @@ TEST_CASE("a photon and a path that comes along its way backwards know the same 
     }
 }
 
-// The sum of 1/density over the photons that fall into a region is an estimate of how large the region is, and so is
-// the mean of 1/pdf over directions that are sampled from the place where they fall. The two agree only if the density
-// of photons is right. The region: a square of the ground, all directions, and those lamp directions for which the
-// density is not tiny, because few photons would bring much of the sum.
+// The sum of 1/density over the photons in a region is an estimate of the region's size. So is the mean of 1/pdf over
+// directions that are sampled from the points where they fall. The two agree only if the density of photons is correct.
+// The region is a square of the ground, all directions, and those lamp directions for which the density is not tiny.
+// (Otherwise a few photons would dominate the sum.)
 TEST_CASE("photons behind a rough interface are as dense as their density says") {
     const Scene scene = pool_of_rough_water(rectangle, false, 0.6);
     const World world(scene);

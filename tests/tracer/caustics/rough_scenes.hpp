@@ -1,4 +1,4 @@
-// Scenes with rough clear phases, for the tests of photons that these scatter.
+// Scenes with rough clear phases, for tests of photons that these scatter.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ inline Scene pool_of_rough_water(const std::string& light, bool in_oil = false, 
     const std::string ground =
         in_phase("ground", R"({"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 1]}}}})");
     const std::string water = in_phase("water", R"({"box": {"size": [3, 3, 2]}})");
-    // There is smooth oil all around, up to beyond the lamps.
+    // Smooth oil surrounds everything, including the lamps.
     const std::string oil = in_phase("oil", R"({"box": {"size": [12, 12, 12]}})");
     return scene_of(clear("water", static_cast<double>(ior_of_water), roughness) +
                         R"(, "ground": {"diffuse": {"color": [0.2, 0.2, 0.2]}})" +

@@ -1,4 +1,4 @@
-// Denoising: what it must keep, how much noise it takes out, and the same bits with any threads.
+// Denoising: what it must preserve, how much noise it removes, and the same bits for any number of threads.
 #include "denoise/denoise.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr int width = 70, height = 50, samples = 64;
 constexpr double sigma = 0.4;  // of a sample
 
-// What a picture is made of: its radiance without noise, and the albedo that guides.
+// A test picture: its radiance without noise, and the albedo that guides the filter.
 struct Truth {
     std::function<double(int x, int y)> radiance, albedo;
 };
@@ -35,8 +35,8 @@ std::vector<float>& channel(Image& image, const std::string& name) {
     return found->values;
 }
 
-// An image as a film with the planes for denoising gives it, whose samples are uniformly distributed around the truth;
-// or, if they are rare, black but for one of 32 in the mean, as those of a caustic that is found by chance.
+// An image from a film with the planes for denoising. Its samples are uniformly distributed around the truth. If
+// `are_rare`, they are black except for one in 32 on average, like those of a caustic that is found by chance.
 Image made(const Truth& truth, double deviation, std::uint32_t seed, bool are_rare = false) {
     Image image = black_image({.width = width, .height = height}, {0, 0, width, height},
                               Planes::Sums(denoising_planes(), {}, 0).channels());
@@ -82,7 +82,7 @@ double error(const std::vector<glm::vec3>& pixels, const Truth& truth) {
     return std::sqrt(sum / (3 * width * height));
 }
 
-// A checked texture under light that changes slowly. In one half of the samples noise hides it.
+// A checked texture under slowly varying light. In one half of the samples, noise hides it.
 double texture(int x, int y) {
     return (x / 3 + y / 3) % 2 == 0 ? 0.45 : 0.55;
 }
@@ -116,14 +116,14 @@ TEST_CASE("the mean of the picture stays, also where bright samples are rare") {
     };
     const Image image = made(textured, sigma, 3);
     CHECK(mean_of(*regressed(image)) == doctest::Approx(mean_of(image.pixels)).epsilon(0.002));
-    // Pixels that chose their like by the same samples would choose dark ones.
+    // Pixels that chose similar ones by the same samples would choose dark ones.
     const Truth grey{[](int, int) { return 0.5; }, [](int, int) { return 0.5; }};
     const Image rare = made(grey, 0, 3, true);
     CHECK(mean_of(*regressed(rare)) == doctest::Approx(mean_of(rare.pixels)).epsilon(0.015));
 }
 
 TEST_CASE("halves of unequal size, and the variance that their difference tells of") {
-    // The same at all pixels: three of four samples have 2 in the mean and the fourth has 6, so all have 3.
+    // The same at all pixels: three of four samples have the mean 2, and the fourth is 6, so the mean of all is 3.
     Image image = made(textured, 0, 1);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         image.pixels[i] = glm::vec3(3);
@@ -140,7 +140,7 @@ TEST_CASE("halves of unequal size, and the variance that their difference tells 
     CHECK(halves.features.at(9, 7).variance[4] == doctest::Approx(3));
     CHECK(halves.pictures[0].at(9, 7).variance[1] == doctest::Approx(4));
     CHECK(halves.pictures[1].at(9, 7).variance[1] == doctest::Approx(12));
-    // They are joined as they were divided.
+    // They are joined in the same way as they were divided.
     CHECK((*regressed(image))[200].g == doctest::Approx(3).epsilon(1e-4));
 }
 
@@ -193,7 +193,8 @@ TEST_CASE("a glint that few samples found stays in its pixel") {
     CHECK(clean[at].g == doctest::Approx(60000.0f / samples).epsilon(0.002));
     clean[at] = glm::vec3(0.5f);
     CHECK(error(clean, grey) < error(made(grey, sigma, 5).pixels, grey) / 3.5);
-    // In a half of the picture that is black all is that much brighter than what is around it, and no glint for it.
+    // In the black half of the picture, any light is much brighter than its surroundings, but is not a glint because of
+    // that.
     const Truth half_black{[](int x, int) { return x < 35 ? 0.0 : 1.0; },
                            [](int x, int) { return x < 35 ? 0.2 : 0.8; }};
     Image dim = made(half_black, 0, 6);
@@ -253,7 +254,7 @@ TEST_CASE("half of a render's samples are in the half, and with the others they 
         Film film = film_of(scene, job);
         return render(world, scene, job, film).image;
     };
-    // Of 20 samples 0 to 3, 8 to 11 and 16 to 19 are in the half.
+    // Of 20 samples, 0 to 3, 8 to 11 and 16 to 19 are in the half.
     Image all = image_of({0, 20});
     std::array<Image, 3> blocks{image_of({0, 4}), image_of({8, 12}), image_of({16, 20})};
     for (std::size_t i = 0; i < all.pixels.size(); ++i) {

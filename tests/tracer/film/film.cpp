@@ -1,4 +1,4 @@
-// The film: samples that are divided among tiles in any way, the values that planes record, and crops.
+// The film: samples that are divided between tiles in any way, the values that planes record, and crops.
 #include "film/film.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using namespace phasetree::tracer;
 
 namespace {
 
-// What the first sample brought, and how many there were: two channels of a layer.
+// The value of the first sample, and the number of samples: two channels of a layer.
 struct FirstPlane {
     using Sum = FirstValue<1>;
     static constexpr std::string_view name = "first";
@@ -33,7 +33,7 @@ struct FirstPlane {
     }
 };
 
-// A channel for each phase, as planes have that depend on the scene.
+// A channel for each phase, as in planes that depend on the scene.
 struct PhasesPlane {
     using Sum = Count;
     static constexpr std::string_view name = "phases";
@@ -58,7 +58,7 @@ struct WrongPlane : FirstPlane {
 static_assert(PlaneKind<RadiancePlane> && PlaneKind<FirstPlane> && PlaneKind<PhasesPlane>);
 static_assert(!PlaneKind<WrongPlane> && !PlaneKind<int>);
 
-// Values of which a sum of floats would depend on the order: sample s of a pixel.
+// Values whose sum in floats would depend on the order: sample s of a pixel.
 FilmSample sample_of(int x, int y, int s) {
     const float value = 1.0f / static_cast<float>(3 + 7 * x + 11 * y + 13 * s);
     return {{value, 1e10f * value, 1e-10f * value}, static_cast<std::uint32_t>(s)};
@@ -96,7 +96,7 @@ TEST_CASE("film: samples may be divided among tiles in any way") {
     std::mt19937 random(1);
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     for (int round = 0; round < 30; ++round) {
-        // Overlapping tiles, each with some of the samples that fall into it; a film of one pixel for what remains.
+        // Overlapping tiles, each with some of the samples in it; a film of one pixel has the remaining ones.
         std::vector<FilmTile> tiles;
         for (int i = 0; i < 8; ++i) {
             const int x = below(10), y = below(6);
@@ -224,7 +224,7 @@ TEST_CASE("planes beside the picture become further channels, if they are chosen
     const Image some = image_of(Three::by_default());
     REQUIRE(some.extra_channels.size() == 2);
     CHECK(some.extra_channels[0].name == "vacuum");
-    // The picture is always kept, and what is not chosen takes nothing.
+    // The picture is always kept, and planes that are not chosen take no memory.
     CHECK(image_of({}).extra_channels.empty());
     CHECK(Three::Sums({}, scene_names, 2).bytes_of_pixel() == 48);
     CHECK(Three::Sums(Three::all(), scene_names, 2).bytes_of_pixel() == 48 + sizeof(FirstValue<1>) + 2 * sizeof(Count));

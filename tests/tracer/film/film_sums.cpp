@@ -1,5 +1,5 @@
-// The sums that planes are made of: exact against sums of digits, the same in any order and partition, and the same
-// again after they were written and read.
+// The sums of which planes consist: exact compared with sums of digits, the same in any order and partition, and the
+// same after writing and reading.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ static_assert(ValueSum::limit_exponent == 40 && SquareSum::limit_exponent == 80 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
-// A sum of multiples of 2^−fraction by digits of 24 bits, each a sum of its own, which are never carried.
+// A sum of multiples of 2^−fraction. Digits of 24 bits are summed separately and never carried.
 class DigitSum {
   public:
     explicit DigitSum(int fraction) : fraction_(fraction) {}
@@ -44,7 +44,7 @@ class DigitSum {
             rest -= std::ldexp(digit, 24 * static_cast<int>(i));
         }
     }
-    // Whether a sum is just this one.
+    // Whether a sum equals this one.
     template <class Sum>
     bool is(Sum sum) const {
         FilmFaults faults;
@@ -59,7 +59,7 @@ class DigitSum {
     }
 
   private:
-    // What is more than a sum takes at once is taken away by halves.
+    // A difference that is larger than a sum accepts at once is subtracted in halves.
     template <class Sum>
     static void take_away(Sum& sum, double value, FilmFaults& faults) {
         if (std::abs(value) < std::ldexp(1, Sum::limit_exponent)) return sum.add(-value, faults);
@@ -70,7 +70,7 @@ class DigitSum {
     std::array<std::int64_t, 8> digits_{};
 };
 
-// Of either sign, with magnitudes from below the unit to the limit.
+// Values of either sign, with magnitudes from below the unit to the limit.
 double random_value(std::mt19937& random, int lowest_exponent, int limit_exponent) {
     const double mantissa = std::ldexp(static_cast<double>(random()) + 0x1p-32 * static_cast<double>(random()), -32);
     const int exponent = std::uniform_int_distribution(lowest_exponent, limit_exponent - 1)(random);
@@ -96,7 +96,7 @@ void check_exact(int fraction) {
         more.add(std::ldexp(1, -fraction), faults);
         CHECK_FALSE(expected.is(more));
     }
-    // One value alone is what it was, to the unit.
+    // A single value is preserved, up to the unit.
     for (int i = 0; i < 2000; ++i) {
         const double value = random_value(random, -fraction - 3, Sum::limit_exponent);
         Sum sum;
@@ -155,7 +155,7 @@ bool is_independent(const Values& values, const Add& add) {
     return true;
 }
 
-// What may come: of any magnitude, not finite, too large.
+// Possible inputs: of any magnitude, not finite, too large.
 std::vector<float> hostile_values() {
     std::mt19937 random(3);
     std::vector<float> values{infinity, -infinity, no_number, 3e38f, -3e38f, 1e-45f, 0.0f, -0.0f, 1e10f};
@@ -232,7 +232,7 @@ TEST_CASE("no order and no partition changes any kind of sum") {
         weights.add(static_cast<std::uint32_t>(i * i % 17), 1.0f / static_cast<float>(1 + i % 7), faults);
     }));
 
-    // What a film must not be made of is found: floating-point sums, and the last value.
+    // The test detects planes that a film must not have: floating-point sums, and the last value.
     std::vector<float> tame(200);
     for (std::size_t i = 0; i < tame.size(); ++i) tame[i] = 1.0f / static_cast<float>(i + 3);
     CHECK_FALSE(is_independent<double>(

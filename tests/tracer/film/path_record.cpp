@@ -1,5 +1,5 @@
-// What a path records of itself: surfaces, lengths and parts of the radiance against closed forms, and that neither the
-// radiance nor the random numbers depend on whether it records.
+// What a path records: surfaces, lengths and parts of the radiance against closed forms. Neither the radiance nor the
+// random numbers depend on whether it records.
 #include "film/path_record.hpp"
 
 #include <doctest/doctest.h>
@@ -96,8 +96,8 @@ TEST_CASE("the first surface of a ball: where it is, how it faces, which phases 
     CHECK_FALSE(one_path(scene, {0, -10, 0}, {0, 0, 1}).record.first);
 }
 
-// A ray that F decides to reflect at once does not enter, and one within goes on for another passage d' with the
-// probability F each time, so that the mean length is (1 − F) d'/(1 − F) = d'.
+// A ray that is reflected at once does not enter. A ray inside continues for another passage d' with probability F each
+// time, so the mean length is (1 − F) d'/(1 − F) = d'.
 TEST_CASE("the length of the camera ray in a slab of glass, and what is seen behind it") {
     const Scene scene =
         scene_of(R"("glass": {"clear": {"ior": 1.5}}, "paper": {"diffuse": {"color": [0.8, 0.4, 0.2]}})", slab_of_glass,
@@ -139,7 +139,7 @@ TEST_CASE("a camera in water sees what is in it by its own colour, whatever the 
 }
 
 TEST_CASE("direct light: scattered once, and not at smooth glass") {
-    // A black ball scatters nothing, a floor in light from above is lit directly by it, and indirectly by a wall alone.
+    // A black ball scatters nothing. A floor under light from above is lit directly, and indirectly only by a wall.
     const std::string floor =
         R"("meshes": [{"floor": {"height": -1, "material": {"diffuse": {"color": [0.5, 0.5, 0.5]}}}}], )";
     const Scene open = scene_of(R"("glass": {"clear": {"ior": 1.5}})", slab_of_glass, floor + white_environment);
@@ -181,7 +181,7 @@ TEST_CASE("direct light of a medium is what it scatters once, whichever techniqu
         return direct;
     };
     const Mean by_directions = direct_by(Techniques::directions_alone);
-    // All is 1 in a furnace. Some of it is scattered more than once.
+    // In a furnace the radiance is 1. Some of it is scattered more than once.
     CHECK(by_directions.mean(paths) < 0.95);
     for (const Techniques techniques : {Techniques::shadow_rays_alone, Techniques::all}) {
         const Mean direct = direct_by(techniques);
@@ -220,7 +220,7 @@ TEST_CASE("parts of the radiance add up, and recording changes nothing") {
 }
 
 TEST_CASE("a lamp's light is of its group, however it is found") {
-    // One lamp at a time shines; what the others bring is then nothing, and what it brings is everything.
+    // One lamp at a time emits. The others then contribute nothing, and this lamp contributes everything.
     for (int shining = 0; shining < 3; ++shining) {
         CAPTURE(shining);
         const auto radiance = [&](int lamp) { return std::string(lamp == shining ? "[5, 4, 3]" : "[0, 0, 0]"); };

@@ -39,7 +39,7 @@ Scene ball(const std::string& camera = R"({"position": [0, -5, 0], "look_at": [0
     return scene;
 }
 
-// Not a std::string, because GCC 13 and later would take the result for a reference into a temporary.
+// Not a std::string, because GCC 13 and later would mistake the result for a reference into a temporary.
 const std::vector<float>& channel(const Image& image, const char* name) {
     for (const Channel& c : image.extra_channels)
         if (c.name == name) return c.values;
@@ -47,8 +47,8 @@ const std::vector<float>& channel(const Image& image, const char* name) {
     throw std::logic_error("unreachable");
 }
 
-// What the specification says of reading: the attributes cryptomatte/KEY/…, the channels NAME00.R …, pairs of an ID and
-// a coverage. Coverages by names of the manifest, pixel by pixel.
+// Reads Cryptomatte as specified: the attributes cryptomatte/KEY/…, and the channels NAME00.R …, which are pairs of an
+// ID and a coverage. Returns the coverages by names of the manifest, pixel by pixel.
 struct Mattes {
     std::map<std::string, std::map<std::string, std::vector<float>>> layers;
     bool is_ranked = true;
@@ -108,7 +108,7 @@ TEST_CASE("numbers of names: published values of the hash, and no exponent of a 
     CHECK(murmur_hash3_32("hello") == 0x248bfa47u);
     CHECK(murmur_hash3_32("hello, world") == 0x149bbb7fu);
     CHECK(murmur_hash3_32("The quick brown fox jumps over the lazy dog") == 0x2e4ff723u);
-    // Those that the specification's authors test their own readers with.
+    // The hashes with which the authors of the specification test their own readers.
     const std::map<std::string, float> floats{{"hello", 6.0705627102400005616e-17f},
                                               {"cube", -4.08461912519e+15f},
                                               {"sphere", 2.79018604383e+15f},
@@ -163,7 +163,7 @@ TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {
             CHECK(depth[p] == 1e10f);
             continue;
         }
-        // The camera looks along y: the depth along its axis is that coordinate's.
+        // The camera looks along y, so the depth along its axis follows from y alone.
         CHECK(depth[p] == doctest::Approx(y[p] + 5).epsilon(1e-5));
         CHECK(channel(image, "phase_left.X")[p] == 0);
         CHECK(channel(image, "instance.X")[p] == 0);
@@ -174,8 +174,8 @@ TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {
         } else {
             ++on_floor;
             CHECK(object == 1);
-            // Points of meshes are recorded where rays leave them: off by 10⁻⁵ of the largest coordinate, or of the
-            // object's diagonal.
+            // Points of meshes are recorded where rays leave them, with an offset of 10⁻⁵ of the largest coordinate or
+            // of the object's diagonal.
             CHECK(std::abs(z[p] + 1.5f) <= 1.01e-5f * std::max({3.4642f, std::abs(x[p]), std::abs(y[p])}) + 2e-7f);
             CHECK(channel(image, "phase_entered.X")[p] == -1);
         }
@@ -183,7 +183,7 @@ TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {
     CHECK(on_ball > 20);
     CHECK(on_floor > 20);
     CHECK(nowhere > 20);
-    // The middle pixel sees nothing but the ball, so that its means are those of its surface.
+    // Only the ball is visible in the middle pixel, so the pixel's means are those of the ball's surface.
     const std::size_t middle = 7 * 21 + 10;
     CHECK(depth[middle] == doctest::Approx(4).epsilon(0.02));
     CHECK(channel(image, "normal.Y")[middle] == doctest::Approx(-1).epsilon(0.05));
@@ -235,7 +235,7 @@ TEST_CASE("alpha: glass, lamps and what scatters cover the background, and what 
     CHECK(covered(R"({"diffuse": {"color": [0.5, 0.5, 0.5]}})", "") == doctest::Approx(ball_alone).epsilon(0.003));
     CHECK(covered(R"({"clear": {"ior": 1.5}})", "") == doctest::Approx(ball_alone).epsilon(0.003));
     CHECK(covered(R"({"clear": {"ior": 1}})", "") == 0);
-    // Nearly all rays through the dense middle are scattered.
+    // Almost all rays through the dense middle are scattered.
     const double milk = covered(R"({"clear": {"ior": 1, "scattering": [9, 9, 9]}})", "");
     CHECK(milk > 0.9 * ball_alone);
     CHECK(milk < 0.999 * ball_alone);

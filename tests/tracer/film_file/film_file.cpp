@@ -1,4 +1,4 @@
-// Films in files: what is written is read again, and nothing else is.
+// Files of films: what is written is read back, and anything else is rejected.
 #include "film_file/read.hpp"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,7 @@ FilmFileHeader header_of(const FilmSettings& settings, const PixelRange& area) {
     return h;
 }
 
-// Two samples for each pixel, but for one pixel that has one, and one that has none.
+// Two samples for each pixel, except for one pixel that has one, and one that has none.
 FilmTile film_of(const FilmFileHeader& h) {
     Uniform random(3);
     FilmTile tile(h.area, h.film.planes, h.scene_names);
@@ -74,7 +74,7 @@ struct Written {
         film.add(film_of(header));
         write_film(path, header, film);
     }
-    // The message with which a file of these bytes is rejected, or nothing.
+    // The message with which a file of these bytes is rejected; empty if it is accepted.
     std::string refusal(const std::string& of) const {
         support::write_text(path, of);
         try {

@@ -71,7 +71,7 @@ std::string plain_file(const Grid& grid) {
     return corner.file(one_node + meshes(attributes));
 }
 
-// All that a triangle says, so that triangles can be compared whatever their order and first corner is.
+// All data of a triangle, so that triangles can be compared regardless of their order and first corner.
 using Corners = std::array<std::array<float, 11>, 3>;
 
 std::vector<Corners> triangles_of(const std::string& file) {
@@ -112,7 +112,8 @@ std::string bytes_as_text(const std::vector<Number>& numbers) {
     return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-// A file whose views are compressed; their own bytes are in a buffer that the file has not, as in files of gltfpack.
+// A file whose views are compressed. Their uncompressed bytes are in a buffer that the file lacks, as in files of
+// gltfpack.
 struct Compressed {
     Corner corner{};
 
@@ -128,7 +129,7 @@ struct Compressed {
     }
     std::string file(const std::string& primitive) const {
         const std::string views = corner.views, accessors = corner.accessors;
-        // The file's own list of buffers, of which the second has no bytes.
+        // The file's own list of buffers. The second has no bytes.
         return R"("accessors": [)" + accessors + "], \"bufferViews\": [" + views + "], " + one_node + meshes(primitive);
     }
 };
@@ -178,7 +179,7 @@ TEST_CASE("a file that meshopt compressed has the triangles of the plain one") {
 
 namespace {
 
-// meshoptimizer 0.20 and later take a mode; 1 is the one that earlier versions have, an exponent per vector.
+// meshoptimizer 0.20 and later take a mode; 1 is that of earlier versions, one exponent per vector.
 [[maybe_unused]] void encode_exponential(void (*encode)(void*, std::size_t, std::size_t, int, const float*),
                                          std::string& to, const Grid& grid) {
     encode(to.data(), grid.rows(), 12, 20, grid.positions.data());
@@ -237,7 +238,7 @@ TEST_CASE("what is wrong with data of meshopt is said") {
     const std::string good = encoded_rows(bytes_as_text(grid.positions), 12), mode = R"(, "mode": "ATTRIBUTES")";
     const std::string last = R"("attributes": {"POSITION": 10}, "indices": 9)";
     CHECK(said_of(grid.rows(), 12, mode, good, last) == "read");
-    // Nobody asks for them.
+    // Views that nothing uses are not decompressed.
     CHECK(said_of(grid.rows(), 12, mode, "no data") == "read");
     const std::string place = "bufferViews[10].extensions.EXT_meshopt_compression ";
     const std::string invalid = place + "contains invalid data; export the file again, or without meshopt compression";
@@ -255,7 +256,7 @@ TEST_CASE("what is wrong with data of meshopt is said") {
           place + "has a \"mode\" other than ATTRIBUTES, TRIANGLES and INDICES");
     CHECK(said_of(grid.rows(), 12, mode + R"(, "filter": "COLOR")", good, last) ==
           place + "has a \"filter\" other than NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL");
-    // Whatever byte is changed, the file is read or refused.
+    // Whichever byte is changed, the file is either read or rejected.
     std::size_t refused = 0;
     for (std::size_t i = 0; i < good.size(); i += 3)
         for (const char by : {'\x01', '\x80', '\xff'}) {
@@ -335,7 +336,7 @@ TEST_CASE("a file that Draco compressed has the triangles of the plain one") {
             CHECK(triangles_of(file) == expected);
             CHECK(read(file).not_shown.empty());
         }
-    // The data of a strip are triangles, too.
+    // The data of a strip are also triangles.
     CHECK(triangles_of(draco_file(grid, encoded(grid, 5, false), all_ids, grid.rows(), R"(, "mode": 5)")) == expected);
 }
 
@@ -376,11 +377,11 @@ TEST_CASE("what is wrong with data of Draco is said") {
     CHECK(said_of(good, all_ids, 4'000'000'000) == "its compressed data exceed 1 GiB in total");
     CHECK(said_of(good, all_ids, grid.rows(), 3 * grid.indices.size()) ==
           place + "has 144 vertices and 726 indices, but its accessors declare 144 and 2178");
-    // Whatever byte is changed, the file is read or refused.
+    // Whichever byte is changed, the file is either read or rejected.
     std::size_t refused = 0;
     for (const bool is_sequential : {false, true}) {
         const std::string of = encoded(grid, 5, is_sequential);
-        // The first bytes say how many there are of everything.
+        // The first bytes are the counts of everything.
         for (std::size_t i = 0; i < of.size(); i += i < 100 ? 1 : 7)
             for (const char by : {'\x01', '\x80', '\xff'}) {
                 std::string bad = of;

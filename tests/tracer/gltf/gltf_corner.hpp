@@ -1,4 +1,4 @@
-// glTF files of one triangle for tests, and what reading them gives.
+// glTF files of one triangle for tests, and the results of reading them.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -19,7 +19,8 @@ namespace phasetree::tracer::tests {
 using phasetree::tests::glb;
 using phasetree::tests::GlbBytes;
 
-// A triangle, (0,0,0) (1,0,0) (0,1,0), with normals that lean, coordinates and colours: accessors 0 to 3, indices 4.
+// A triangle, (0,0,0) (1,0,0) (0,1,0), with tilted normals, texture coordinates and colours: accessors 0 to 3. The
+// indices are accessor 4.
 struct Corner {
     GlbBytes bytes;
     std::string views, accessors;
@@ -40,7 +41,7 @@ struct Corner {
         views += comma + view;
         ++count_;
     }
-    // An accessor in the test's own words; returns its number.
+    // Adds an accessor given as text; returns its number.
     std::size_t add_accessor(const std::string& json) {
         accessors += ", " + json;
         views += ", " + bytes.add(std::string());  // accessors and views have the same numbers
@@ -48,7 +49,7 @@ struct Corner {
     }
     // The number of the last accessor and view.
     std::size_t last() const { return count_ - 1; }
-    // Takes bytes that no accessor reads, such as an image; returns the number of the view.
+    // Adds bytes that no accessor reads, such as an image; returns the number of the view.
     std::size_t add_view(const std::string& content) {
         add("SCALAR", 5121, 0, bytes.add(content));
         return count_ - 1;

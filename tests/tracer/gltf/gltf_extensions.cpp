@@ -1,4 +1,4 @@
-// Extensions of glTF: those of nodes, and what is said of those that are not read.
+// Extensions of glTF: those of nodes, and messages about unsupported ones.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -59,7 +59,7 @@ TEST_CASE("joints bend skins even if their nodes are invisible") {
 TEST_CASE("instances are where nodes with the same transforms are") {
     Corner corner;
     corner.add("VEC3", 5126, 2, corner.bytes.add(std::vector<float>{1, 0, 0, 0, 2, 0}));
-    // Halves and whole turns of shorts and bytes, which stand for numbers from −1 to 1.
+    // Numbers from −1 to 1, stored in shorts and bytes.
     corner.add("VEC4", 5126, 2, corner.bytes.add(std::vector<float>{0, 0, 1, 0, 1, 0, 0, 0}));
     corner.add("VEC4", 5122, 2, corner.bytes.add(std::vector<std::int16_t>{0, 0, 32767, 0, 32767, 0, 0, 0}),
                R"(, "normalized": true)");
@@ -103,7 +103,7 @@ TEST_CASE("an extension that is required and not read is named, with what to do"
         Corner().file("\"extensionsRequired\": [\"KHR_materials_unlit\"], " + one_node + meshes(all_attributes));
     CHECK(gltf::read_gltf(of_material, gltf::ReadMaterials::none).not_shown.empty());
     CHECK(said_of(R"("ACME_teapot")") == "it requires ACME_teapot, which phasetree cannot read; export without it");
-    // Messages quote nothing but names.
+    // Messages quote only names.
     CHECK(said_of(R"("\u001b[2J")") == "it requires a glTF extension, which phasetree cannot read; export without it");
 }
 
@@ -122,12 +122,12 @@ TEST_CASE("one sentence lists the extensions that are used and not read, and wha
           std::vector<std::string>{
               "uses unsupported extensions: ACME_teapot (unknown), KHR_lights_punctual (missing: lights; add them to "
               "\"lights\"), KHR_materials_unlit (missing: unlit colours; surfaces are lit like others) and 2 more"});
-    // Materials may have extensions that the document forgets to list.
+    // Materials may have extensions that the document does not list.
     const std::string scattering = R"("materials": [{"extensions": {"KHR_materials_subsurface": {}}}])";
     CHECK(sentences(scattering) ==
           std::vector<std::string>{
               "uses unsupported extensions: KHR_materials_subsurface (missing: subsurface scattering)"});
-    // They do not matter if the scene has a material of its own.
+    // They do not matter if the scene sets its own material.
     CHECK(sentences(scattering + R"(, "extensionsUsed": ["KHR_materials_subsurface", "EXT_texture_webp"])",
                     gltf::ReadMaterials::none)
               .empty());

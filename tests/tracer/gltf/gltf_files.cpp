@@ -1,4 +1,4 @@
-// What is no glTF file, and what is more than is read; the files that a document names.
+// Invalid glTF files, files that exceed limits, and the files that a document names.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -93,7 +93,7 @@ TEST_CASE("buffers and images may be written into the document, or be files in i
     CHECK(asked == std::vector<std::string>{"a.bin", "maps/white paint.png"});
     CHECK(gltf::Document(document("a%2Ebin"), files).files() ==
           std::vector<std::string>{"a.bin", "maps/white paint.png"});
-    // Data of plain text, and folders as Windows has them.
+    // Data as plain text, and folders with Windows separators.
     CHECK(gltf::bytes_of_uri("data:,a%20b", {}) == "a b");
     CHECK(gltf::bytes_of_uri("data:;base64,Zm9v", {}) == "foo");
     CHECK(gltf::bytes_of_uri("data:;base64,Zm8=", {}) == "fo");
@@ -156,7 +156,7 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     std::filesystem::create_symlink(elsewhere / "c.bin", folder / "parts/c.bin");
     write("parts/c.bin");
     CHECK(problem().find("parts/c.bin is outside the folder of") != std::string::npos);
-    // What the document names belongs to the scene's identity, so that shares of a picture are of the same.
+    // Files that the document names are part of the scene's identity, so that parts of a picture show the same scene.
     const auto identity = [&] {
         return fingerprint(phasetree::Document::from_text(
             R"({"version": 1, "meshes": [{"gltf": {"file": ")" + (folder / "a.gltf").string() + "\"}}]}",
@@ -167,7 +167,7 @@ TEST_CASE("a scene reads a .gltf file with what is in its folder, and nothing th
     CHECK(identity() == before);
     phasetree::support::write_text(folder / "parts/a.bin", bytes + " ");
     CHECK(identity() != before);
-    // In any case of its ending, and beside an image that nothing reads from elsewhere.
+    // With an extension in upper or lower case, and beside an image that is not read.
     const auto changes = [&](const std::string& name, const std::string& content) {
         phasetree::support::write_text(folder / name, content);
         const auto identity_of = [&] {
@@ -211,10 +211,10 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
             refused += said(changed, {.triangles = 1000}) != "read";
         }
     CHECK(refused > 1000);
-    // Nodes in circles, and one that is in two places.
+    // Nodes in cycles, and a node with two parents.
     CHECK(said(Corner().file(R"("scenes": [{"nodes": [0]}], "nodes": [{"children": [0]}])")) ==
           "nodes[0] occurs twice in the node hierarchy");
-    // One mesh at two places counts twice.
+    // A mesh that is placed twice counts twice.
     const std::string twice = Corner().file(R"("scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0}], )" +
                                             meshes(all_attributes));
     CHECK(said(twice, {.triangles = 2}) == "read");
@@ -235,7 +235,7 @@ TEST_CASE("every shortened file, and every file with a wrong number in it, is re
     CHECK(said(good, {.pixels = 3}) == "its images have more than 0 million pixels in total");
     CHECK(said(glb("\"x\": " + std::string(10'000'000, '['), "")) ==
           "its JSON document is nested more than 64 levels deep");
-    // Many elements that nobody asks for, and many that name one node, take no time.
+    // Many unused elements, and many that name the same node, take no time.
     std::string many;
     for (int i = 0; i < 1'000'000; ++i) many += i > 0 ? ",{}" : "{}";
     CHECK(said(Corner().file(one_node + meshes(all_attributes) + R"(, "extras": [)" + many + "]")) == "read");

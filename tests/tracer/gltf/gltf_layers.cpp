@@ -1,4 +1,4 @@
-// glTF's materials with coats, sheen, specular factors, anisotropy and films, as layers of ours.
+// glTF's materials with coats, sheen, specular factors, anisotropy and films, converted to our layers.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -124,7 +124,7 @@ TEST_CASE("anisotropy is a grain across the direction of the stretch, by the mes
     coordinates.tangent = {1, 0, 0}, coordinates.bitangent = {0, 1, 0};
     CHECK(layers.grain->direction_at({{0, 0, 0}, {0, 0, 1}, coordinates}) == glm::vec3(0, 1, 0));
     CHECK(layers.grain->direction_at(glm::vec3(0)) == glm::vec3(0));
-    // A mesh of a scene gets tangents if the file has none.
+    // A mesh in a scene receives tangents if the file has none.
     const phasetree::support::TemporaryDirectory folder;
     phasetree::support::write_text(folder / "a.glb",
                                    Corner().file(one_node + meshes(all_attributes + R"(, "material": 0)") +

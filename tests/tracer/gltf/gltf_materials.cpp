@@ -1,4 +1,4 @@
-// The materials and images of glTF files as ours.
+// The materials and images of glTF files, converted to ours.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ TEST_CASE("glTF's materials as ours") {
     const Coated& coated = std::get<Coated>(plain.material);
     CHECK(std::get<float>(coated.roughness) == 0.25f);
     CHECK(coated.ior == 1.5f);
-    // What is seen of the base under the coat is the file's colour times that of the vertices.
+    // The visible colour of the base under the coat is the file's colour times that of the vertices.
     TexturePoint place({0, 0, 0}, {0, 0, 1}, MeshCoordinates{.color = {0.5f, 1, 1}});
     const glm::vec3 base = color_at(coated.color, place);
     const float inside = CoatingAlbedo(1.5f, 0.0f).at(0.0f).internal().x;
@@ -37,7 +37,7 @@ TEST_CASE("glTF's materials as ours") {
     REQUIRE(metal.reflectance);
     CHECK(is_near(color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
     CHECK_FALSE(is_near(1.01f * color_at(*metal.reflectance, place), {0.45f, 0.6f, 0.2f}));
-    // Without colours of vertices, and without images, it is the same everywhere.
+    // Without vertex colours and images, it is the same everywhere.
     const gltf::GltfFile silver =
         read(Corner().file(one_node + meshes(R"("attributes": {"POSITION": 0}, "material": 0)") +
                            R"(, "materials": [{"pbrMetallicRoughness":
@@ -47,13 +47,13 @@ TEST_CASE("glTF's materials as ours") {
     const glm::vec3 reflected = fresnel_conductor(1, one_color.eta, one_color.k);
     CHECK(is_near(reflected, {0.9f, 0.6f, 0.2f}));
     CHECK_FALSE(is_near(1.01f * reflected, {0.9f, 0.6f, 0.2f}));
-    // What is half a metal is a mixture.
+    // A half metal is a mixture.
     const gltf::Part half = part_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0.3}})");
     const Mix& mix = std::get<Mix>(half.material);
     CHECK(std::get<float>(mix.amount) == 0.3f);
     CHECK(std::holds_alternative<Coated>(mix.of->first));
     CHECK(std::holds_alternative<Conductor>(mix.of->second));
-    // glTF's own material is a metal, white and rough.
+    // glTF's default material is a metal, white and rough.
     CHECK(
         std::holds_alternative<Conductor>(read(Corner().file(one_node + meshes(all_attributes))).parts.at(0).material));
 
@@ -132,7 +132,7 @@ TEST_CASE("what glows lies by the coordinates of its own images, and is dark whe
     CHECK(std::holds_alternative<Glowing>(glowing.parts.at(0).material));
     CHECK(glowing.not_shown ==
           std::vector<std::string>{"\"screen\" is emissive and has a normal map, which is ignored"});
-    // The set 0 is there; the set 1 of the map is not.
+    // Set 0 exists; set 1, which the map uses, does not.
     CHECK(glm::length(glowing.parts[0].texture.values.at(1) - glm::vec2(1, 1)) < 1e-6f);
     const gltf::GltfFile dark = file(R"({"index": 1})");
     CHECK(std::holds_alternative<Coated>(dark.parts.at(0).material));
@@ -173,7 +173,7 @@ TEST_CASE("alpha makes holes where the file says that it counts") {
     REQUIRE(cut);
     CHECK(at(*cut, 0.25f) == 0);
     CHECK(at(*cut, 0.75f) == 1);
-    // A cutoff that nothing reaches leaves nothing.
+    // If no alpha reaches the cutoff, nothing is left.
     CHECK(at(opacity(R"("alphaMode": "MASK", "alphaCutoff": 2, )", image).value(), 0.75f) == 0);
     // The other image has no alpha.
     Corner without;
@@ -243,7 +243,7 @@ TEST_CASE("images lie as glTF lays them, also moved, turned and stretched") {
     // A quarter turn, counter-clockwise with v downwards: (u, v) becomes (v, −u).
     CHECK(is_near(color_of(transform(R"("rotation": 1.57079633)"), {0.75f, 0.25f}), {1, 0, 0}));
     CHECK(is_near(color_of(transform(R"("rotation": 1.57079633)"), {0.25f, 0.25f}), {0, 0, 1}));
-    // The scale comes before the turn, and the offset after it: (0.25, 0.25) to (0.75, 0.25) to (0.25, −0.75).
+    // The scale is applied before the rotation, and the offset after it: (0.25, 0.25) to (0.75, 0.25) to (0.25, −0.75).
     CHECK(is_near(color_of(transform(R"("scale": [3, 1], "rotation": 1.57079633, "offset": [0, 0.5])"), {0.25f, 0.25f}),
                   {0, 0, 1}));
 }
@@ -269,7 +269,7 @@ TEST_CASE("an image of roughness and metal: green is the roughness, blue how muc
     const auto roughness = [&](const glm::vec2& uv) {
         return number_at(metal.roughness, TexturePoint({0, 0, 0}, {0, 0, 1}, MeshCoordinates{.uv = uv}));
     };
-    // The file's numbers are not encoded as colours are. Ours have v upwards.
+    // The file's numbers are linear, unlike colours. In ours, v points up.
     CHECK(roughness({0.25f, 0.75f}) == doctest::Approx(std::pow(128 / 255.0, 2)).epsilon(1e-3));
     CHECK_FALSE(1.01 * roughness({0.25f, 0.75f}) == doctest::Approx(std::pow(128 / 255.0, 2)).epsilon(1e-3));
     CHECK(roughness({0.75f, 0.25f}) == doctest::Approx(std::pow(64 / 255.0, 2)).epsilon(1e-3));

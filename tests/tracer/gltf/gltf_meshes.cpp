@@ -1,4 +1,4 @@
-// Meshes from glTF files: where they are, and what parts they have.
+// Meshes from glTF files: their placement and their parts.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,8 @@ TEST_CASE("nodes place meshes by matrices and by parts, and those of others in t
     const gltf::Part part = read(Corner().file(placed + meshes(all_attributes))).parts.at(0);
     REQUIRE(part.mesh.triangles.size() == 2);
     REQUIRE(part.mesh.vertices.size() == 6);
-    // By hand: the matrix turns y to z and moves up by 5; the parent stretches x, makes x to y and y to −x, and moves.
+    // Computed by hand: the matrix rotates y to z and moves up by 5. The parent stretches x, maps x to y and y to −x,
+    // and moves.
     CHECK(is_near(part.mesh.vertices[0], {10, 0, 5}));
     CHECK(is_near(part.mesh.vertices[1], {10, 2, 5}));
     CHECK(is_near(part.mesh.vertices[2], {10, 0, 6}));
@@ -38,7 +39,7 @@ TEST_CASE("triangles of all modes and all types of indices") {
     const auto square = [](const std::string& how, int type, const std::string& view) {
         Corner c;
         GlbBytes& bytes = c.bytes;
-        // Rows of five floats, of which the first three are the place.
+        // Rows of five floats; the first three are the position.
         c.add("VEC3", 5126, 4,
               bytes.add(std::vector<float>{0, 0, 0, 9, 9, 1, 0, 0, 9, 9, 0, 1, 0, 9, 9, 1, 1, 0, 9, 9},
                         ", \"byteStride\": 20"));
@@ -93,10 +94,10 @@ TEST_CASE(
 
 TEST_CASE("a skin is bent by its joints") {
     Corner corner;
-    // All of the first corner goes with joint 0, all of the second with joint 1, the third half with each.
+    // The first corner follows joint 0, the second joint 1, and the third each by half.
     corner.add("VEC4", 5121, 3, corner.bytes.add(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}));
     corner.add("VEC4", 5126, 3, corner.bytes.add(std::vector<float>{2, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}));
-    // The inverse of the second joint's place is one to the left.
+    // The inverse of the second joint's placement moves by one to the left.
     corner.add("MAT4", 5126, 2, corner.bytes.add(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
                                                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1}));
     const auto file = [&](const std::string& skin) {
@@ -107,7 +108,8 @@ TEST_CASE("a skin is bent by its joints") {
             skin + "], " + meshes(R"("attributes": {"POSITION": 0, "NORMAL": 1, "JOINTS_0": 5, "WEIGHTS_0": 6})"));
     };
     const gltf::Part part = read(file(R"({"joints": [1, 2], "inverseBindMatrices": 7})")).parts.at(0);
-    // By hand: the first joint lifts by 3; the second turns y to z about the line through (1, 0, 0) and lifts, too.
+    // Computed by hand: the first joint lifts by 3; the second rotates y to z about the line through (1, 0, 0), and
+    // also lifts.
     CHECK(is_near(part.mesh.vertices[0], {0, 0, 3}));
     CHECK(is_near(part.mesh.vertices[1], {1, 0, 3}));
     CHECK(is_near(part.mesh.vertices[2], {0, 0.5f, 3.5f}));
@@ -165,7 +167,7 @@ TEST_CASE("what is mirrored keeps its outer side: normals, the order of corners,
         CHECK(is_near(mirrored.mesh.vertices[1], {-1, 0, 0}));
         CHECK(is_near(face(mirrored), {0, 0, 1}));
         CHECK(is_near(mirrored.normals.values[0], {0, 0, 1}));
-        // The tangent goes to the left now, and what is up in the image stays up: cross(n, t) · w.
+        // The tangent now points to the left, and up in the image stays up: cross(n, t) · w.
         CHECK(is_near(glm::vec3(mirrored.tangents.values[0]), {-1, 0, 0}));
         CHECK(mirrored.tangents.values[0].w == -1);
     }
@@ -215,7 +217,7 @@ TEST_CASE("a scene has the parts of a file as meshes, turned upright and placed"
     REQUIRE(placed.meshes.size() == 3);
     CHECK(placed.meshes[1].name == "gltf brass");
     CHECK(placed.meshes[2].name == "gltf pine");
-    // glTF's y is up, so (0, 1, 0) is (0, 0, 1), then (0, 0, 2) and (0, 0, 5); (1, 0, 0) is turned to y.
+    // glTF's y is up, so (0, 1, 0) is (0, 0, 1), then (0, 0, 2) and (0, 0, 5); (1, 0, 0) is rotated to y.
     CHECK(is_near(placed.meshes[1].vertices.at(2), {0, 0, 5}));
     CHECK(is_near(placed.meshes[1].vertices.at(1), {0, 2, 3}));
     const Scene painted = scene(R"(, "material": {"diffuse": {"color": {"vertex_color": {}}}})");

@@ -1,4 +1,4 @@
-// Morph targets of glTF files, by the weights of the node or of the mesh.
+// Morph targets of glTF files, with the weights of the node or the mesh.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 
 using Floats = std::vector<float>;
 
-// Two targets: one moves the second vertex and tilts normals, the other lifts all by one, in bytes.
+// Two targets: one moves the second vertex and tilts normals; the other, stored in bytes, lifts all vertices by one.
 Corner with_targets() {
     Corner corner;
     corner.add("VEC3", 5126, 3, corner.bytes.add(Floats{0, 0, 0, 2, 0, 4, 0, 0, 0}));
@@ -47,7 +47,7 @@ TEST_CASE("morphed vertices are those of a mesh that was moved by hand") {
             .parts.at(0);
     const std::string scale = R"(, "scale": [1, 2, 1])";
     check_same(part_by(scale, R"(, "weights": [0.5, 0.25])"), expected);
-    // The node's weights come before the mesh's.
+    // The node's weights take precedence over those of the mesh.
     check_same(part_by(scale + R"(, "weights": [0.5, 0.25])", R"(, "weights": [1, 1])"), expected);
 }
 

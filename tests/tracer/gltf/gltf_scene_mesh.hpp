@@ -1,4 +1,4 @@
-// The first mesh that a scene has of a glTF file, and what its corners say of a place.
+// The first mesh of a scene that comes from a glTF file, and its interpolated data at a point.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ inline Mesh scene_mesh(const std::string& content) {
     return std::move(group.meshes[0]);
 }
 
-// A place of a triangle, as rays find it: u belongs to the second corner, v to the third.
+// A point of a triangle, as rays find it: u belongs to the second corner, v to the third.
 inline TexturePoint place_on(const Mesh& mesh, std::size_t triangle, float u, float v) {
     const MeshPlace place{mesh, triangle, u, v};
     return TexturePoint(place.point(), {0, 0, 1}, place.coordinates());

@@ -13,7 +13,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// An accessor some rows of which are replaced. `base` is the number of its view; without it the rest is zero.
+// An accessor in which some rows are replaced. `base` is the number of its view; without it, the other rows are zero.
 struct Sparse {
     std::string type;
     int component = 5126;

@@ -1,4 +1,4 @@
-// Materials of glTF files whose images lie by several sets of texture coordinates, or by several transforms of one.
+// Materials of glTF files whose images use several sets of texture coordinates, or several transforms of one set.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Floats stretched(const std::array<float, 8>& uv, float x, float y) {
     return all;
 }
 
-// A square with a coloured image and one of roughness and metal, each by a set and a transform.
+// A square with a colour image and an image of roughness and metalness, each with a set and a transform.
 struct Square {
     std::string color = R"("texCoord": 0)", metal = R"("texCoord": 0)";
     std::array<Floats, 3> sets{};
@@ -55,14 +55,14 @@ std::string transformed(const std::string& by) {
     return R"("extensions": {"KHR_texture_transform": {)" + by + "}}";
 }
 
-// What a place of a triangle looks like: the colour under the coat, and how much of it is metal.
+// The look of a point of a triangle: the colour under the coat, and its metalness.
 glm::vec4 look(const Mesh& mesh, std::size_t triangle, const glm::vec2& at) {
     const TexturePoint place = place_on(mesh, triangle, at.x, at.y);
     const Mix& mix = std::get<Mix>(mesh.material);
     return {color_at(std::get<Coated>(mix.of->first).color, place), number_at(mix.amount, place)};
 }
 
-// The largest difference of what they look like at some places.
+// The largest difference between their looks at some points.
 float difference(const Square& a, const Square& b) {
     const Mesh one = scene_mesh(a.file()), other = scene_mesh(b.file());
     float most = 0;
@@ -77,14 +77,14 @@ float difference(const Square& a, const Square& b) {
 TEST_CASE("images of one material lie each by its own set of coordinates") {
     const Floats first(whole.begin(), whole.end()), second(turned.begin(), turned.end());
     const Square same{.sets = {first, {}, {}}};
-    // A set that both images have may have any number.
+    // A set that both images use may have any number.
     CHECK(difference({.color = R"("texCoord": 1)", .metal = R"("texCoord": 1)", .sets = {second, first, {}}}, same) ==
           0);
     // Two equal sets count as one; two that differ do not.
     CHECK(difference({.metal = R"("texCoord": 1)", .sets = {first, first, {}}}, same) == 0);
     const Square apart{.metal = R"("texCoord": 1)", .sets = {first, second, {}}};
     CHECK(difference(apart, same) > 0.1f);
-    // The same by other numbers, also of the extension, whose number replaces that of the reference.
+    // The same with other numbers, including that of the extension, which replaces the number of the reference.
     CHECK(difference({.color = R"("texCoord": 2)", .metal = R"("texCoord": 0)", .sets = {second, {}, first}}, apart) ==
           0);
     CHECK(difference({.metal = R"("texCoord": 0, )" + transformed(R"("texCoord": 2)"), .sets = {first, {}, second}},
@@ -95,12 +95,12 @@ TEST_CASE("a transform of one image is that of the coordinates themselves") {
     const Floats first(whole.begin(), whole.end());
     const std::string by = transformed(R"("offset": [0.25, 0], "scale": [0.5, 2])");
     constexpr float rounding = 1e-5f;
-    // The image of metal is stretched: one of the first set, and one of a second set.
+    // The metalness image is stretched: once with the first set, and once with a second set.
     const Square metal{.metal = R"("texCoord": 1)", .sets = {first, stretched(whole, 0.5f, 2), {}}};
     CHECK(difference({.metal = by, .sets = {first, {}, {}}}, metal) < rounding);
     CHECK(difference({.metal = R"("texCoord": 1, )" + by, .sets = {first, first, {}}}, metal) < rounding);
     CHECK(difference({.sets = {first, {}, {}}}, metal) > 0.1f);
-    // The first image is stretched, and the other is not.
+    // The first image is stretched; the other is not.
     const Square color{.color = R"("texCoord": 1)", .sets = {first, stretched(whole, 0.5f, 2), {}}};
     CHECK(difference({.color = by, .sets = {first, {}, {}}}, color) < rounding);
     CHECK(difference(metal, color) > 0.1f);

@@ -1,4 +1,4 @@
-// The alpha of vertices' colours in glTF files, which makes holes where the material says that alpha counts.
+// The alpha of vertex colours in glTF files, which makes holes if the material uses alpha.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -70,7 +70,7 @@ TEST_CASE("alpha is that of the factor, times that of the image, times that of t
     CHECK(at(cut.opacity.value(), 0.75f, 0.8f) == 1);
     CHECK(at(cut.opacity.value(), 0.75f, 0.7f) == 0);
     CHECK(at(cut.opacity.value(), 0.25f, 1) == 0);
-    // Colours without alpha, and alpha that is 1 everywhere, cost nothing.
+    // Colours without alpha, or with alpha 1 everywhere, cost nothing.
     CHECK(part(R"("alphaMode": "BLEND")", R"(, "COLOR_0": 3)").alphas.empty());
     CHECK_FALSE(part(R"("alphaMode": "BLEND")", R"(, "COLOR_0": 3)").opacity->by_vertices);
     CHECK_FALSE(part(R"("alphaMode": "MASK", "alphaCutoff": 0.05)", R"(, "COLOR_0": 3)").opacity);

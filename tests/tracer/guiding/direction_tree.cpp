@@ -1,4 +1,4 @@
-// The densities of directions that guides are made of.
+// The densities of directions of which guides consist.
 #include "guiding/direction_tree.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ std::vector<DirectionTree::Light> lights(int count, std::uint32_t seed) {
     return result;
 }
 
-constexpr int side = 512;  // of a grid that is finer than the tree of this file, so its density is exact
+constexpr int side = 512;  // of a grid finer than the trees of this file, so their density is exact on it
 
 glm::vec2 middle_of(int x, int y) {
     return (glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / static_cast<float>(side);
@@ -52,7 +52,7 @@ TEST_CASE("the map of the sphere to the square is the same in both directions, a
         REQUIRE(std::min(point.x, point.y) >= 0.0f);
         REQUIRE(std::max(point.x, point.y) < 1.0f);
         REQUIRE(glm::length(square_to_sphere(point) - direction) < 2e-3f);
-        // The area of a small square on the sphere is 4π times its own.
+        // A small square's area on the sphere is 4π times its area in the plane.
         const float step = 1e-2f;
         if (std::abs(direction.z) > 0.9f || point.x > 1 - step || point.y > 1 - step) continue;
         const glm::vec3 a = square_to_sphere(point + glm::vec2(step, 0)) - square_to_sphere(point);
@@ -99,7 +99,7 @@ TEST_CASE("at all corners of the square there is a direction, with the density t
     Uniform random(9);
     const float corners[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
     for (int round = 0; round < 2000; ++round) {
-        // Whole columns, rows and squares without light, and light of all strengths, down to nothing beside the rest.
+        // Whole columns, rows and squares without light, and light of all intensities, down to negligible ones.
         std::vector<DirectionTree::Light> light;
         const float strength = 30 * random(), wide = random() * random();
         const glm::vec2 corner = random.two();
@@ -144,7 +144,7 @@ TEST_CASE("the density is what of the light comes from a square") {
     CHECK(static_cast<double>(found) / count == doctest::Approx(narrow / all).epsilon(0.02));
     // Where 40 % of the light comes from a thousandth of the sphere, the density is hundreds of times the mean.
     CHECK(tree.pdf(square_to_sphere({0.315f, 0.715f})) * 4.0f * pi > 100.0f);
-    // Few arrivals tell only roughly where they are from, however bright they are.
+    // A few arrivals show only roughly where they come from, however bright they are.
     std::vector<DirectionTree::Light> few(10, {{0.3f, 0.3f}, 1e6f});
     CHECK(DirectionTree(few).pdf(square_to_sphere({0.3f, 0.3f})) * 4.0f * pi == doctest::Approx(4.0f));
 }
@@ -152,7 +152,7 @@ TEST_CASE("the density is what of the light comes from a square") {
 TEST_CASE("a guide tells places and sides apart, and knows nothing where nothing was found") {
     Uniform random(6);
     std::vector<Finding> findings;
-    // On a floor light comes from +x where x > 0 and from −x where x < 0; below a ceiling it comes from −y.
+    // On a floor, light comes from +x where x > 0 and from −x where x < 0; below a ceiling it comes from −y.
     for (int i = 0; i < 20000; ++i) {
         const glm::vec3 at(random() - 0.5f, random() - 0.5f, 0.0f);
         findings.push_back({at, facing_of({0, 0, 1}), glm::normalize(glm::vec3(at.x > 0 ? 1 : -1, 0.1f, 0.3f)), 1.0f});
@@ -170,7 +170,7 @@ TEST_CASE("a guide tells places and sides apart, and knows nothing where nothing
     CHECK(at({0.25f, 0.2f, 0}, {0, 0, -1}, {0.1f, -1, -0.3f}) > 10.0f);
     CHECK(guide.at({0, 0, 0}, facing_of({1, 0, 0})) == nullptr);
     CHECK(Guide().at({0, 0, 0}, facing_of({0, 0, 1})) == nullptr);
-    // Outside of what was seen the nearest part answers.
+    // Outside the region with samples, the nearest part is used.
     CHECK(at({100, 100, 100}, {0, 0, 1}, {1, 0.1f, 0.3f}) > 10.0f);
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("a handful of findings tells nothing, and one that is very bright litt
     const DirectionTree* tree = guide.at({0, 0, 0}, 0);
     REQUIRE(tree != nullptr);
     CHECK(tree->pdf({0, 1, 0}) < tree->pdf({0, 0, 1}));
-    // Places without bounds are divided in bounded time.
+    // Infinite coordinates are divided in bounded time.
     for (int i = 0; i < 5000; ++i) findings.push_back({{1e30f * static_cast<float>(i % 7), 0, 0}, 0, {0, 0, 1}, 1.0f});
     CHECK(Guide(findings).at({0, 0, 0}, 0) != nullptr);
 }

@@ -1,4 +1,4 @@
-// Paths that go where light was found: by a guide they find the same light, with less noise where light is scattered
+// Paths that a guide sends to where light was found: they find the same light, with less noise where light is scattered
 // often.
 #include <doctest/doctest.h>
 
@@ -26,8 +26,8 @@ std::optional<Guide> guide_for(const World& world, const Scene& scene, const Cau
     return trained_guide({world, scene, cameras, caustics, [](double) {}, [] { return false; }});
 }
 
-// Two rooms with an opening between them. A lamp shines in the one, through a ball of glass, too, and the camera is in
-// the other, with another ball, which light passes on its way.
+// Two rooms with an opening between them. One has a lamp and a ball of glass. The other has the camera and a second
+// ball of glass, which light passes on its way.
 Scene rooms(const std::string& more = "") {
     return scene_of(
         R"("wall": {"diffuse": {"color": [0.75, 0.7, 0.6]}}, "glass": {"clear": {"ior": 1.5}}, "board": {"diffuse": {"color": [0.5, 0.3, 0.2]}})",
@@ -90,7 +90,7 @@ void check_guided(const Bsdf& bsdf, double significance) {
     CHECK(wrong_quotients == 0);
     CHECK(wrong_weights == 0);
     CHECK(rounded_away < 40);
-    // Both find the same albedo, and an error of 1 % would be seen.
+    // Both find the same albedo, and an error of 1 % would be detected.
     const auto p_value = [&](const Moments& other, double factor) {
         const double error = std::hypot(other.standard_error(), without.standard_error());
         return normal_two_sided((factor * other.mean() - without.mean()) / error);
@@ -121,23 +121,23 @@ TEST_CASE("half of the directions are guided, and the albedo is what it was") {
 TEST_CASE("light counts for the points that the path had left before, divided by the throughput that it had there") {
     PathFindings of_path;
     std::vector<Finding> findings;
-    of_path.add_light(100);  // which the camera sees directly
+    of_path.add_light(100);  // directly visible to the camera
     of_path.leave({1, 0, 0}, 0, {0, 0, 1}, 2.0f, 0.5f);
     of_path.add_light(3);
     of_path.leave({2, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);
     of_path.add_light(1);
-    of_path.leave({3, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);  // of which nothing comes
+    of_path.leave({3, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);  // no light arrives from there
     of_path.take(findings);
     REQUIRE(findings.size() == 2);
     CHECK(findings[0].point.x == 1.0f);
     CHECK(findings[0].light == doctest::Approx((3 + 1) * 2.0 / 0.5));
     CHECK(findings[1].point.x == 2.0f);
     CHECK(findings[1].light == doctest::Approx(1 * 1.0 / 0.25));
-    // The next path has nothing of it.
+    // The next path keeps nothing of this one.
     of_path.add_light(5);
     of_path.take(findings);
     CHECK(findings.size() == 2);
-    // Of long paths the first points count, and none without throughput, nor light without bounds.
+    // Only the first points of long paths count. Points without throughput do not count, nor does infinite light.
     findings.clear();
     of_path.leave({0, 0, 0}, 0, {0, 0, 1}, 1.0f, 0.0f);
     for (int i = 0; i < 40; ++i)
@@ -196,8 +196,8 @@ TEST_CASE("paths that are guided see a radiance of 1 within walls that glow with
 }
 
 TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no light") {
-    // In a white room paths are long, and each direction could double a weight. What the guide knows is light from one
-    // side, which comes from all.
+    // In a white room, paths are long, and each direction could double a weight. The guide expects light from one side,
+    // but it arrives from all sides.
     const Scene scene = scene_of(
         R"("wall": {"glowing": {"light": [0.05, 0.05, 0.05], "color": [0.95, 0.95, 0.95]}})",
         R"({"set": {"phase": "wall", "of": {"difference": {"from": {"box": {"size": [3, 3, 3]}}, "subtract": [{"box": {"size": [2, 2, 2]}}]}}}})",

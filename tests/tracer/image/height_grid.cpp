@@ -1,4 +1,4 @@
-// An image as a terrain: OpenImageIO writes it, a scene names it.
+// An image as a terrain: written by OpenImageIO and named in a scene.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -50,8 +50,8 @@ TEST_CASE("an image of sixteen bits is a terrain, its first row farthest along y
         }
         return low;
     };
-    // In a pixel's middle the spline has 3/4 of it and 1/8 of either neighbour, along x and y; beyond the border its
-    // pixels go on.
+    // In the middle of a pixel, the spline has 3/4 of its value and 1/8 of each neighbour's, along x and y. Beyond the
+    // border, the border's pixels continue.
     CHECK(height_at(-2.99f, 1.99f) == doctest::Approx(2).epsilon(1e-3));
     CHECK(height_at(-2, 1) == doctest::Approx(2 * (0.75 + 0.125) * (0.75 + 0.125)).epsilon(1e-4));
     CHECK(height_at(2, -1) == doctest::Approx((0.75 + 0.125) * (0.75 + 0.125)).epsilon(1e-4));

@@ -1,5 +1,5 @@
-// Images that scenes name: what is read of the windows of OpenEXR files, what is rejected, and files that claim sizes,
-// scans and samples, or are cut off.
+// Images that scenes name: windows of OpenEXR files, rejected files, and files that claim wrong sizes, scans or
+// samples, or are truncated.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -40,8 +40,8 @@ std::string segment(int marker, const std::string& content) {
            big_endian(static_cast<std::uint32_t>(content.size() + 2), 2) + content;
 }
 
-// A JPEG file of middle grey. Each block takes a bit for its mean, and a second one for all else if the file is not
-// progressive.
+// A JPEG file of middle grey. Each block takes one bit for its mean, and a second one for everything else if the file
+// is not progressive.
 struct Jpeg {
     int width = 16, height = 16;
     bool is_progressive = true, has_tables = true;
@@ -53,7 +53,7 @@ struct Jpeg {
         s += segment(is_progressive ? 0xC2 : 0xC0, "\x08" + big_endian(static_cast<std::uint32_t>(height), 2) +
                                                        big_endian(static_cast<std::uint32_t>(width), 2) +
                                                        std::string{1, 1, 0x11, 0});
-        // Tables of the means and of all else, with one code each.
+        // Tables of the means and of everything else, with one code each.
         for (const int kind : {0x00, 0x10})
             if (has_tables)
                 s += segment(0xC4,
@@ -66,7 +66,7 @@ struct Jpeg {
     }
 };
 
-// A PNG file of black pixels of a palette, of one bit each.
+// A PNG file of black pixels with a palette, one bit each.
 std::string palette_png(std::uint32_t width, std::uint32_t height, std::uint32_t rows) {
     const auto chunk = [](const std::string& type, const std::string& data) {
         std::uint32_t crc = 0xffffffffu;
@@ -104,7 +104,7 @@ struct Read {
     std::vector<float> values;
 };
 
-// The image in memory or in a file. A `most` of pixels that are wanted.
+// The image in memory or in a file. At most `most` pixels are requested.
 Read read(const std::string& bytes, const char* file = nullptr, std::int64_t most = 1 << 24) {
     Read r;
     const auto begin = [&](const ImageHeader& header) {
@@ -131,7 +131,7 @@ Read read(const std::string& bytes, const char* file = nullptr, std::int64_t mos
     return r;
 }
 
-// Files by names that say otherwise, too.
+// Also files whose names claim another format.
 constexpr const char* places[]{nullptr, "a.jpg", "a.png"};
 
 JpegHeader header_of(const std::string& bytes, std::size_t block) {
@@ -172,13 +172,13 @@ TEST_CASE("a JPEG file is asked for its size before anything is decoded") {
             REQUIRE(good.values.size() == 256);
             CHECK(good.values[100] == doctest::Approx(128 / 255.0));
         }
-        // Without tables it cannot be decoded, and is still rejected by its size.
+        // Without tables it cannot be decoded, but its size is rejected before.
         const Jpeg huge{.width = 65500, .height = 65500, .has_tables = false};
         const Read refused = read(huge.bytes(), file);
         CHECK(refused.error == "it is not wanted");
         CHECK(refused.header.width == 65500);
         CHECK(refused.header.height == 65500);
-        // Who wants it must have bytes for its blocks.
+        // Such a size requires bytes for its blocks.
         CHECK(read(huge.bytes(), file, std::int64_t{1} << 40).error ==
               "it is too short for the image size in its header");
     }
@@ -253,7 +253,7 @@ struct Box {
     bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
 };
 
-// What a channel of the test pictures is at a pixel; never 0.
+// The value of a channel of the test pictures at a pixel; never 0.
 float value_at(int x, int y, int channel) {
     return 1000.0f + static_cast<float>(x) + 64.0f * static_cast<float>(y) + 0.125f * static_cast<float>(channel);
 }
@@ -288,7 +288,7 @@ void write_floats(const std::string& path, int width, int height, int channels, 
     REQUIRE(out->close());
 }
 
-// What is said of a file, without its name.
+// The message about a file, without its name.
 template <class F>
 std::string said(F&& f) {
     try {
@@ -355,11 +355,11 @@ TEST_CASE("an environment is the display window of its image, whatever part of i
     for (const glm::vec3& p : image->pixels) lit += p.x > 0;
     CHECK(lit == 20 * 10);
     CHECK(image->pixels[11 * 64 + 22].x == value_at(22, 11, 0));
-    // The shape that counts is the display window's.
+    // The shape is that of the display window.
     write_exr(path, {0, 0, 64, 32}, {0, 0, 64, 64});
     CHECK(said([&] { return load_environment_image(path); }) ==
           "an environment map must be twice as wide as high, but this one has 64 × 64");
-    // Of a texture, too, alpha is 0 where there are no pixels.
+    // In a texture, too, alpha is 0 where there are no pixels.
     write_exr(path, {0, 0, 1, 1}, {0, 0, 2, 1});
     const auto alpha = load_texture_image(path, ImageMeaning::alpha);
     CHECK(alpha->pixels() == 2);
@@ -411,7 +411,7 @@ TEST_CASE("numbers that are not finite are rejected: how many pixels have them, 
         CHECK(said([&] { return load_texture_image(path); }) == wanted);
         CHECK(said([&] { return load_texture_image(path, ImageMeaning::numbers); }) == wanted);
     };
-    // The largest number of 16 bits is a number like others, and less than 0 is black.
+    // The largest 16-bit number is valid, and negative numbers are black.
     std::vector<float> values(200 * 100 * 3, 65504.0f);
     values[5] = -1;
     write_floats(path, 200, 100, 3, values);
@@ -424,7 +424,7 @@ TEST_CASE("numbers that are not finite are rejected: how many pixels have them, 
     std::fill_n(values.begin() + 3 * (200 * 20 + 199), 9, infinity);
     write_floats(path, 200, 100, 3, values);
     each_use("4 pixels are infinite or not a number, the first at column 199, row 20 " + repair);
-    // Only channels that are used count.
+    // Only channels that are used matter.
     write_floats(path, 2, 1, 4, {infinity, 0, 0, 0.5f, 0, 0, 0, 1});
     CHECK(said([&] { return load_texture_image(path, ImageMeaning::alpha); }) == "nothing");
     write_floats(path, 2, 1, 4, {0, 0, 0, infinity, 0, 0, 0, 1});

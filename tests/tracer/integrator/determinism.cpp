@@ -1,4 +1,4 @@
-// The same picture bit for bit, whatever computes it.
+// The picture is the same bit for bit, however it is computed.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -16,7 +16,7 @@ using namespace phasetree::tracer::tests;
 namespace {
 
 // Some of everything: clear, rough, diffuse, textured, coated and metal phases, a mesh, lights near and far, a lens;
-// and caustics and a guide, if wanted.
+// optionally caustics and a guide.
 Scene everything(bool caustics = false, bool guiding = false) {
     return scene_of(
         R"("glass": {"clear": {"ior": 1.5, "absorption": [0.2, 0.1, 0.3]}}, "water": {"clear": {"ior": 1.33}},
@@ -102,7 +102,7 @@ void check_threads_and_crop(const Scene& scene) {
         for (int x = part.x0; x < part.x1; ++x)
             different += !equal_bits(crop.pixels[part.index(x, y)], one.pixels[scene.film.whole().index(x, y)]);
     CHECK(different == 0);
-    // Photons and guides do something.
+    // Photons and guides have an effect.
     CHECK_FALSE(equal_bits(one, image_with(world, everything(), 1)));
 }
 

@@ -1,11 +1,11 @@
-// The white furnace: in an environment of radiance 1 from everywhere, whatever absorbs nothing is invisible.
+// The white furnace: in an environment of radiance 1 from everywhere, everything that does not absorb is invisible.
 //
 // Basic radiance L/η² is invariant along a ray through lossless media, at reflections and refractions alike; the
 // environment's is 1 in every direction. So a camera in vacuum sees 1 at every pixel, and a camera within a medium of
-// index η sees η². Each path of our estimator is exact by itself: Fresnel's choice is paid for by its probability, the
-// factors (η/η')² telescope, and roulette never comes in. What a pixel is off, it is off because a path was lost,
-// found twice, or followed along another interface than the one it was on. So few samples will do: at 16 a pixel, one
-// path astray is 0.06 in its pixel, sixty times the tolerance.
+// index η sees η². Each path of our estimator is exact by itself: Fresnel's factor cancels the probability of the
+// choice, the factors (η/η')² telescope, and roulette never applies. A pixel is wrong only if a path was lost, found
+// twice, or followed along the wrong interface. So a few samples are enough: with 16 per pixel, one wrong path changes
+// its pixel by 0.06, sixty times the tolerance.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string bulb(const std::string& inside) {
 }
 const std::string ball_of_water =
     R"({"thin_shell": {"shell": "glass", "inside": "water", "half_thickness": 0.04, "of": {"sphere": {"radius": 1}}}})";
-// Glass half full: above the tilted surface of the water is nothing, or air; glass, water and vacuum meet in a line.
+// A half-full glass. Above the tilted surface of the water is vacuum, or air; glass, water and vacuum meet in a line.
 const std::string tilted = R"({"plane": {"normal": [0.1, 0.05, 1], "offset": 0.15}})";
 const std::string half_full =
     R"({"intersect_shape": {"phases": "water", "shape": )" + tilted + R"(, "of": )" + ball_of_water + "}}";
@@ -43,9 +43,8 @@ const std::string half_full_of_air =
     R"({"change": {"from": "water", "to": "air", "shape": {"plane": {"normal": [-0.1, -0.05, -1], "offset": -0.15}}, "of": )" +
     ball_of_water + "}}";
 
-// The long form of the test, for a run over night, looks for what goes wrong once in a million paths. It lets
-// them be as long as they will: of a million in lossless glass some ten go around within the wall more than the 4,096
-// times that a scene allows by itself.
+// The long form of the test, which runs overnight, looks for errors of one path in a million. It does not limit the
+// length of paths: of a million in lossless glass, about ten are reflected within the wall more than 4,096 times.
 const bool long_form = phasetree::tests::long_tests();
 const int samples = long_form ? 500 : 16;
 
@@ -59,7 +58,7 @@ const std::string from_the_front = view("[0, -4, 0.3]", "[0, 0, 0]", 40, 32);
 const std::string from_above = view("[1.5, -1.2, 4]", "[0, 0, 0]", 36, 32);
 const std::string near_by = view("[-0.3, -1.25, 0.2]", "[0.5, 0, 0.1]", 80, 32);
 
-// Pixels off by more than the tolerance, and the farthest.
+// The number of pixels that are wrong by more than the tolerance, and the largest error.
 struct Off {
     int pixels = 0;
     float most = 0;
@@ -100,7 +99,7 @@ TEST_CASE("furnace: lossless glass, water and air are invisible from outside") {
             CAPTURE(camera);
             const Off result = off(scene_of(clear_phases, c.tree, camera), 1.0f);
             CHECK(result.pixels == 0);
-            CHECK(result.most < 1e-5f);  // what rounding may do to a path of a dozen factors
+            CHECK(result.most < 1e-5f);  // rounding errors of a path with a dozen factors
         }
     }
 }
@@ -118,7 +117,7 @@ TEST_CASE("furnace: a loss of 1 % is seen") {
     const Off result = off(scene_of(lossy, sphere, from_the_front), 1.0f);
     CHECK(result.pixels > 250);  // a sphere of 1 m at 4 m fills 370 of the 1,024
     CHECK(result.most > 0.005f);
-    // And a glass that is half full of water of which one part in a hundred is lost.
+    // Also a glass that is half full of water, where one part in a hundred is lost.
     const std::string murky =
         R"("glass": {"clear": {"ior": 1.5}}, "water": {"clear": {"ior": 1.33, "absorption": [0.0075, 0.0075, 0.0075]}})";
     CHECK(off(scene_of(murky, half_full, from_the_front), 1.0f).pixels > 100);
@@ -126,7 +125,7 @@ TEST_CASE("furnace: a loss of 1 % is seen") {
 
 TEST_CASE("furnace: white paint and varnish, by next-event estimation and BSDF samples together") {
     const std::string convex = R"({"set": {"phase": "paint", "of": {"sphere": {"radius": 1}}}})";
-    // Light goes to and fro between the two balls, and into the gap between them.
+    // Light is reflected between the two balls, and enters the gap between them.
     const std::string concave = R"({"set": {"phase": "paint", "of": {"union": [
         {"translate": {"by": [1, 0, 0], "of": {"sphere": {"radius": 0.98}}}},
         {"translate": {"by": [-1, 0, 0], "of": {"sphere": {"radius": 0.98}}}}]}}})";
@@ -137,13 +136,13 @@ TEST_CASE("furnace: white paint and varnish, by next-event estimation and BSDF s
         std::string name;
         std::string kind, tree;
         glm::vec3 direction;
-        // Paint of albedo ρ alone under the light shows ρ; a varnished one a little less change, and between the balls
-        // it is taken off at every bounce.
+        // Bare paint of albedo ρ shows ρ; under varnish the change is a little smaller. Between the balls, it applies
+        // at every bounce.
         double rounding;
     };
     const Case cases[] = {{"diffuse", "diffuse", convex, {0.05f, 1, 0.1f}, 1e-6},
                           {"diffuse, concave", "diffuse", concave, {0.05f, 1, 0.02f}, 1e-6},
-                          // The table of the coating's albedo is good to 1e-4 for a smooth one (tests/shading).
+                          // The table of a smooth coating's albedo is accurate to 1e-4 (tests/shading).
                           {"coated", "coated", convex, {0.1f, 1, 0.05f}, 3e-4},
                           {"coated, concave", "coated", concave, {0.05f, 1, 0.02f}, 6e-4}};
     const double significance = sidak(1e-4, std::size(cases));
@@ -163,7 +162,7 @@ TEST_CASE("furnace: white paint and varnish, by next-event estimation and BSDF s
 }
 
 TEST_CASE("furnace: rough glass gives back what it got") {
-    // Between equal indices a film is all that there is.
+    // Between equal indices, only the film reflects.
     for (const char* const surface : {R"("ior": 1.5, "roughness": 0.1)", R"("ior": 1.5, "roughness": 0.3)",
                                       R"("ior": 1, "roughness": 0.2, "film_thickness": 300, "film_ior": 1.5)"}) {
         const std::string rough = std::string(R"("glass": {"clear": {)") + surface + "}}";
@@ -175,7 +174,7 @@ TEST_CASE("furnace: rough glass gives back what it got") {
             CAPTURE(direction.z);
             CAPTURE(m.mean());
             CAPTURE(m.standard_error());
-            // The tables of the losses are good to some thousandths, and a path passes two surfaces or more.
+            // The tables of the losses are accurate to a few thousandths, and a path meets two or more surfaces.
             CHECK(std::abs(m.mean() - 1.0) < 0.005 + 4 * m.standard_error());
         }
     }

@@ -1,5 +1,5 @@
-// The choice between reflection and refraction by what lights are seen in both directions: it is unbiased, a lamp's
-// reflection in glass has little noise, and planes show what the probabilities of Fresnel's equations would have given.
+// The choice between reflection and refraction by the lights in both directions: it is unbiased, a lamp's reflection in
+// glass has little noise, and planes of the film are the same as with the probabilities of Fresnel's equations.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ using phasetree::tests::stack;
 
 namespace {
 
-// An upright pane of glass, seen 30 degrees from its normal. `lamp` is on the camera's side, where the pane mirrors it,
-// and what is behind is darker by a factor of a hundred.
+// An upright pane of glass, seen 30 degrees from its normal. `lamp` is on the camera's side, where the pane mirrors it.
+// Everything behind the pane is a hundred times darker.
 constexpr double lamp_radiance = 10, behind_radiance = 0.1;
 const double cosine = std::cos(std::numbers::pi / 6);
 const glm::vec3 from(1.0f, -std::sqrt(3.0f), 0.0f);  // where the camera is, too
@@ -36,7 +36,7 @@ Scene pane(const std::string& glass, const std::string& lights, const std::strin
         R"("lights": [)" + lights +
             R"(], "camera": {"position": [1, -1.7320508, 0], "look_at": [0, 0, 0], "fov": 0.5}, "render": {"width": 8, "height": 8})");
 }
-// Around the direction in which a pane mirrors what comes from the camera.
+// Around the direction in which a pane reflects rays from the camera.
 const std::string lamp =
     R"({"rectangle": {"centre": [-2, -3.4641016, 0], "target": [0, 0, 0], "width": 0.8, "height": 0.8, "radiance": [10, 10, 10]}})";
 const std::string behind =
@@ -69,7 +69,7 @@ TEST_CASE("each outcome is as likely as the choice says, and so counts as often 
             odds = choice.odds_over_fresnel;
             counted += 1 / static_cast<double>(odds);
         }
-        // Only the lamp is bright, so half of the choice is for it.
+        // Only the lamp is bright, so it gets half of the probability.
         CHECK(static_cast<double>(reflected) / steps ==
               doctest::Approx(0.5 + 0.5 * static_cast<double>(f)).epsilon(1e-3));
         CHECK(odds == doctest::Approx(0.5f * (1.0f + 1.0f / f)).epsilon(1e-4));
@@ -131,14 +131,14 @@ TEST_CASE("a lamp in a pane is as bright as theory says, with little noise") {
     CHECK(mean_p_value(found, expected, 1e-4 * expected) > sidak(1e-4, 2));
     CHECK(mean_p_value(found, 1.01 * expected, 1e-4 * expected) < sidak(1e-4, 2));
     // Had the path been reflected by the probabilities of Fresnel's equations alone, the relative variance would be R
-    // (1 − R) (L − L')² / L̄², nearly 9, with R the pane's reflectance, L the lamp's radiance, L' that behind, and L̄
-    // the mean of them.
+    // (1 − R) (L − L')² / L̄², nearly 9, where R is the pane's reflectance, L the lamp's radiance, L' the radiance
+    // behind, and L̄ their mean.
     const double variance = found.standard_error() * found.standard_error() * samples;
     CHECK(variance / (expected * expected) < 1.5);
 }
 
 TEST_CASE("planes count what is behind a pane by Fresnel's odds, however often the lamp that it mirrors is chosen") {
-    // There is a wall behind the pane. On the camera's side is only the lamp, so what is reflected meets nothing.
+    // There is a wall behind the pane. On the camera's side is only the lamp, so reflected paths meet nothing.
     const Scene scene = pane(
         "", lamp,
         R"(, {"set": {"phase": "wall", "of": {"translate": {"by": [0, 3, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})",
@@ -169,13 +169,14 @@ TEST_CASE("planes count what is behind a pane by Fresnel's odds, however often t
     CHECK(mean_p_value(weight, 1, 1e-5) > significance);
     CHECK(mean_p_value(normal, -response.transmitted, 1e-5) > significance);
     CHECK(mean_p_value(albedo, 0.5 * response.transmitted, 1e-5) > significance);
-    // A share 1 − F gets in, and goes through the glass once more with the probability F each time: once on average.
+    // A share 1 − F enters. It crosses the glass once more with probability F each time, which adds up to one crossing
+    // on average.
     CHECK(mean_p_value(in_glass, way_through, 1e-5) > significance);
 }
 
 TEST_CASE("what is recorded of a film in wavelengths is of the way that the path takes") {
-    // A path that is refracted into glass, and recorded as reflected, has a recorded albedo that is wrong by the square
-    // of the index. The film's colours are other than what it reflects at one wavelength, which decides of the path.
+    // If a path that is refracted into glass were recorded as reflected, its recorded albedo would be wrong by the
+    // square of the index. The film's colours differ from its reflectance at the one wavelength that decides the path.
     Scene scene = pane(
         R"(, "film_ior": 2, "film_thickness": 500)", lamp,
         R"(, {"set": {"phase": "wall", "of": {"translate": {"by": [0, 3, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})",
@@ -191,7 +192,8 @@ TEST_CASE("what is recorded of a film in wavelengths is of the way that the path
     for (std::uint32_t i = 0; i < 20000; ++i) {
         Sampler sampler(i, 0, 0, 1);
         trace_path(world, scene, ray, sampler, counters, &record, {});
-        // Only what went straight through: what is reflected within the pane may be coloured as much.
+        // Only paths that went straight through, because light that is reflected within the pane may be equally
+        // coloured.
         if (!record.behind || static_cast<double>(record.lengths[1]) > 1.5 * way_through) continue;
         ++straight;
         const float of_wall = record.behind->albedo.y / (0.5f * record.weight);
@@ -231,7 +233,7 @@ TEST_CASE("behind many panes that mirror a lamp, paths keep their weights within
 }
 
 TEST_CASE("planes of a picture are means of what a pane mirrors and what is behind it, by Fresnel's odds") {
-    // The lamp would be mirrored if a wall did not hide it. So paths are reflected often, and meet that wall.
+    // The pane would mirror the lamp if a wall did not hide it. So paths are often reflected, and meet that wall.
     const std::string walls =
         R"(, {"set": {"phase": "near", "of": {"translate": {"by": [0, 3.5, 0], "of": {"box": {"size": [40, 1, 40]}}}}}},
              {"set": {"phase": "far", "of": {"translate": {"by": [0, -8.5, 0], "of": {"box": {"size": [40, 1, 40]}}}}}})";
@@ -259,7 +261,8 @@ TEST_CASE("planes of a picture are means of what a pane mirrors and what is behi
         const double mirrored = response.reflected, seen = response.transmitted;
         const double to_near = 2 + 3 / cosine, to_far = 2 + 8 / cosine;
         CHECK(mean_of("normal_behind.Y") == doctest::Approx(mirrored - seen).epsilon(0.005));
-        // One half of the samples may have more of one outcome than the other half. Without weights it would be 0.08.
+        // One half of the samples may have more of one outcome than the other half. Without weights, the difference
+        // would be 0.08.
         CHECK(mean_of("half_normal_behind.Y") == doctest::Approx(mirrored - seen).epsilon(0.05));
         CHECK(mean_of("depth_behind.Z") == doctest::Approx(mirrored * to_far + seen * to_near).epsilon(0.005));
         CHECK(mean_of("length_vacuum.X") == doctest::Approx(mirrored * to_far + seen * to_near).epsilon(0.005));

@@ -94,7 +94,7 @@ TEST_CASE("what is before a lamp shades the floor, however near to the lamp; wha
 }
 
 TEST_CASE("light that comes to the floor by way of a mirror is found once") {
-    // A wall of metal that absorbs next to nothing doubles what is before it: half of what the floor sees.
+    // A wall of metal that absorbs almost nothing mirrors everything in front of it: half of what the floor sees.
     const std::string phases = R"("metal": {"conductor": {"eta": [1e-6, 1e-6, 1e-6], "k": [5, 5, 5]}})";
     const std::string wall = R"({"set": {"phase": "metal", "of": {"translate": {"by": [-2, 0, 0], "of": {"box": {
         "size": [2, 12, 12]}}}}}})";

@@ -1,5 +1,5 @@
-// Media that scatter, piece by piece: the phase function and free flights by χ², transmittances against closed forms,
-// and that colours never grow.
+// Scattering media, piece by piece: the phase function and free flights by χ², transmittances against closed forms, and
+// colours that never increase.
 //
 // The planted defect is a skew of 1 %: the first uniform number to the power 1.01, a χ²-distance of 1e-4.
 #include <doctest/doctest.h>
@@ -48,8 +48,8 @@ double depth_to(double t) {
     return sum;
 }
 
-// Along the ray through the middle of a turned grid, of which three fifths are empty: the density is linear between
-// voxels 0.05 apart, so its integral is exact by the trapezoidal rule.
+// Along the ray through the middle of a rotated grid, three fifths of which are empty. The density is linear between
+// voxels 0.05 apart, so the trapezoidal rule is exact.
 struct Column {
     static constexpr int count = 40;
     static constexpr double spacing = 0.05;
@@ -132,7 +132,7 @@ TEST_CASE("Henyey-Greenstein: the density is 1 in all, its mean cosine is g, and
 }
 
 TEST_CASE("free flights: distances follow the exponential law, weighted or not") {
-    // All channels are alike, so that the law is that of one.
+    // All channels are equal, so each follows the same law.
     const ScatteringCoefficients grey{.absorption = glm::vec3(0.2f), .scattering = glm::vec3(1.8f)};
     const HomogeneousMedium even(grey);
     const std::size_t count = samples_to_detect(1e-4, cells);
@@ -215,8 +215,8 @@ TEST_CASE("a flight's weights: what passes, what is scattered, what shines, by c
     test(VaryingMedium(coloured, column.density(turned)), Column::turned_way(turned), column.depth_to(2));
 }
 
-// Along a way on which the temperature rises evenly, what shines is the integral of Planck's law, and a planted error
-// of 1 % of the temperature is found.
+// Along a path on which the temperature rises linearly, the emitted light is the integral of Planck's law. A planted
+// error of 1 % of the temperature is detected.
 TEST_CASE("what is hot shines by its temperature, in red, green and blue and by wavelength") {
     constexpr int count = 33;
     constexpr double hottest = 2400, reference = 2000, sigma = 1.5, length = 1.6;
@@ -241,7 +241,7 @@ TEST_CASE("what is hot shines by its temperature, in red, green and blue and by 
         }
         return 2 * sum * static_cast<double>(spectrum->relative_at(static_cast<float>(nanometres)));
     };
-    // In red, green and blue the light of each temperature is a colour that they can mix, of its luminance.
+    // In red, green and blue, the light of each temperature is a colour in their gamut, with the same luminance.
     const auto rgb = [&](double error) {
         constexpr int steps = 400;
         glm::dvec3 sum(0);
@@ -283,7 +283,7 @@ TEST_CASE("what is hot shines by its temperature, in red, green and blue and by 
             CHECK(mean_p_value(passed[i], of(1.01)) < significance);
         }
     }
-    // It is as bright as Planck's law says.
+    // It is as bright as Planck's law predicts.
     const Heat heat(temperatures, hottest, reference);
     CHECK(heat.luminance(static_cast<float>(reference / hottest)) == doctest::Approx(1).epsilon(1e-3));
     CHECK(heat.luminance(0) == 0.0f);
@@ -335,8 +335,8 @@ TEST_CASE("absorption that is so many times as dense, by colour and by wavelengt
 }
 
 TEST_CASE("of light that hardly gets through the mean is right, and none is less than nothing") {
-    // A number of 211/255 everywhere but far away: times 5 over the rate of collisions it is, by rounding, a little
-    // more than 1.
+    // The number is 211/255 everywhere except far away. Because of rounding, 5 times that over the rate of collisions
+    // is slightly more than 1.
     const VoxelLattice lattice{{32, 2, 2}, {-1, -1, -1}, {2, 2, 2}};
     const VoxelDensity even(
         VoxelGrid::of_voxels("test", lattice, [](int x, int, int) { return x < 30 ? 211.0f / 255 : 1.0f; }), {});
@@ -362,7 +362,7 @@ TEST_CASE("of light that hardly gets through the mean is right, and none is less
 }
 
 TEST_CASE("behind a block of voxels of which one is far denser there is still something") {
-    // The bound on the density in the first two blocks is 10⁶, of which a way that passes the voxel meets nothing.
+    // The bound on the density in the first two blocks is 10⁶, but a path beside the voxel meets nothing.
     const VoxelLattice lattice{{8, 8, 64}, {-3.5, -3.5, 0.5}, {1, 1, 1}};
     const VoxelDensity density(VoxelGrid::of_voxels("test", lattice,
                                                     [](int x, int y, int z) {
@@ -392,7 +392,7 @@ TEST_CASE("ways without end, and through nothing") {
     CHECK_FALSE(past.scattered_at.has_value());
     CHECK(past.weight == glm::vec3(1.0f));
     CHECK(varying.transmittance({below, -up, infinity}, sampler) == glm::vec3(1.0f));
-    // One channel that is neither scattered nor absorbed, and light in no other.
+    // One channel is neither scattered nor absorbed, and no other channel has light.
     const HomogeneousMedium one({.scattering = {0, 1, 1}});
     const Flight red = one.fly({below, up, infinity}, glm::vec3(1, 0, 0), sampler);
     CHECK_FALSE(red.scattered_at.has_value());

@@ -1,9 +1,9 @@
-// The white furnace of media that scatter and absorb nothing: in light of radiance 1 from everywhere they are
-// invisible. And that shadow rays and sampled directions find the same light, each alone.
+// The white furnace of media that scatter and do not absorb: in light of radiance 1 from everywhere, they are
+// invisible. Also, shadow rays and sampled directions find the same light, each alone.
 //
-// Where directions alone find the light each path is worth 1 by itself, whatever happens to it: in every channel if all
-// are alike, and else in the mean of the channels. So few samples tell exactly whether any light is lost or found
-// twice. With shadow rays it is the mean over paths.
+// Where directions alone find the light, each path has the value 1, whatever happens to it: in every channel if all are
+// equal, otherwise in the mean of the channels. So a few samples show exactly whether any light is lost or found twice.
+// With shadow rays, only the mean over paths is 1.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 const bool long_form = phasetree::tests::long_tests();
 
 const std::string ball = R"({"set": {"phase": "milk", "of": {"sphere": {"radius": 1}}}})";
-// In exact contact with its glass, and half full: above the milk is nothing.
+// In exact contact with its glass, and half full: above the milk is vacuum.
 const std::string glass =
     R"({"intersect_shape": {"phases": "milk", "shape": {"plane": {"normal": [0.1, 0.05, 1], "offset": 0.15}},
     "of": {"thin_shell": {"shell": "glass", "inside": "milk", "half_thickness": 0.04, "of": {"sphere": {"radius": 1}}}}}})";
@@ -104,7 +104,7 @@ TEST_CASE("furnace: paths through what scatters and absorbs nothing are worth 1,
         CAPTURE(c.name);
         CHECK(farthest_from_1(c, "") < 0.001);
     }
-    // A medium that absorbs a thousandth of what it scatters is found.
+    // A medium that absorbs a thousandth of what it scatters is detected.
     CHECK(farthest_from_1(cases[0], R"(, "absorption": [0.003, 0.003, 0.003])") > 0.001);
 }
 

@@ -1,8 +1,8 @@
 // Slabs and half-spaces that scatter, against adding and doubling, Chandrasekhar's H function, and published tables.
 //
-// The three colour channels are three media at once, whose light travels together (media/homogeneous.hpp). A slab in
-// light of radiance 1 from everywhere shows R + T, and above a black floor R alone. A planted error of the expectation
-// must be seen.
+// The three colour channels are three media at once, whose light travels together (media/homogeneous.hpp). In light of
+// radiance 1 from everywhere, a slab has the radiance R + T, and over a black floor R alone. A planted error of the
+// expected value must be detected.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ using phasetree::tests::PlaneResponse;
 
 namespace {
 
-// The long form asks for the promised 0.5 % and finds an error of 1 %, the short one finds one of 10 %.
+// The long form requires the promised 0.5 % and detects an error of 1 %; the short one detects an error of 10 %.
 const bool long_form = phasetree::tests::long_tests();
 const double planted = long_form ? 0.01 : 0.1;
 
@@ -37,8 +37,8 @@ struct Medium3 {
     double extinction(std::size_t c) const { return absorption[c] + scattering[c]; }
 };
 
-// A layer from z = −depth to 0, so wide that next to nothing leaves by its sides. It must not be wider than that: an
-// interface is known to a millionth of the object's size, of which a mean free path should be many times.
+// A layer from z = −depth to 0, so wide that almost no light leaves through its sides. It must not be wider, because an
+// interface is known to a millionth of the object's size, and a mean free path should be many times that.
 Scene layer(const Medium3& m, double depth, double across, bool black_below) {
     const std::string phases = R"("layer": {"clear": {"ior": )" + std::to_string(m.ior) + R"(, "absorption": )" +
                                rgb(m.absorption) + R"(, "scattering": )" + rgb(m.scattering) + R"(, "anisotropy": )" +
@@ -79,13 +79,13 @@ TEST_CASE("adding and doubling, and H, give the published values") {
     CHECK(r.transmitted == doctest::Approx(0.66096).epsilon(1e-4));
     // Chandrasekhar 1960, table XI: H(1) of conservative isotropic scattering is 2.9078.
     CHECK(chandrasekhar_h(1, 1) == doctest::Approx(2.9078).epsilon(2e-4));
-    // A half-space by both.
+    // A half-space, by both methods.
     const double cosines[] = {0.3, 1.0};
     const auto deep = adding_doubling({0.9, 60, 0}, cosines);
     for (std::size_t i = 0; i < 2; ++i)
         CHECK(deep[i].reflected ==
               doctest::Approx(1 - chandrasekhar_h(0.9, cosines[i]) * std::sqrt(1 - 0.9)).epsilon(1e-4));
-    // Nothing is lost where nothing is absorbed.
+    // Without absorption, no light is lost.
     const PlaneResponse white = adding_doubling({1, 3, 0.5}, straight)[0];
     CHECK(white.reflected + white.transmitted == doctest::Approx(1).epsilon(1e-5));
 }
@@ -124,8 +124,8 @@ TEST_CASE("half-spaces that scatter: Chandrasekhar's H, and Giovanelli's with an
             check(moments[c], 1 - chandrasekhar_h(a, cosine) * std::sqrt(1 - a), significance);
         }
     }
-    // Giovanelli, Optica Acta 2 (1955), 153: a = 0.9, isotropic, of index 1.5, straight on: 0.2600, what the surface
-    // reflects included.
+    // Giovanelli, Optica Acta 2 (1955), 153: a = 0.9, isotropic, of index 1.5, at normal incidence: 0.2600, including
+    // the light that the surface reflects.
     const Medium3 dense{{2, 2, 2}, {18, 18, 18}, 0, 1.5};
     const Moments m = seen(layer(dense, 2, 12, true), 1, count)[0];
     CHECK(mean_p_value(m, 0.26, 0.0005) > 1e-4);

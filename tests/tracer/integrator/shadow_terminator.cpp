@@ -1,4 +1,4 @@
-// Smooth meshes of few triangles: where rays leave them.
+// Smooth meshes with few triangles: the points at which rays leave them.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ glm::vec3 direction(int i, int count) {
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// Of the places of a ball that the sun lights at a small angle, how many are in shadow.
+// The share of points that are in shadow, among those of a ball that the sun lights at a small angle.
 double in_shadow(const Shown& shown, const glm::vec3& sun) {
     int lit = 0, dark = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -100,12 +100,13 @@ TEST_CASE("a smooth ball of few triangles has no shadow of its own where the sun
     }
     CHECK(flat > 0.03);
     CHECK(farthest < flat);
-    // From within the ball's triangles are before its surface, so rays leave them as they are: none gets out.
+    // From inside, the ball's triangles are in front of its surface, so rays leave from the triangles themselves: none
+    // escapes.
     for (int i = 0; i < 500; ++i) {
         const Surface surface = *smooth.met({0, 0, 0}, direction(i, 500));
         CHECK(glm::length(surface.near_side.origin - surface.place.position) == 0);
     }
-    // A mesh that is not smooth is what it is.
+    // A mesh that is not smooth is not changed.
     const Shown facets(paper, far_away, R"(, "smooth": false)");
     const Surface facet = *facets.met({0, 0, 3}, {0.1f, 0.12f, -1});
     CHECK(glm::length(facet.near_side.origin - facet.place.position) == 0);

@@ -1,10 +1,10 @@
 // Plane layers of absorbing glass against closed forms with all their internal reflections.
 //
-// In light of radiance 1 from everywhere, what is seen of a stack is R + T. An estimate of N paths has the standard
-// error σ/√N. A path is worth 1 if it is reflected, which F decides, else about a = e^(−σd): σ ≈ (1 − a) √(F (1−F)),
-// which is 0.06 … 0.4 here, and with N = 1.2·10⁵ the error is 0.0002 … 0.001, of radiances of 0.2 … 0.8. The tolerance
-// of 0.5 % is the one promised; the z-test beside it sees less, such as 1 % more absorption, 0.2 … 1.6 % of the
-// radiance.
+// In light of radiance 1 from everywhere, the radiance of a stack is R + T. An estimate of N paths has the standard
+// error σ/√N. The value of a path is 1 if it is reflected, which has probability F, and otherwise about a = e^(−σd): σ
+// ≈ (1 − a) √(F (1−F)), which is 0.06 … 0.4 here, and with N = 1.2·10⁵ the error is 0.0002 … 0.001, of radiances of 0.2
+// … 0.8. The tolerance of 0.5 % is the promised one. The z-test beside it detects smaller errors, such as 1 % more
+// absorption, which is 0.2 … 1.6 % of the radiance.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -35,15 +35,15 @@ std::string glass(double ior, double scale = 1) {
            "]}}";
 }
 
-// Wide enough that no path of weight leaves by the sides: a passage moves it by less than its thickness, and there are
-// fifteen to the edge.
+// Wide enough that no path with significant weight leaves through the sides: a passage moves it by less than the
+// thickness, and the edge is fifteen times as far.
 std::string plate(const std::string& phase, double z0, double z1) {
     return R"({"set": {"phase": ")" + phase + R"(", "of": {"translate": {"by": [0, 0, )" +
            std::to_string((z0 + z1) / 2) + R"(], "of": {"box": {"size": [30, 30, )" + std::to_string(z1 - z0) +
            "]}}}}}}";
 }
 
-// A ray from above, so aimed that it meets (0, 0, top) at the angle; slightly turned, so as to be parallel to no axis.
+// A ray from above that meets (0, 0, top) at this angle. It is slightly rotated, so that it is parallel to no axis.
 std::array<Moments, 3> seen(const Scene& scene, double angle, double top, std::uint32_t count) {
     const World world(scene);
     const double s = std::sin(angle * degree), c = std::cos(angle * degree);
@@ -82,7 +82,7 @@ TEST_CASE("slab of absorbing glass: Fresnel and Beer-Lambert, all internal refle
             const double expected = r.reflected + r.transmitted;
             CHECK(std::abs(right[c].mean() / expected - 1) < 0.005);
             CHECK(mean_p_value(right[c], expected, 1e-5) > significance);
-            // At 75° a quarter of all paths is reflected at once, and that is noise to what absorption does.
+            // At 75°, a quarter of all paths is reflected at once, which is noise to the effect of absorption.
             if (angle < 70) CHECK(mean_p_value(wrong[c], expected, 1e-5) < significance);
         }
     }
@@ -101,8 +101,8 @@ TEST_CASE("slab that lets nothing through: F itself, and 1 % of it is seen") {
     CHECK(mean_p_value(m, 0.99 * f, 1e-5) < 1e-4);
 }
 
-// A black floor below shows the reflected part alone. That is where an air gap would be seen at once; in light from
-// everywhere, what it reflects replaces what it lets through.
+// Over a black floor, only reflected light is visible, so an air gap would be detected at once. In light from
+// everywhere, the light that a gap reflects replaces the light that it transmits.
 TEST_CASE("two touching layers: no air gap between glass and glass, glass and water") {
     struct Case {
         double first, second;

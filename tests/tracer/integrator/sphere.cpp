@@ -1,8 +1,8 @@
 // A sphere of absorbing glass against the closed form with all its internal reflections.
 //
-// A ray that enters at an impact parameter b meets the surface under the same angle at every bounce, so the sum over
-// bounces is a geometric series (closed_form.hpp). A path is worth at most
-// 1 and at least a; with 2.5·10⁵ of them the standard errors are below a quarter of 0.5 %.
+// A ray that enters at an impact parameter b meets the surface at the same angle at every bounce, so the sum over
+// bounces is a geometric series (closed_form.hpp). A path has a value of at most 1 and at least a; with 2.5·10⁵ of them
+// the standard errors are below a quarter of 0.5 %.
 #include <doctest/doctest.h>
 
 #include "tracer/support/closed_form.hpp"
@@ -28,7 +28,7 @@ TEST_CASE("sphere of absorbing glass: Fresnel and Beer-Lambert, all internal ref
     const double significance = sidak(1e-4, 3 * std::size(impacts));
     for (const double b : impacts) {
         CAPTURE(b);
-        // Along a direction parallel to no axis, beside the centre by b radii.
+        // Along a direction parallel to no axis, at b radii from the centre.
         const glm::vec3 direction = glm::normalize(glm::vec3(0.3f, 0.9f, -0.2f));
         const glm::vec3 aside = glm::normalize(glm::cross(direction, glm::vec3(0.1f, 0.2f, 1)));
         const glm::vec3 origin = static_cast<float>(b * radius) * aside - 3.0f * direction;
@@ -39,7 +39,7 @@ TEST_CASE("sphere of absorbing glass: Fresnel and Beer-Lambert, all internal ref
             const double expected = sphere_in_uniform_light(b, radius, 1.5, absorption[c]);
             CHECK(std::abs(right[c].mean() / expected - 1) < 0.005);
             CHECK(mean_p_value(right[c], expected, 2e-5) > significance);
-            // 1 % more absorption is what is left of the light times 0.01 σ d.
+            // 1 % more absorption changes the result by the remaining light times 0.01 σ d.
             if (b < 0.9) CHECK(mean_p_value(wrong[c], expected, 2e-5) < significance);
         }
     }

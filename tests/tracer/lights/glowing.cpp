@@ -1,5 +1,5 @@
-// Phases and meshes that shine by themselves: closed forms, a furnace whose walls glow, and shadow rays against the
-// paths' own directions. Balls must cover what shines, or shadow rays find it by chance.
+// Phases and meshes that emit light: closed forms, a furnace whose walls glow, and shadow rays compared with the paths'
+// own directions. Balls must cover the emitters, or shadow rays find them only by chance.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -50,12 +50,12 @@ void check_radiance(const World& world, const Scene& scene, const glm::vec3& ori
 const std::string torus = R"({"torus": {"major": 0.5, "minor": 0.1}})";
 const std::string flame = R"("ior": 1, "emission": [16, 8, 4], "absorption": [0.5, 1, 2])";
 
-// Shadow rays are held against directions along this ray, which meets the floor; the significance is that of one of
+// Shadow rays are compared with directions along this ray, which meets the floor. The significance is that of one in
 // thirteen comparisons.
 const glm::vec3 along_origin(-2, -2, 0.1f), along_direction(1.9f, 1.9f, -0.1f);
 const double significance_of_each = sidak(1e-4, 13);
 
-// The radiance along that ray by all techniques against that by directions alone.
+// Compares the radiance along that ray by all techniques with that by directions alone.
 void check_against_directions(Scene scene, std::uint32_t count) {
     const World world(scene);
     const Moments all = radiance_along(world, scene, along_origin, along_direction, count, 1)[0];
@@ -80,7 +80,7 @@ TEST_CASE("below a ball that glows a floor is as bright as E = π L (r/d)²") {
     for (const Techniques techniques : each_technique) {
         scene.settings.techniques = techniques;
         CAPTURE(static_cast<int>(techniques));
-        // Directions by themselves find a small ball rarely.
+        // Directions alone rarely find a small ball.
         const bool is_by_luck = techniques == Techniques::directions_alone;
         check_radiance(world, scene, {0, 3, 1}, {0, -3, -1}, is_by_luck ? 2'000'000 : 400'000,
                        8 * (0.5 / 2) * (0.5 / 2) * 0.5, significance, is_by_luck ? 0.02 : 0.01);
@@ -88,7 +88,7 @@ TEST_CASE("below a ball that glows a floor is as bright as E = π L (r/d)²") {
 }
 
 TEST_CASE("below a thin ball of flame a floor is as bright as E = ε V/d²") {
-    // What a ball of emission ε and next to no absorption sends is ε V in each direction.
+    // A ball with emission ε and almost no absorption sends ε V in each direction.
     constexpr double emission = 3, radius = 0.5, distance = 2;
     const double volume = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
     Scene scene = scene_of(
@@ -96,7 +96,7 @@ TEST_CASE("below a thin ball of flame a floor is as bright as E = ε V/d²") {
         R"({"set": {"phase": "flame", "of": {"translate": {"by": [0, 0, 2], "of": {"sphere": {"radius": 0.5}}}}}})",
         floor_of + ", " + dark);
     const World world(scene);
-    // The mean of cos θ/d² over the ball is that of its centre, since it is harmonic.
+    // The mean of cos θ/d² over the ball is the value at its centre, because the function is harmonic.
     const double expected = emission * volume / (distance * distance) * 0.5 / std::numbers::pi;
     for (const Techniques techniques : each_technique) {
         scene.settings.techniques = techniques;
@@ -120,7 +120,7 @@ TEST_CASE("what glows is as bright through glass that touches it as without, but
 }
 
 TEST_CASE("within walls that glow with what they do not reflect everything is as bright") {
-    // Basic radiance, over the square of the index, is 1 everywhere. A lens touches a wall, and so does varnish.
+    // Basic radiance (over the square of the index) is 1 everywhere. A lens touches a wall, and so does varnish.
     Scene scene = scene_of(
         R"("wall": {"glowing": {"radiance": 0.3, "color": [0.7, 0.7, 0.7]}}, "glass": {"clear": {"ior": 1.5}},
            "air": {"clear": {"ior": 1}}, "milk": {"clear": {"ior": 1.3, "scattering": [2, 2, 2]}})",

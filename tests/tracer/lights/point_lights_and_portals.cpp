@@ -1,5 +1,5 @@
-// Lights without an extent, and portals, as paths find them: closed forms of what a point gives to a floor and to a
-// medium, and the same picture with less noise by a portal.
+// Lights without an extent, and portals, as paths find them: closed forms for a point light on a floor and in a medium,
+// and the same picture with less noise through a portal.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ double radiance_of_floor(const std::string& lights) {
 }  // namespace
 
 TEST_CASE("a floor below a point and a spot: I cos θ/d², whichever was chosen") {
-    // The floor is white to 0.6, and sees nothing but the lights.
+    // The floor has the albedo 0.6, and only the lights illuminate it.
     const double cosine = 2 / std::sqrt(5.0);
     const double expected = 0.6 / std::numbers::pi * 10 * cosine / 5;
     const std::string point = R"({"point": {"position": [1, 0, 2], "intensity": 10}})";
@@ -37,7 +37,8 @@ TEST_CASE("a floor below a point and a spot: I cos θ/d², whichever was chosen"
                                  "target": )" +
                                  target + R"(, "cone": 40, "edge": 4}}])");
     };
-    // Each of two lights is chosen by what it gives to the floor, so the estimate has no noise but rounding.
+    // Each of the two lights is chosen in proportion to its light on the floor, so the estimate has no noise except
+    // rounding errors.
     CHECK(with_spot("[0, 0, 0]") == doctest::Approx(expected + 0.6 / std::numbers::pi * 5 / 4).epsilon(1e-5));
     // 25° off its axis it is dark: it ends at 20°.
     CHECK(with_spot("[0.93, 0, 0]") == doctest::Approx(expected).epsilon(1e-5));
@@ -63,7 +64,7 @@ TEST_CASE("what is before a point shades the floor, what is behind it does not, 
 }
 
 TEST_CASE("a point in fog: light that is scattered once") {
-    // So little of what the fog takes is scattered that light which is scattered twice is a thousandth of it.
+    // The fog's albedo is so low that light which is scattered twice is only a thousandth.
     constexpr double scattering = 0.001, extinction = 0.8, intensity = 10;
     const Scene scene = scene_of(
         R"("fog": {"clear": {"ior": 1, "absorption": [0.799, 0.799, 0.799], "scattering": [0.001, 0.001, 0.001]}})",

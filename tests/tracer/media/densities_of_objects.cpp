@@ -31,7 +31,7 @@ Scene placed(const std::string& phases, const std::string& objects, const std::s
                                           "test.json"));
 }
 
-// ∫ρ along a line of the scene, in the cube that is placed so.
+// ∫ρ along a line of the scene, in the cube with this placement.
 double depth_along(const Transform& to_scene, const glm::dvec3& from, const glm::dvec3& direction, double length) {
     constexpr int steps = 20000;
     const Transform to_object = to_scene.inverse();
@@ -135,7 +135,7 @@ TEST_CASE("photons bring the light to a copy's medium that paths find there") {
 }
 
 TEST_CASE("photons cross a copy on their way to a caustic") {
-    // About 58 % of the light gets through the cube. Were the density not placed with it, all would.
+    // About 58 % of the light passes through the cube. If the density were not placed with it, all light would.
     const Scene scene = placed(
         R"("smoke": {"clear": {"ior": 1, "absorption": [6, 6, 6], "density": {"plane": {"offset": -0.2}}, "density_depth": 1}},
            "glass": {"clear": {"ior": 1.5}}, "floor": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",

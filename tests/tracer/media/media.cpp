@@ -1,8 +1,8 @@
 // Light in media, by next-event estimation and without: closed forms for a diffuse floor under a layer.
 //
-// E is the exponential integral's relative 2 E₃(τ) = 2 ∫ μ e^(−τ/μ) dμ, what a layer of optical thickness τ lets
-// through of diffuse light. Reference: van de Hulst, Multiple Light Scattering, 1980; for water over a diffuse floor,
-// Saunderson, J. Opt. Soc. Am. 32 (1942), 727-736, here with absorption.
+// E is the exponential integral's relative 2 E₃(τ) = 2 ∫ μ e^(−τ/μ) dμ, the share of diffuse light that a layer of
+// optical thickness τ transmits. Reference: van de Hulst, Multiple Light Scattering, 1980; for water over a diffuse
+// floor, Saunderson, J. Opt. Soc. Am. 32 (1942), 727-736, here with absorption.
 #include <doctest/doctest.h>
 
 #include "tracer/support/closed_form.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double degree = 3.14159265358979324 / 180;
 
-// A layer over the floor z = 0 up to z = 1; it reaches below it too, so that the floor is within.
+// A layer from the floor at z = 0 up to z = 1. It extends below the floor, so that the floor is inside it.
 std::string layer(double width) {
     const std::string w = std::to_string(width);
     return R"({"set": {"phase": "layer", "of": {"box": {"size": [)" + w + ", " + w + ", 2]}}}}";
@@ -41,7 +41,7 @@ std::array<Moments, 3> seen(const Scene& scene, double angle, std::uint32_t coun
 
 }  // namespace
 
-// Nothing random differs between the two: shadow rays and paths cross the block as if it were not there.
+// The two use the same random numbers: shadow rays and paths cross the block as if it were not there.
 TEST_CASE("a block of the index around it casts no shadow") {
     const std::string phases = R"("layer": {"clear": {"ior": 1.0}}, "far": {"diffuse": {"color": [0.5, 0.5, 0.5]}})";
     const std::string far =
@@ -67,7 +67,8 @@ TEST_CASE("a medium takes its share of the light that is sampled directly") {
         CAPTURE(c);
         const double passed = 2 * integrate_cosines([&](double mu) { return mu * std::exp(-absorption[c] / mu); });
         const double expected = 0.7 * passed * std::exp(-absorption[c] / std::cos(30 * degree));
-        // Rays leave a mesh a 10⁻⁵ of the object's 57 away from it: so much nearer to the light they are.
+        // Rays leave a mesh at an offset of 10⁻⁵ of the object's diagonal of 57, so they start that much nearer to the
+        // light.
         const double rounding = 6e-4 * absorption[c] * 2 * expected;
         CHECK(std::abs(right[c].mean() / expected - 1) < 0.005);
         CHECK(mean_p_value(right[c], expected, rounding) > significance);
@@ -87,8 +88,8 @@ TEST_CASE("a diffuse floor under water: light that is refracted on its way is ne
     const double significance = sidak(1e-4, 3);
     for (std::size_t c = 0; c < 3; ++c) {
         CAPTURE(c);
-        // Diffuse light from above that reaches the floor, by the cosine μ in vacuum; and light that leaves the floor
-        // diffusely and comes back from the surface, by the cosine μ in water.
+        // Diffuse light from above that reaches the floor, over the cosine μ in vacuum; and light that leaves the floor
+        // diffusely and is reflected by the surface, over the cosine μ in water.
         const double entering =
             2 * integrate_cosines([&](double mu) {
                 return mu * (1 - fresnel(mu, 1, ior)) * std::exp(-absorption[c] / cosine_within(mu, ior));
@@ -98,11 +99,11 @@ TEST_CASE("a diffuse floor under water: light that is refracted on its way is ne
                                 });
         const double cosine = std::cos(angle * degree);
         const double f = fresnel(cosine, 1, ior);
-        // The floor's radiance in water over η² is what the camera gets.
+        // The camera receives the floor's radiance in water over η².
         const double from_floor = albedo * entering / (1 - albedo * returned) / (ior * ior) * (1 - f) *
                                   std::exp(-absorption[c] / cosine_within(cosine, ior));
-        // Light that is totally reflected leaves by the sides of the layer, sixty deep: 60⁻² of it. A mesh's hair is
-        // 0.0017 here.
+        // A share of 60⁻² of the totally reflected light leaves through the sides of the layer, which are sixty depths
+        // away. The offset of rays from a mesh is 0.0017 here.
         const double rounding = (3e-4 + 2e-3 * absorption[c]) * from_floor;
         CAPTURE(right[c].mean());
         CAPTURE(f + from_floor);

@@ -1,4 +1,4 @@
-// Densities by voxels: values against a trilinear interpolation of one's own, and the bounds along ways.
+// Densities at voxels: values compared with the test's own trilinear interpolation, and bounds along rays.
 #include "media/voxel_density.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ using phasetree::tests::Uniform;
 
 namespace {
 
-// Numbers at voxels in a turned, stretched grid, of which much is empty.
+// Numbers at voxels in a rotated, stretched grid that is mostly empty.
 struct Cloud {
     VoxelLattice lattice{{21, 34, 9}, {-3, 5, 0.25}, {0.5, 0.25, 0.75}};
     VoxelPlacement placement{glm::dmat3{{0.72, 0.96, 1.6}, {-1.6, 1.2, 0}, {-0.96, -1.28, 1.2}}, {7, 1, -4}};
@@ -35,7 +35,7 @@ struct Cloud {
     glm::dvec3 scene_point(const glm::dvec3& voxel) const {
         return placement.linear * (lattice.first + voxel * lattice.spacing) + placement.translation;
     }
-    // At a place counted in voxels.
+    // At a position in units of voxels.
     double at(const glm::dvec3& voxel) const {
         double sum = 0;
         for (int corner = 0; corner < 8; ++corner) {
@@ -102,7 +102,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
         Way way{somewhere(), {}, 0};
         const glm::vec3 to = somewhere();
         way.direction = glm::normalize(to - way.origin);
-        // Along the grid's own axes, too, where no face of two axes is ever met.
+        // Also along the grid's own axes, where rays never meet the faces of the other two axes.
         if (n % 4 == 0) way.direction = glm::vec3(glm::normalize(cloud.placement.linear[n / 4 % 3]));
         way.length = n % 5 == 0 ? std::numeric_limits<float>::infinity() : glm::length(to - way.origin);
         auto parts = density.stretches(way);
@@ -124,7 +124,7 @@ TEST_CASE("along ways the stretches bound the density, follow each other, and le
             const float t = end * (static_cast<float>(k) + random()) / 200;
             const float found = density.at(way.origin + t * way.direction);
             while (next < all.size() && all[next].to < t) ++next;
-            // Within rounding of a stretch's ends it may be of either side.
+            // Within rounding errors of a stretch's ends, the value may be that of either side.
             const auto covers = [&](std::size_t i, float by) {
                 return i < all.size() && t >= all[i].from - by && t <= all[i].to + by;
             };
@@ -154,7 +154,7 @@ TEST_CASE("voxels that floats do not tell apart where they are placed are reject
     CHECK_THROWS_AS((void)made(thin, {glm::dmat3(1), {0, 0, 1000}}), std::invalid_argument);
     CHECK_NOTHROW((void)made(thin, {turned, {0, 1, 0}}));
     CHECK_THROWS_AS((void)made({1, 1, 1}, {glm::dmat3(1e-38), {0, 0, 0}}), std::invalid_argument);
-    // However far a grid is from its own origin, it is as fine as where it is placed.
+    // However far a grid is from its own origin, its precision is that of its position in the scene.
     const VoxelLattice far_away{{4, 4, 4}, {1e6, 0, 0}, {0.01, 0.01, 0.01}};
     const VoxelDensity back(VoxelGrid::of_voxels("test", far_away, [](int x, int, int) { return x; }),
                             {glm::dmat3(1), {-1e6, 0, 0}});

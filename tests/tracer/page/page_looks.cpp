@@ -1,4 +1,4 @@
-// How an exported page shows the materials of a scene: each kind by what it has.
+// How an exported page shows each kind of material of a scene.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -34,7 +34,8 @@ TEST_CASE("a page shows each kind of material as what it is") {
         look_of_material(R"({"clear": {"ior": 1.3, "absorption": [1, 0, 0], "scattering": [0.1, 0.1, 0.1]}})");
     CHECK(ice.kind == Look::clear);
     CHECK(ice.absorption.x == doctest::Approx(1.1));
-    // Where the density varies its mean is shown: of 1 − |p| in the ball of radius 1, in the cube around it, π/24.
+    // A varying density is shown by its mean. For 1 − |p| in the ball of radius 1, the mean in the cube around it is
+    // π/24.
     const Look ink = look_of_material(R"({"clear": {"ior": 1.3, "absorption": [2, 1, 0], "scattering": [1, 1, 1],
                                           "density": {"sphere": {"radius": 1}}, "density_depth": 1}})");
     CHECK(ink.kind == Look::clear);
@@ -57,7 +58,7 @@ TEST_CASE("a page shows each kind of material as what it is") {
     const Look gold = look_of_material(R"({"conductor": {"metal": "gold"}})");
     CHECK(gold.kind == Look::metal);
     CHECK(gold.color.x > gold.color.z);
-    // A page cannot show how strong a light is, but its colour.
+    // A page shows the colour of a light, but not its intensity.
     const Look ember = look_of_material(R"({"glowing": {"light": [1, 0.5, 0.1], "radiance": 1000}})");
     CHECK(ember.kind == Look::glowing);
     CHECK(ember.color.x == doctest::Approx(3));

@@ -1,5 +1,5 @@
-// Pixels that stop by their noise: when, with what error, the same bits however the work is divided, and without a bias
-// that matters.
+// Pixels that stop early because they have little noise: when they stop, with which error, the same bits however the
+// work is divided, and no significant bias.
 #include "render/noise_limit.hpp"
 
 #include <doctest/doctest.h>
@@ -19,8 +19,8 @@ using phasetree::tests::Uniform;
 
 namespace {
 
-// A floor with a ball of glass: under a small lamp its caustic is found by chance alone, a few bright paths of many,
-// and the floor's other parts are smooth. 23 by 19 pixels have blocks that are cut off.
+// A floor with a ball of glass: under a small lamp, only a few bright paths find its caustic by chance, and the rest of
+// the floor is smooth. With 23 by 19 pixels, some blocks are incomplete.
 Scene lamp_and_glass(float noise, int samples) {
     Scene scene = scene_of(
         R"("glass": {"clear": {"ior": 1.5}})", R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 0.6}}}})",
@@ -83,7 +83,8 @@ TEST_CASE("the error is the root mean square of what pixels are off, relative to
         sample.radiance = glm::vec3(value);
         tile.add(x, 0, sample);
     };
-    // The first pixel's are 1 and 3: mean 2, variance 2, of the mean 1. The second's are 0 and 0.002.
+    // The first pixel has the samples 1 and 3: their mean is 2, their variance 2, and the variance of the mean 1. The
+    // second has 0 and 0.002.
     for (const std::uint32_t i : {0u, 1u}) {
         add(0, i == 0 ? 1.0f : 3.0f, i);
         add(1, i == 0 ? 0.0f : 0.002f, i);
@@ -119,7 +120,7 @@ TEST_CASE("blocks stop at different times, whole, and the noisy ones have all sa
                 torn +=
                     samples[scene.film.whole().index(x, y)] != samples[scene.film.whole().index(block.x0, block.y0)];
     CHECK(torn == 0);
-    // Without a limit the film keeps no plane more.
+    // Without a limit, the film has no additional plane.
     CHECK(film_of(lamp_and_glass(0, 4), whole(scene)).settings().planes == Planes::by_default());
 }
 
@@ -168,7 +169,7 @@ TEST_CASE("the time that is over leaves the picture of as many samples as there 
     CHECK(timed.samples > 0);
     scene.settings.samples = timed.samples;
     CHECK(equal_bits(timed.image, render(world, scene, whole(scene)).image));
-    // Who comes too late gets one sample a pixel, and goes on by whole samples.
+    // After the deadline, a render takes one sample per pixel, and continues with whole samples.
     job.deadline = std::chrono::steady_clock::now();
     scene.settings.samples = 1 << 24;
     Film film = film_of(scene, job);
@@ -176,8 +177,8 @@ TEST_CASE("the time that is over leaves the picture of as many samples as there 
     CHECK(render(world, scene, job, film).samples == 1);
 }
 
-// The difference of a picture that stops by its noise to the one with all samples and the same seed, whose expectation
-// is the converged picture: their first samples are the same, so that much less than the noise shows.
+// The difference between a picture that stops early and one with all samples and the same seed, whose expectation is
+// the converged picture. Their first samples are the same, so differences far below the noise are visible.
 TEST_CASE("no bias of a hundredth of the picture, nor of its half with the caustic") {
     constexpr int seeds = 60;
     Scene scene = lamp_and_glass(0, 128);
@@ -201,7 +202,7 @@ TEST_CASE("no bias of a hundredth of the picture, nor of its half with the caust
             lit.mean(), " +- ", lit.standard_error(), ", with ",
             100.0 * static_cast<double>(spent) / static_cast<double>(possible), " % of the samples");
     CHECK(spent < possible * 8 / 10);
-    // There is a small one, and it is certainly below half a hundredth.
+    // There is a small bias, certainly below half a hundredth.
     const auto furthest = [](const Moments& m) { return std::abs(m.mean()) + 4 * m.standard_error(); };
     CHECK(furthest(difference) < 0.005 * all.mean());
     CHECK(furthest(lit) < 0.005);

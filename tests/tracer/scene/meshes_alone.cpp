@@ -1,4 +1,4 @@
-// Scenes of meshes without an object: they are vacuum everywhere but at the meshes.
+// Scenes of meshes without an object: there is vacuum everywhere except at the meshes.
 #include <doctest/doctest.h>
 
 #include <string>

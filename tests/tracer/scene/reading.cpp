@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
 
-// What a listener hears while f runs.
+// The reports that a listener receives while f runs.
 template <class F>
 std::vector<std::uint64_t> heard(F&& f) {
     std::vector<std::uint64_t> all;
@@ -40,7 +40,7 @@ std::vector<std::uint64_t> heard(F&& f) {
     return all;
 }
 
-// All bytes are reported, in several steps of not much more than a megabyte each.
+// All bytes are reported, in several steps of little more than a megabyte each.
 void check(const std::vector<std::uint64_t>& told, std::uint64_t bytes) {
     CHECK(std::accumulate(told.begin(), told.end(), std::uint64_t{0}) == bytes);
     CHECK(std::count_if(told.begin(), told.end(), [](std::uint64_t n) { return n > 0; }) >=
@@ -101,7 +101,7 @@ TEST_CASE("an image") {
     const OIIO::ImageSpec spec(1024, 1024, 1, OIIO::TypeDesc::FLOAT);
     std::vector<float> values(1024 * 1024);
     std::mt19937 random(1);
-    for (float& value : values) value = static_cast<float>(random());  // which compression leaves as it is
+    for (float& value : values) value = static_cast<float>(random());  // incompressible
     const auto out = OIIO::ImageOutput::create(path);
     REQUIRE(out->open(path, spec));
     REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
@@ -153,8 +153,8 @@ TEST_CASE("the files that a scene names are counted as often as it names them, t
     CHECK(bytes(R"({"meshes": [{"obj": {"file": "a.obj"}}, {"obj": {"file": "a.obj"}}, {"x": "none.obj"}]})") == 2000);
     const std::uintmax_t vase = std::filesystem::file_size(folder / "vase.json");
     CHECK(bytes(R"({"objects": [{"name": "v", "file": "vase.json"}]})") == vase + 1000);
-    CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // not a scene, which its reader reports
-    // A stack of images is all of its layers; a colour is none.
+    CHECK(bytes(R"({"objects": [{"name": "v", "file": "a.obj"}]})") == 1000);  // not a scene; its reader reports that
+    // A stack of images counts all its layers; a colour counts nothing.
     write_text(folder / "layer_01.pgm", std::string(100, ' '));
     write_text(folder / "layer_02.pgm", std::string(20, ' '));
     CHECK(bytes(R"({"x": "layer_##.pgm", "y": "#808080", "z": "none_##.pgm"})") == 120);

@@ -1,4 +1,4 @@
-// Each kind of thing that a scene file can say: the least that it needs, and how it is read. What was read is
+// Each kind of thing in a scene file: the members that it requires, and how it is read. The result of reading is
 // converted to numbers, so tests can check whether a key changes it without knowing its type.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace phasetree::tests {
 
-/// A folder with an image and a mesh for what needs a file.
+/// A folder with an image and a mesh, for kinds that need a file.
 inline const support::TemporaryDirectory& folder() {
     static const support::TemporaryDirectory made;
     static const bool is_filled = [] {
@@ -53,13 +53,13 @@ inline const support::TemporaryDirectory& folder() {
     return made;
 }
 
-/// A kind of thing: where the schema describes it, the members that it needs at least, and how it is read. `text` is
-/// an object of its parameters; what is read is converted to numbers that depend on them.
+/// A kind of thing: where the schema describes it, the members that it requires, and how it is read. `text` is an
+/// object of its parameters; the result of reading is converted to numbers that depend on them.
 struct Case {
     std::string chapter, name, needed;
     std::string before, after;  ///< around the object, to make of it what the reader reads
     void (*read)(const Document&, std::vector<float>& told);
-    /// Members to stand instead of `needed` where a key would not go with those.
+    /// Members that replace `needed` where a key is incompatible with those.
     std::map<std::string, std::string> instead = {};
 
     Document document(const std::string& members) const {
@@ -69,7 +69,7 @@ struct Case {
         const auto found = instead.find(key);
         return found == instead.end() ? needed : found->second;
     }
-    /// `members` and whatever else is needed; the member of this key comes last.
+    /// `members` and the other required ones; the member with this key comes last.
     Document with(const std::string& key, const std::string& value) const {
         std::string members;
         const Document all = Document::from_text("{" + needed_with(key) + "}");
@@ -129,7 +129,7 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
             if constexpr (requires { m.ior; }) told.push_back(m.ior);
             if constexpr (requires { m.dispersion; }) told.push_back(m.dispersion ? m.dispersion->index(450.0f) : 0.0f);
             if constexpr (requires { m.interior; }) {
-                // Estimates, of which several show what one hides: that nothing is left whatever the density is.
+                // Several estimates, because a single one could be zero for every density.
                 for (std::uint32_t i = 0; i < 8; ++i) {
                     tracer::Sampler sampler(i, 0, 0, 0);
                     const tracer::Way way{glm::vec3(0, 0, -0.9f), glm::vec3(0, 0, 1), 1};
@@ -189,7 +189,7 @@ inline void tell_material(const Document& document, std::vector<float>& told) {
     tell(told, tracer::read_material(document, document.root()));
 }
 
-// Of a scene, in which a field can be read.
+// A scene in which a field can be read.
 inline void tell_material_of_scene(const Document& document, std::vector<float>& told) {
     tell(told, tracer::read_material(document, *document.root().find("material")));
 }

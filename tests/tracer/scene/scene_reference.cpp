@@ -1,5 +1,5 @@
-// What a scene file can say is said once, in lists of parameters: the committed reference pages and schema are what
-// the program writes, and what they promise is what the readers do.
+// The contents of scene files are defined once, in lists of parameters. The committed reference pages and schema are
+// what the program writes, and the readers do what these promise.
 //     phasetree nodes --markdown scenes/reference; phasetree nodes --json-schema > scenes/scene.schema.json
 
 #include "scene/reference.hpp"
@@ -50,7 +50,8 @@ const JsonSchema& schema() {
     return read;
 }
 
-/// Without "[]", "$ref" and "allOf", what limits a number of this property's values; nothing for what has no numbers.
+/// The limits of a number among this property's values, without "[]", "$ref" and "allOf"; nothing for properties
+/// without numbers.
 std::optional<Value> numbers_of(Value property) {
     if (const auto either = property.find("anyOf")) {
         for (const Value one : *either)
@@ -68,7 +69,7 @@ bool is_vector(Value property) {
     return property.find("items").has_value();
 }
 
-/// A vector as long as the property is, which begins with this; or a list of one such vector.
+/// A vector of the property's length that begins with this number, or a list of one such vector.
 std::string vector_of(Value property, const std::string& first, const std::string& rest = "0.75") {
     if (const auto either = property.find("anyOf")) return vector_of((*either)[either->size() - 1], first, rest);
     const auto items = property.find("items");
@@ -101,8 +102,7 @@ std::optional<SceneError> error_of(const Case& c, const Document& document) {
     return std::nullopt;
 }
 
-/// Checks that "colour" and "center" are read as "color" and "centre" are, and that a key in both spellings is an
-/// error.
+/// Checks that "colour" and "center" are read like "color" and "centre", and that a key in both spellings is an error.
 void check_both_spellings(const Case& c, const std::string& key, const std::string& value) {
     const Document usual = c.with(key, value);
     std::string other = key;
@@ -221,7 +221,7 @@ TEST_CASE("what is needed at least is enough, and each of it is needed") {
         const Document document = c.document(c.needed);
         const auto error = error_of(c, document);
         CHECK(!error);
-        // A conductor needs two numbers where it names no metal; it is the metal that may be left out.
+        // A conductor that names no metal needs two numbers. The metal is optional.
         const Document needed = Document::from_text("{" + c.needed_with(c.name == "conductor" ? "k" : "") + "}");
         for (const Value left_out : needed.root()) {
             std::string members;
@@ -256,7 +256,7 @@ TEST_CASE("a default is what is read when the key is left out") {
 }
 
 TEST_CASE("every key changes what is read") {
-    // Another value than the default, or than what is needed, for each.
+    // For each, a value other than the default or the required one.
     const std::map<std::string, std::string> others{
         {"metal", "\"iron\""},
         {"filter", "\"box\""},
@@ -289,9 +289,9 @@ TEST_CASE("every key changes what is read") {
         for (const Value property : properties_of(c)) {
             const std::string key(property.key());
             CAPTURE(key);
-            // How fast the frames of a film follow each other the command alone asks (command/frames).
+            // Only the command uses the frame rate of a film (command/frames).
             if (key == "file" || key == "frames_per_second") continue;
-            if (key == "grid") continue;  // which images have not: volume/openvdb
+            if (key == "grid") continue;  // images have none: volume/openvdb
             std::string value = vector_of(property, "0.25");
             if (key == "of") value = R"({"sphere": {"radius": 1.5}})";
             if (key == "ramp") value = c.chapter == "Textures" ? "[[0, [1, 0, 1]]]" : "[[0, 0.75]]";
@@ -301,7 +301,7 @@ TEST_CASE("every key changes what is read") {
                 value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
             if (key == "turbidity") value = "5";
             if (key == "emission_temperature") value = "3000";
-            // Not where the lamp itself is, and seen from it.
+            // Not at the lamp itself, and visible from it.
             if (key == "centre") value = "[0.25, 0.5, 5]";
             const bool is_of_metal = c.name == "conductor" && key == "reflectance";
             if (others.contains(key) && !is_of_metal) value = others.at(key);
@@ -378,7 +378,7 @@ TEST_CASE("a value of the wrong type, a misspelt key, a key twice: each has its 
                 const auto error = error_of(c, document);
                 REQUIRE(error);
                 const std::size_t at = column_of(document, fmt::format("\"{}\": ", key)) + key.size() + 4;
-                // A list that is right but for what is in it is wrong there.
+                // In a list that is correct except for one element, the error is at that element.
                 CHECK(error->column() >= at);
                 CHECK(error->column() <= at + 1);
             }

@@ -1,5 +1,5 @@
-// Numbers at voxels as scene files say them: what is rejected and where, and what densities and temperatures make of
-// it.
+// Numbers at voxels in scene files: what is rejected, with its position, and how densities and temperatures use the
+// numbers.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ struct Folder {
 
     Folder() { support::write_text(directory / "a.pgm", std::string("P5 2 1 255\n\x33\x66")); }
 
-    // A clear material with these members, in which IMAGE stands for the members that name the image.
+    // A clear material with these members, where IMAGE is replaced by the members that name the image.
     Medium medium(std::string members) const {
         const std::string image = R"("file": "a.pgm", "spacing": [1, 1, 1])";
         for (std::size_t at; (at = members.find("IMAGE")) != std::string::npos;) members.replace(at, 5, image);
@@ -68,12 +68,12 @@ TEST_CASE("coefficients are multiples of the numbers, whatever the greatest of t
     CHECK(left.x == doctest::Approx(std::exp(-3.0)).epsilon(0.05));
     CHECK(left.y == doctest::Approx(std::exp(-4.0)).epsilon(0.05));
     CHECK(left.z == 1.0f);
-    // Twice as large, and on the other side of the origin by a half turn.
+    // Twice as large, and moved to the other side of the origin by a half turn.
     const Medium turned =
         folder.medium(R"("absorption": [1, 1, 1], "density_grid": {IMAGE, "scale": 2, "rotate_z": 180})");
     CHECK(transmittance_along(turned, {1, 0, 3}, {1, 0, -3}).x == doctest::Approx(std::exp(-0.4)).epsilon(0.01));
     CHECK(transmittance_along(turned, {-1, 0, 3}, {-1, 0, -3}).x == doctest::Approx(std::exp(-0.8)).epsilon(0.01));
-    // What is absorbed after a distance, and by wavelength, is a multiple, too.
+    // Absorption after a distance, and by wavelength, is multiplied, too.
     const Medium coloured =
         folder.medium(R"("color": [0.5, 0.5, 0.5], "color_distance": 0.2, "density_grid": {IMAGE, "factor": 2.5})");
     CHECK(extinction(coloured).x == doctest::Approx(std::log(2.0) / 0.2));
@@ -90,13 +90,14 @@ TEST_CASE("a grid is made larger first, then turned, then moved; with y up what 
         for (std::size_t i = 0; i < batch_size; ++i) points.x[i] = p.x, points.y[i] = p.y, points.z[i] = p.z;
         return std::get<VaryingMedium>(medium).brightness_at(points)[0];
     };
-    // Three times as large it is at (1.5, 0, 0), by a quarter turn from x to y at (0, 1.5, 0), and then moved.
+    // Scaled by three it is at (1.5, 0, 0), after a quarter turn from x to y at (0, 1.5, 0), and then it is moved.
     const std::string quarter = R"("scale": 3, "rotate_z": 90, "translate": [10, 20, 30])";
     CHECK(density_at(quarter, {10, 21.5f, 30}) == doctest::Approx(1).epsilon(1e-5));
     CHECK(density_at(quarter, {10, 18.5f, 30}) == doctest::Approx(0.5).epsilon(1e-5));
     CHECK(density_at(quarter, {11.4f, 22.9f, 31.4f}) > 0.9f);
     CHECK(density_at(quarter, {10, 23.1f, 30}) == 0.0f);
-    // The file's y is the scene's z, and its z the scene's −y: of voxels that are 1 × 1 × 1 only the box shows that.
+    // The file's y is the scene's z, and its z is the scene's −y. Because the voxels are 1 × 1 × 1, only the box shows
+    // this.
     const std::string flat = R"("y_up": true, "rotate_z": 90, "scale": 2)";
     CHECK(density_at(flat, {0.9f, 1, 0.9f}) > 0.9f);
     CHECK(density_at(R"("y_up": true)", {0.5f, 0, 0}) == doctest::Approx(1).epsilon(1e-5));
@@ -111,7 +112,7 @@ TEST_CASE("what is cold does not shine, and what is no temperature is rejected")
     };
     CHECK(is_emissive(folder.medium(hot(5000))));
     CHECK(emission_spectrum(folder.medium(hot(5000))) != nullptr);
-    // In a film the brightness is the same for the same temperature, whatever is hottest.
+    // In a film, the same temperature has the same brightness, whatever the hottest temperature is.
     const auto light = [&](double factor) {
         const Medium medium = folder.medium(hot(factor));
         PointBatch points{};
@@ -135,8 +136,8 @@ TEST_CASE("what is cold does not shine, and what is no temperature is rejected")
 
 TEST_CASE("what is hot shines in proportion to its density") {
     const Folder folder;
-    // The left voxel has 2000 K, at which the medium of density 1 emits 5 a metre, and a density of 0.2. So little is
-    // absorbed that it does not count.
+    // The left voxel has 2000 K, at which the medium of density 1 emits 5 a metre, and a density of 0.2. Absorption is
+    // negligible.
     const Medium medium = folder.medium(
         R"("absorption": [1e-3, 1e-3, 1e-3], "emission": [5, 5, 5], "density_grid": {IMAGE}, "temperature_grid": {IMAGE, "factor": 10000})");
     double sum = 0;

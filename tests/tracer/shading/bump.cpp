@@ -1,5 +1,5 @@
-// Bumps: the normals of slopes that are known, by mirrors and by the light on what is matt; on copies and on meshes;
-// furnaces; and photons against paths.
+// Bumps: normals of known slopes, measured by mirrors and by the light on matt surfaces, on copies and on meshes;
+// furnaces; and photons compared with paths.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ std::string bump_along_x(double height) {
            std::to_string(height);
 }
 
-// One above z = 0, of which nothing is above the middle of it.
+// A floor of the phase a, with its top at z = 0.
 const std::string floor_of_a =
     R"({"set": {"phase": "a", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [8, 8, 1]}}}}}})";
 
@@ -32,11 +32,11 @@ constexpr glm::vec3 towards_sun(-0.8f, 0.0f, 0.6f);
 const std::string sun =
     R"("lights": [{"sun": {"direction": [-0.8, 0, 0.6], "irradiance": [1, 1, 1], "diameter": 0.01}}])";
 
-// Dark, so that light which a bump sends into the surface, and which is scattered once more, does not count.
+// Dark, so that light which a bump scatters into the surface, to be scattered once more, does not matter.
 constexpr double albedo = 0.001;
 const std::string matt = R"("diffuse": {"color": [0.001, 0.001, 0.001], )";
 
-// The light of that sun on such a surface of the normal.
+// The light that such a surface with this normal reflects from that sun.
 double in_the_sun(const glm::vec3& normal) {
     return albedo * static_cast<double>(glm::dot(glm::normalize(normal), towards_sun)) / std::numbers::pi;
 }
@@ -49,7 +49,7 @@ bool is_near(double found, double expected, double part) {
     return std::abs(found - expected) < part * std::abs(expected);
 }
 
-// That light is what was expected, which one of a height that is one per cent more would not be.
+// Checks that the light is as expected, and that it would not be if the height were 1 % larger.
 void check_light(double found, double expected, double of_more) {
     CAPTURE(found);
     CAPTURE(expected);
@@ -96,7 +96,7 @@ TEST_CASE("a bump turns with the copy of its object, and keeps its slope where t
 }
 
 TEST_CASE("an image on a mesh bumps it by the mesh's coordinates") {
-    // 64 grey columns, the brightness of which is u, on a square of 4 by 4 whose u runs along y.
+    // 64 grey columns of brightness u, on a square of 4 by 4 whose u is along y.
     const phasetree::support::TemporaryDirectory directory;
     std::ofstream image(directory.path() / "ramp.ppm");
     image << "P3 64 1 255\n";
@@ -113,7 +113,7 @@ TEST_CASE("an image on a mesh bumps it by the mesh's coordinates") {
             "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]}, )"
         << sun << "}";
     const Scene scene = read_scene(phasetree::Document::from_file(directory.path() / "scene.json"));
-    // The file's numbers are sRGB, so the slope is that of what they decode to, by differences over the height of 1.
+    // The file's numbers are sRGB, so the slope follows from the decoded values, as differences over the height of 1.
     const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
     const auto brightness = [&](double y) { return linear(((y + 2) / 4 * 64 - 0.5) * 4 / 255); };
     const double slope = brightness(0.8) - brightness(-0.2);

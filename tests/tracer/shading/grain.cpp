@@ -1,5 +1,5 @@
-// The grain of brushed metal: where its strokes run on the tree, on copies and on meshes, and the light that they
-// reflect.
+// The grain of brushed metal: the direction of its strokes on the tree, on copies and on meshes, and the light that
+// they reflect.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ std::string brushed(const std::string& grain) {
 const std::string floor_of_a =
     R"({"set": {"phase": "a", "of": {"translate": {"by": [0, 0, -0.5], "of": {"box": {"size": [8, 8, 1]}}}}}})";
 
-// Where the strokes run at what a ray meets.
+// The direction of the strokes where a ray meets a surface.
 glm::vec3 strokes(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction) {
     const World world(scene);
     PathCounters counters;
@@ -67,7 +67,7 @@ TEST_CASE("strokes run along a direction as it lies on the surface") {
     CHECK(are_parallel(strokes(scene, {3, 0, 0}, {-1, 0, 0}), {0, 2, 1}));
     // At the normal (0, 0.6, 0.8) the projection of (0, 2, 1) is along (0, 0.8, −0.6).
     CHECK(are_parallel(strokes(scene, {0, 1.2f, 1.6f}, {0, -0.6f, -0.8f}), {0, 0.8f, -0.6f}));
-    // Where the surface is perpendicular to them they have no direction, and any is taken.
+    // Where the surface is perpendicular to the strokes, they have no direction, and an arbitrary one is used.
     const glm::vec3 there = glm::normalize(glm::vec3(0, 2, 1));
     CHECK(std::isfinite(strokes(scene, 3.0f * there, -there).x));
 }
@@ -119,8 +119,8 @@ TEST_CASE("strokes run over meshes") {
 }
 
 TEST_CASE("a small sun in brushed metal is as bright as its microfacets make it, along the strokes and across") {
-    // Slopes of Student's distribution, each over its own roughness, and masking of both directions (Heitz 2014). What
-    // is scattered more than once is less than a thousandth here.
+    // Slopes of Student's distribution, each over its own roughness, and masking of both directions (Heitz 2014). Light
+    // that is scattered more than once is less than a thousandth here.
     const auto expected = [](const glm::dvec3& wo, const glm::dvec3& wi, double a, double b) {
         const glm::dvec3 h = glm::normalize(wo + wi);
         const double x = h.x / h.z / a, y = h.y / h.z / b;
@@ -141,8 +141,8 @@ TEST_CASE("a small sun in brushed metal is as bright as its microfacets make it,
         CAPTURE(aside.y);
         const glm::vec3 wo = glm::normalize(mirrored + glm::vec3(aside, 0));
         const double found = radiance_along(world, scene, 3.0f * wo, -wo, 4)[0].mean();
-        // Their local x is y of the scene. An irradiance upright to the sun's rays is less on the floor, by the cosine
-        // that is in f |cos θi| already.
+        // Their local x is y of the scene. The sun's irradiance is given perpendicular to its rays. On the floor it is
+        // smaller by a cosine, which f |cos θi| already contains.
         const auto local = [](const glm::vec3& w) { return glm::dvec3(w.y, -w.x, w.z); };
         const auto is_near = [&](double value) { return std::abs(found / value - 1) < 3e-3; };
         CAPTURE(found);

@@ -1,5 +1,5 @@
-// The layered material `principled` in scenes: what its parameters become, in a furnace with all techniques of the
-// integrator, as a light, and which scenes are rejected. tests/shading/principled.cpp has its BSDF.
+// The layered material `principled` in scenes: the meaning of its parameters, a furnace with all techniques of the
+// integrator, emission, and scenes that are rejected. tests/shading/principled.cpp has its BSDF.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -82,7 +82,7 @@ TEST_CASE("what layers are made of") {
 }
 
 TEST_CASE("impossible layers are rejected") {
-    // Every number and colour of the layers may be an image, and none on a phase.
+    // Every number and colour of the layers may be an image on a mesh, but none on a phase.
     for (const char* const key :
          {"base_color", "base_weight", "base_metalness", "base_diffuse_roughness", "specular_color",
           "specular_roughness", "coat_color", "coat_weight", "coat_roughness", "coat_darkening", "fuzz_color",

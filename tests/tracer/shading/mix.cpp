@@ -48,7 +48,8 @@ glm::vec3 from_around(int i) {
 TEST_CASE("a mixture is as bright as its two materials by their parts") {
     const Shown shown(mix(diffuse("[1, 0.5, 0]"), diffuse("[0, 0.25, 1]"), "0.3"));
     const glm::dvec3 expected(0.7, 0.7 * 0.5 + 0.3 * 0.25, 0.3);
-    // Rays along one line would all meet one place, where there is one of the two alone. So each has another line.
+    // Rays along one line would all meet the same place, which has only one of the two materials. So each ray has its
+    // own line.
     std::array<Moments, 3> all;
     for (int i = 0; i < 20000; ++i) {
         const auto one = radiance_along(shown.world, shown.scene, from_around(i), -from_around(i), 1,
@@ -117,7 +118,7 @@ TEST_CASE("a metal's reflectance may be a texture") {
 }
 
 TEST_CASE("photons and paths find the same light on a mixture with a mirror, and on what lets light through") {
-    // A ball of glass throws the sun onto a floor.
+    // A ball of glass focuses the sun onto a floor.
     const auto scene_with = [](const std::string& floor, bool caustics) {
         return scene_of(
             R"("a": {"clear": {"ior": 1.5}})",

@@ -21,7 +21,7 @@ constexpr double pi = 3.14159265358979323846;
 const std::string far_away =
     R"({"set": {"phase": "a", "of": {"translate": {"by": [0, 0, -99], "of": {"sphere": {"radius": 1}}}}}})";
 
-// A mesh whose map has one normal everywhere, which leans to the right of the image and up.
+// A mesh whose map has the same normal everywhere, leaning to the right and to the top of the image.
 class MappedMesh {
   public:
     static glm::vec3 mapped() { return glm::normalize(glm::vec3(0.4f, 0.2f, 0.8f)); }
@@ -58,7 +58,7 @@ bool is_near(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) < 2e-4f;
 }
 
-// A square whose image stands upright, is turned by a quarter, and is mirrored.
+// A square whose image is upright, rotated by a quarter turn, or mirrored.
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string upright = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 const std::string turned = square + "vt 0 0\nvt 0 -2\nvt 3 -2\nvt 3 0\nf 1/1 2/2 3/3 4/4\n";
@@ -79,21 +79,21 @@ TEST_CASE("a map of normals leans to the right of the image and to its upper edg
     CHECK(is_near(MappedMesh(upright, R"(, "strength": 0.5)").from_above(),
                   glm::normalize(glm::vec3(0.5f * m.x, 0.5f * m.y, m.z))));
     CHECK(is_near(MappedMesh(upright, R"(, "strength": 0)").from_above(), {0, 0, 1}));
-    // From behind it is the other side of the same relief.
+    // From behind, it is the other side of the same relief.
     const Surface behind = MappedMesh(upright).seen_from({0.4f, 0.3f, -9}, {0, 0, 1});
     CHECK(is_near(behind.normal, -m));
     CHECK(is_near(behind.geometric_normal, {0, 0, -1}));
-    // Faces without normals beside others with some have the side that their corners' order tells.
+    // Faces without normals in a mesh with some normals are oriented by the order of their corners.
     const std::string partly =
         square + "v 5 5 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\nf 2/1/1 5/2/1 3/3/1\n";
     CHECK(is_near(MappedMesh(partly).seen_from({0.4f, 0.3f, -9}, {0, 0, 1}).normal, -m));
-    // It turns with the mesh, by its corners' order alone where it is flat.
+    // The normal rotates with the mesh; a flat mesh is oriented by the order of its corners alone.
     const MappedMesh placed(upright, "", R"(, "rotate_z": 90, "smooth": false)");
     CHECK(is_near(placed.seen_from({-0.4f, 0.3f, 9}, {0, 0, -1}).normal, {-m.y, m.x, m.z}));
 }
 
 TEST_CASE("on a smooth mesh the frame is that of the shading normal, the same on both sides of each edge") {
-    // A cylinder about z of few sides, of which u goes around it and v up.
+    // A cylinder about z with few sides. u goes around it, v goes up.
     constexpr int sides = 12;
     std::string obj;
     for (int i = 0; i <= sides; ++i) {
@@ -119,7 +119,7 @@ TEST_CASE("on a smooth mesh the frame is that of the shading normal, the same on
         const double a = 2 * pi * (i + 0.3) / 200;
         const glm::vec3 out(std::cos(a), std::sin(a), 0), around(-std::sin(a), std::cos(a), 0);
         const Surface surface = cylinder.seen_from(3.0f * out + glm::vec3(0, 0, 0.4f), -out);
-        // The interpolated normal is off the cylinder's by at most a few thousandths.
+        // The interpolated normal differs from the cylinder's by at most a few thousandths.
         CHECK(glm::length(surface.normal - (m.x * around + m.y * glm::vec3(0, 0, 1) + m.z * out)) < 0.01f);
     }
     // The tangents of the seam's corners are those of one side alone.

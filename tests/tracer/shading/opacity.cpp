@@ -1,4 +1,4 @@
-// Holes of meshes, and meshes that let light through by a part.
+// Holes in meshes, and meshes that transmit a part of the light.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -85,7 +85,7 @@ TEST_CASE("between 0 and 1 rays are stopped with that probability, independently
                 CHECK(is_met(one, origin) == is_met(one, origin));
             }
         }
-    // The standard error of one is 0.0011.
+    // The standard error of `of_one` is 0.0011.
     CHECK(mean_p_value(of_one, 0.3) > 1e-4);
     CHECK(mean_p_value(of_two, 0.51) > 1e-4);
     CHECK(mean_p_value(of_one, 0.306) < 1e-4);

@@ -1,4 +1,4 @@
-// Textures as scenes spell them: driven by fields of the tree, and from images, on phases and on meshes.
+// Textures in scene files: controlled by fields of the tree, and from images, on phases and on meshes.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -45,7 +45,7 @@ bool says(const std::string& material, const std::string& part, const std::strin
 
 const std::string ball_of_water = R"({"translate": {"by": [3, 0, 0], "of": {"sphere": {"radius": 1}}}})";
 
-// Two by two pixels: red, green, above blue, and grey of sRGB 0.5.
+// Two by two pixels: red and green above blue and grey (sRGB 0.5).
 std::filesystem::path four_pixels() {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "phasetree_test_four_pixels.png";
     const unsigned char pixels[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128};
@@ -246,7 +246,7 @@ TEST_CASE("colours of a mesh's vertices: sRGB is decoded, and between vertices t
         const glm::vec3 expected(0.25f, 0.25f, 0.2158605f);
         CHECK(glm::length(found - expected) < 1e-4f);
         CHECK_FALSE(glm::length(1.01f * found - expected) < 1e-4f);
-        // As bumps ask for it: one to the right a twelfth of red has become green.
+        // As bumps evaluate it: one unit to the right, a twelfth of red has become green.
         const TexturePoint moved = surface->place.moved({1, 0, 0});
         const glm::vec3 beside = color_at(std::get<Diffuse>(scene.meshes.at(0).material).color, moved);
         CHECK(glm::length(beside - expected - glm::vec3(-1, 1, 0) / 12.0f) < 1e-4f);

@@ -1,4 +1,4 @@
-// Dispersion: the colours of single wavelengths, measured indices, a prism, and that nothing is lost or added.
+// Dispersion: the colours of single wavelengths, measured indices, a prism, and energy that is neither lost nor added.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ using namespace phasetree::tracer::tests;
 
 namespace {
 
-// The mean over wavelengths of what f(wavelength) brings to red, green and blue.
+// The mean over wavelengths of the contribution of f(wavelength) to red, green and blue.
 template <class F>
 glm::dvec3 mean_over_wavelengths(F&& f) {
     constexpr int count = 200000;
@@ -32,7 +32,7 @@ glm::dvec3 mean_over_wavelengths(F&& f) {
     return sum / static_cast<double>(count);
 }
 
-// By how much two refractions turn the ray that goes into a prism: traced through the world.
+// The angle by which two refractions deflect a ray through a prism, traced through the world.
 double deviation(const World& world, const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
                  const Wavelengths& only) {
     PathCounters counters;
@@ -104,7 +104,7 @@ TEST_CASE("glasses: the index and Abbe's number of the catalogues") {
 }
 
 TEST_CASE("a prism: the least deviation is that of Sellmeier's index, at every wavelength") {
-    // Its refracting edge of 60° is above, and its section is in the plane of x and z.
+    // Its refracting edge of 60° is at the top, and its cross-section is in the plane of x and z.
     const Scene scene = scene_of(
         R"("glass": {"clear": {"glass": "sf11"}})",
         R"({"set": {"phase": "glass", "of": {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": {"extrude": {"height": 2,
@@ -116,7 +116,7 @@ TEST_CASE("a prism: the least deviation is that of Sellmeier's index, at every w
         const Wavelengths only = Wavelengths::of_dispersed_colours(sampled_wavelength(u));
         const double index = static_cast<double>(find_glass("sf11").value().dispersion.index(only.hero()));
         const auto least = [&](double n) { return 2 * std::asin(n * std::sin(half)) - 2 * half; };
-        // In symmetry the ray goes level inside, so outside it rises by half of the deviation.
+        // In the symmetric case, the ray is horizontal inside, so outside it rises by half of the deviation.
         const double rise = 0.5 * least(index);
         double traced = 10;
         for (int i = -20; i <= 20; ++i) {
@@ -159,9 +159,8 @@ TEST_CASE("dispersion adds and loses nothing: a furnace, and glass that hardly d
 }
 
 TEST_CASE("a fringe of colours: the edge of a shadow under flat flint glass, at each wavelength where it refracts to") {
-    // A screen lies on the glass where x < 0, the floor is 1 below, and the sun stands at 70° from the vertical over
-    // x > 0. Its light gets below the screen by tan θ', sin θ = n sin θ': by 0.59 if it is violet, by 0.63 if it is
-    // red.
+    // A screen lies on the glass where x < 0, the floor is 1 below, and the sun stands at 70° from the vertical over x
+    // > 0. Its light reaches below the screen by tan θ', where sin θ = n sin θ': violet by 0.59, red by 0.63.
     constexpr double sine = 0.93969262, cosine = 0.34202014, albedo = 0.001, irradiance = 1000;
     Scene scene = scene_of(
         R"("glass": {"clear": {"glass": "sf11"}}, "floor": {"diffuse": {"color": [0.001, 0.001, 0.001]}},
@@ -175,7 +174,7 @@ TEST_CASE("a fringe of colours: the edge of a shadow under flat flint glass, at 
     for (const bool is_spectral : {false, true}) {
         scene.settings.spectral = is_spectral;
         const World world(scene);
-        double one_per_cent_away = 1;  // the least p value of all places and colours
+        double one_per_cent_away = 1;  // the smallest p-value of all points and colours
         for (const float below : {0.5f, 0.605f, 0.612f, 0.62f, 0.7f}) {
             const auto expected_at = [&](double edge) {
                 return mean_over_wavelengths([&](const Wavelengths& only) {
@@ -214,7 +213,7 @@ TEST_CASE("photons of one wavelength: the ground of a pool of flint glass under 
            "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})");
     const World world(scene);
     const Caustics caustics(world, scene);
-    // Straight below a point at the height 1 over glass of the depth 1 it shines as from 1 + 1/n.
+    // Straight below glass of depth 1, a point light at the height 1 over it appears at the distance 1 + 1/n.
     const glm::dvec3 expected = mean_over_wavelengths([&](const Wavelengths& only) {
         const double n = static_cast<double>(clear_at(scene, phasetree::Phase{1}).ior_for(&only));
         const double r = (n - 1) * (n - 1) / ((n + 1) * (n + 1));

@@ -1,4 +1,4 @@
-// Measured spectra: of lights, of what reflects, absorbs and shines; and how wavelengths are chosen for lights.
+// Measured spectra of lights, reflectances, absorption and emission, and the choice of wavelengths for lights.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -39,7 +39,8 @@ TEST_CASE("wavelengths are chosen where lights shine, and colours stay what they
         share_by_day += is_in_band(daylight_world.wavelengths(u).hero()) / double{count};
     }
     check_colour(white, glm::dvec3(1.0), 3e-3);
-    // Half of the wavelengths are chosen by the lamp, whose light is all in the bands, and half by the eye's response.
+    // Half of the wavelengths are chosen by the lamp, whose light is entirely in the bands, and half by the eye's
+    // response.
     CHECK(std::abs(share - (0.5 + 0.5 * share_by_day)) < 0.005);
     CHECK(share_by_day < 0.4);
     const Spectrum power(
@@ -60,7 +61,7 @@ TEST_CASE("a lamp of one narrow band takes a quarter of the wavelengths from a w
     for (const char* const spectrum :
          {"[[440, 0], [450, 1], [460, 0]]", "[[395, 0], [405, 1], [415, 0]]", "[[650, 0], [660, 1], [670, 0]]"}) {
         CAPTURE(spectrum);
-        // The lamp is black: how wavelengths are chosen depends on its spectrum alone.
+        // The lamp is black, because the choice of wavelengths depends on its spectrum alone.
         const Scene scene = spectral_scene(
             R"("a": {"diffuse": {"color": [1, 1, 1]}})", ball_of_a,
             R"("lights": [{"constant": {}}, {"sphere": {"centre": [0, 0, 9], "radius": 1, "radiance": [0, 0, 0], "spectrum": )" +
@@ -97,7 +98,7 @@ namespace {
 
 const std::string in_bulb = R"("spectrum": {"blackbody": 2700})";
 
-// Planck's law for a light bulb, in no unit, over daylight.
+// Planck's law for a light bulb, in arbitrary units, over daylight.
 double bulb_over_daylight(double nm) {
     constexpr double c2 = 1.438776877e7;  // Planck's second radiation constant, in nm K
     return std::pow(nm, -5) / (std::exp(c2 / (2700 * nm)) - 1) / daylight_at(nm);
@@ -176,8 +177,8 @@ TEST_CASE("surfaces and media that shine have the colour of their temperature") 
     };
     check_colour(shining(R"({"glowing": {"radiance": 3, )" + in_bulb + "}}"), 3.0 * colour_of_bulb());
     const std::string emission = R"(, "emission": [6, 6, 6], "emission_spectrum": {"blackbody": 2700}}})";
-    // The slab has half a metre of 6 per metre. What it absorbs is too little to see, but makes blue another case than
-    // red and green, of which nothing at all is absorbed.
+    // The slab is half a metre thick, with 6 per metre. Its absorption is invisible, but makes blue a different case
+    // from red and green, of which nothing is absorbed.
     for (const bool is_spectral : {false, true})
         check_colour(shining(R"({"clear": {"ior": 1, "absorption": [0, 0, 1e-4])" + emission, is_spectral),
                      3.0 * colour_of_bulb());

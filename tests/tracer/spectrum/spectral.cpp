@@ -1,5 +1,5 @@
 // Paths of three wavelengths: colours, metals, films and media against integrals over the wavelength, furnaces, and the
-// same pictures by every technique.
+// same pictures with every technique.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ TEST_CASE("wavelengths of a path: each is chosen as one alone would be, and whit
         const Wavelengths all = Wavelengths::three((static_cast<float>(i) + 0.5f) / count, by_response);
         white += glm::dvec3(all.to_rgb * glm::vec3(1.0f));
         for (int k = 0; k < 3; ++k) {
-            // The shares of the density that are below two of them are a third apart.
+            // The cumulative distribution differs by a third from one wavelength to the next.
             CHECK(all.nanometres[k] >= 380.0f);
             CHECK(all.nanometres[k] <= 780.0f);
             CHECK(for_light(glm::vec3(1.0f), &all)[k] == doctest::Approx(1.0f).epsilon(1e-5));
@@ -73,8 +73,8 @@ TEST_CASE("colours of surfaces, lights and media look as they do in red, green a
                      spectral_scene(R"("a": {"glowing": {"light": )" + is_orange + "}}", ball_of_a, R"("lights": [])"),
                      {0, -5, 0.3f}, {0, 1, 0}),
                  orange);
-    // White light that went through the distance for which the colour is given, and through twice that: there it is
-    // what is left of each wavelength, which is no product of colours.
+    // White light after the distance for which the colour is given, and after twice that. The latter follows from what
+    // is left of each wavelength, and is not a product of colours.
     const auto through = [&](float distance) {
         return mean_along_ray(
             spectral_scene(R"("a": {"clear": {"ior": 1, "color": [0.8, 0.3, 0.1], "color_distance": )" +
@@ -163,7 +163,7 @@ TEST_CASE("a soap film reflects each wavelength by itself, from either side") {
 }
 
 TEST_CASE("grey things behind glass that disperses: by paths of colours and of wavelengths") {
-    // They look alike either way, also where the path loses all wavelengths but one.
+    // They look the same either way, even where the path loses all wavelengths but one.
     const std::string phases = R"("a": {"clear": {"glass": "sf11"}}, "grey": {"diffuse": {"color": [0.5, 0.5, 0.5]}})";
     const std::string tree = R"({"over": [{"set": {"phase": "grey", "of": {"translate": {"by": [1.2, 0, 0],
         "of": {"box": {"size": [1, 9, 9]}}}}}}, )" +

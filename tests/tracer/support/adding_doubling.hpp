@@ -1,14 +1,14 @@
-// Reflection and transmission of plane layers that scatter, computed in double by adding and doubling, and
-// Chandrasekhar's H function: what the path tracer is held against.
+// Reflection and transmission of plane layers that scatter, computed in double precision by adding and doubling, and
+// Chandrasekhar's H function. The path tracer is compared with these.
 //
-// Radiance is kept at the cosines µᵢ of a Gauss quadrature over (0, 1), and at further cosines of weight 0, which
-// receive and do not give. A layer's R and T are matrices that take the radiance that comes in to that which goes out.
-// Of a layer of thickness Δ → 0, with p averaged over the azimuth,
+// Radiance is kept at the cosines µᵢ of a Gauss quadrature over (0, 1), and at further cosines of weight 0, which only
+// receive light. A layer's R and T are matrices that map the incoming radiance to the outgoing one. For a layer of
+// thickness Δ → 0, with p averaged over the azimuth,
 //     Rᵢⱼ = a/2 wⱼ p(µᵢ, −µⱼ) Δ/µᵢ,   Tᵢⱼ = δᵢⱼ (1 − Δ/µᵢ) + a/2 wⱼ p(µᵢ, µⱼ) Δ/µᵢ,
 //     p(µ, µ') = Σ (2k + 1) gᵏ Pₖ(µ) Pₖ(µ')   (Henyey and Greenstein),
-// and of two equal ones, one upon the other, with M = (1 − RR)⁻¹,
+// and for two equal layers on top of each other, with M = (1 − RR)⁻¹,
 //     R₂ = R + T M R T,   T₂ = T M T.
-// In light of radiance 1 from above everywhere what is seen along µᵢ is the row's sum, which by reciprocity is the part
+// In light of radiance 1 from everywhere above, the radiance along µᵢ is the row's sum. By reciprocity, it is the share
 // of a beam along µᵢ that is reflected or transmitted.
 //
 // References: van de Hulst, Multiple Light Scattering, 1980; Prahl, van Gemert & Welch, Determining the Optical
@@ -64,7 +64,7 @@ class Matrix {
         for (std::size_t i = 0; i < a.values_.size(); ++i) a.values_[i] += b.values_[i];
         return a;
     }
-    /// (1 − A)⁻¹ B by Gauss's elimination; nothing needs a pivot where A reflects less than it gets.
+    /// (1 − A)⁻¹ B by Gaussian elimination. No pivoting is needed, because A reflects less than it receives.
     static Matrix solve(const Matrix& a, Matrix b) {
         Matrix left(a.n_);
         for (std::size_t i = 0; i < a.n_; ++i)
@@ -139,7 +139,7 @@ inline std::vector<PlaneResponse> adding_doubling(const ScatteringLayer& layer, 
             response.reflected += r(i, j);
             response.transmitted += t(i, j);
         }
-        response.transmitted += t(i, i);  // its own beam, which no other direction gives
+        response.transmitted += t(i, i);  // the direct beam, which no other direction contributes
         responses.push_back(response);
     }
     return responses;
@@ -154,8 +154,8 @@ inline double chandrasekhar_h(double albedo, double mu) {
         for (std::size_t j = 0; j < nodes.size(); ++j) integral += weights[j] * nodes[j] * h[j] / (at + nodes[j]);
         return 1 / (std::sqrt(1 - albedo) + albedo / 2 * integral);
     };
-    // Where nothing is absorbed a factor of H returns as its reciprocal, for ever: the geometric mean of two steps rids
-    // of it.
+    // Without absorption, a factor of H alternates with its reciprocal forever. The geometric mean of two steps removes
+    // it.
     for (double change = 1; change > 1e-10;) {
         std::vector<double> improved;
         for (std::size_t j = 0; j < nodes.size(); ++j) improved.push_back(std::sqrt(h[j] * next(nodes[j])));

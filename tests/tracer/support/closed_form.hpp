@@ -1,7 +1,7 @@
-// Closed forms of the optics of plane layers and spheres, in double and from the textbook, for tests.
+// Closed forms for the optics of plane layers and spheres, from textbooks and in double precision, for tests.
 //
-// Reflectances are those of unpolarised light at every interface, as path tracers without polarisation have it: the
-// mean of both polarisations is taken interface by interface, not once for the whole stack.
+// Reflectances are those of unpolarised light at every interface, as in path tracers without polarisation: the mean of
+// both polarisations is taken at each interface, not once for the whole stack.
 //
 // References: Born & Wolf, Principles of Optics, 7th ed., 1.5 (Fresnel); van de Hulst, Multiple Light Scattering,
 // 1980, chapter 4 (adding method).
@@ -12,7 +12,7 @@
 
 namespace phasetree::tests {
 
-// Of a ray that comes at cos_from in index `from` and meets index `to`.
+// For a ray that arrives at cos_from in index `from` and meets index `to`.
 inline double fresnel(double cos_from, double from, double to) {
     const double sin_to = from / to * std::sqrt(1 - cos_from * cos_from);
     if (sin_to >= 1) return 1;
@@ -33,16 +33,16 @@ struct Layer {
     double thickness;
 };
 
-// Reflected and transmitted, as parts of the basic radiance that comes.
+// The reflected and transmitted shares of the incident basic radiance.
 struct Response {
     double reflected, transmitted;
 };
 
-// A stack of layers between vacuum and vacuum, touching each other, seen at the cosine. Interfaces and layers are added
-// one by one; a pair of them sums up the geometric series of the light between the two.
+// A stack of touching layers between vacuum and vacuum, seen at this cosine. Interfaces and layers are added one by
+// one; each addition sums the geometric series of the light between two parts.
 inline Response stack(double cos_vacuum, std::span<const Layer> layers) {
     double ior = 1, cosine = cos_vacuum, absorbed = 1;
-    // Seen from before: reflected, transmitted; from behind: the same (transmission is symmetric in basic radiance).
+    // From the front: reflected, transmitted; from behind: the same (transmission is symmetric in basic radiance).
     double r = 0, t = 1, r_behind = 0;
     const auto add = [&](double next_ior) {
         const double f = fresnel(cosine, ior, next_ior);
@@ -71,7 +71,7 @@ inline Response slab(double cos_vacuum, const Layer& layer) {
     return {f + f * a * a * series, a * series};
 }
 
-// A sphere seen along a ray that passes its centre at b radii, in light of radiance 1 from everywhere. Within, every
+// A sphere seen along a ray that passes its centre at b radii, in light of radiance 1 from everywhere. Inside, every
 // chord has the same length 2r cos θ and every bounce the same F, so L = F + (1−F)² Σ aⁿ⁺¹ Fⁿ.
 inline double sphere_in_uniform_light(double b, double radius, double ior, double absorption) {
     const double cosine = std::sqrt(1 - b * b);

@@ -1,4 +1,4 @@
-// Scenes from text, and estimates of the radiance along one ray: what the tests of the integrator share.
+// Scenes from text, and estimates of the radiance along one ray: shared by the tests of the integrator.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ using phasetree::tests::sidak;
 
 inline constexpr const char* white_environment = R"("lights": [{"constant": {}}])";
 
-// `rest` holds further members of the scene, "lights" among them.
+// `rest` holds further members of the scene, including "lights".
 inline Scene scene_of(const std::string& phases, const std::string& tree, const std::string& rest = white_environment) {
     std::string text = R"({"version": 1, "phases": {)" + phases + R"(}, "tree": )" + tree + ", " + rest;
     if (rest.find("\"camera\"") == std::string::npos)
@@ -35,7 +35,7 @@ inline Image image_of(const World& world, const Scene& scene) {
     return render(world, scene, job).image;
 }
 
-// What a ray meets that starts in the phase which is there; nothing if it escapes.
+// The surface that a ray meets, which starts in the phase at its origin; nullopt if it escapes.
 inline std::optional<Surface> surface_met(const World& world, const glm::vec3& origin, const glm::vec3& direction) {
     PathCounters counters;
     const Ray ray{origin, glm::normalize(direction), world.geometry().label(origin)};
@@ -44,8 +44,8 @@ inline std::optional<Surface> surface_met(const World& world, const glm::vec3& o
     return surface ? std::optional(*surface) : std::nullopt;
 }
 
-// Radiance along a ray, per colour channel: `count` independent paths (each the first sample of a pixel of its own, so
-// that nothing is stratified and a z-test applies).
+// Radiance along a ray, per colour channel: `count` independent paths. Each is the first sample of its own pixel, so
+// that nothing is stratified and a z-test applies.
 inline std::array<Moments, 3> radiance_along(const World& world, const Scene& scene, const glm::vec3& origin,
                                              const glm::vec3& direction, std::uint32_t count, std::uint32_t seed = 1,
                                              const PathHelp& help = {}) {

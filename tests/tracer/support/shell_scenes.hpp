@@ -1,4 +1,4 @@
-// A floor below something of glass, around what shines: scenes in which photons are held against paths alone.
+// A floor below a glass object that surrounds lamps: scenes in which photons are compared with paths alone.
 #pragma once
 
 #include <string>
@@ -7,19 +7,19 @@
 
 namespace phasetree::tracer::tests {
 
-// A shell of glass around the middle, and what is in it; all phases of the tree but the glass are in `inside`.
+// A shell of glass around the middle, and its contents. `inside` has all phases of the tree except the glass.
 inline std::string shell_around(const std::string& inside) {
     const std::string shell =
         R"({"set": {"phase": "glass", "of": {"difference": {"from": {"sphere": {"radius": 1}}, "subtract": [{"sphere": {"radius": 0.9}}]}}}})";
     return inside.empty() ? shell : R"({"over": [)" + inside + ", " + shell + "]}";
 }
 inline constexpr const char* glass = R"("glass": {"clear": {"ior": 1.5}})";
-// Photons are gathered within 0.5 and less.
+// Photons are gathered within 0.5 or less.
 inline const std::string floor_and =
     R"("meshes": [{"floor": {"height": -2.5, "material": {"diffuse": {"color": [0.02, 0.02, 0.02]}}}}],
     "render": {"width": 64, "height": 64, "photons": 12, "photon_radius": 9}, "lights": )";
 
-// That a place of the floor is as bright with photons as by paths alone.
+// Checks that a point of the floor is as bright with photons as with paths alone.
 inline void check_floor(const std::string& phases, const std::string& tree, const std::string& lights,
                         int passes_of_photons, double significance = 1e-4) {
     check_against_paths(scene_of(phases, tree, floor_and + lights), {2.4f, 0, -1}, {-1.2f, 0.1f, -1.5f},
@@ -27,8 +27,8 @@ inline void check_floor(const std::string& phases, const std::string& tree, cons
 }
 
 // Checks that a picture of the floor has the same mean with photons as without. `planted_factor` is an error that 128
-// samples per pixel reveal. The short form takes a quarter of these and reveals twice that error; the long form takes
-// 2048 and reveals a quarter of it.
+// samples per pixel detect. The short form takes a quarter of these and detects twice that error; the long form takes
+// 2048 and detects a quarter of it.
 inline void check_picture_of_floor(const std::string& phases, const std::string& tree, const std::string& lights,
                                    double planted_factor) {
     const auto made = [&](bool caustics) {

@@ -1,4 +1,4 @@
-// Scenes whose paths have wavelengths, and the colours that they should find.
+// Scenes whose paths have wavelengths, and their expected colours.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -35,8 +35,8 @@ inline glm::dvec3 mean_along_ray(const Scene& scene, const glm::vec3& origin, co
     return sum / static_cast<double>(count);
 }
 
-// The colour of light that is f(λ) times D65, with λ in nanometres. It is found by the tracer's own responses to
-// wavelengths, of which other tests are in charge (tests/shading).
+// The colour of light that is f(λ) times D65, with λ in nanometres. It is computed with the tracer's own responses to
+// wavelengths, which other tests check (tests/shading).
 template <class F>
 glm::dvec3 expected_colour(F&& f) {
     constexpr int count = 1 << 16;
@@ -48,7 +48,7 @@ glm::dvec3 expected_colour(F&& f) {
     return sum / static_cast<double>(count);
 }
 
-// Checks that a colour is what was expected, within a share of the brightest of red, green and blue.
+// Checks a colour against the expected one, within a share of the brightest of red, green and blue.
 inline void check_colour(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 0.003) {
     const double brightest = std::max({expected.x, expected.y, expected.z});
     CAPTURE(found.x);
@@ -68,9 +68,9 @@ inline const std::string ball_of_a = R"({"set": {"phase": "a", "of": {"sphere": 
 inline const std::string slab_of_a =
     R"({"set": {"phase": "a", "of": {"translate": {"by": [0.25, 0, 0], "of": {"box": {"size": [0.5, 9, 9]}}}}}})";
 
-// That photons find the light which paths alone find, in the picture of a ball on a floor below one lamp. All three are
-// given as a scene file has them; the ball is clear and bends what lights the floor. An error of
-// 3 % must be found.
+// Checks that photons find the same light as paths alone, in the picture of a ball on a floor below one lamp. All three
+// are given as in a scene file; the ball is clear and refracts the light on the floor. An error of 3 % must be
+// detected.
 inline void check_ball_on_floor(const std::string& ball, const std::string& floor, const std::string& lamp,
                                 double significance) {
     check_pictures(

@@ -1,4 +1,4 @@
-// Rays straight through all that is clear, as tests of several objects send them.
+// Rays straight through all clear phases, for the tests of several objects.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -32,7 +32,8 @@ struct Step {
     Phase from, to;
 };
 
-/// The interfaces on the straight way through all that is clear, at a share of the time in which the shutter is open.
+/// The interfaces along the straight line through all clear phases, at a share of the time in which the shutter is
+/// open.
 inline std::vector<Step> straight_through(const TracedGeometry& geometry, const glm::vec3& origin, const glm::vec3& d,
                                           float time = 0) {
     std::vector<Step> steps;
@@ -52,7 +53,7 @@ inline std::vector<Step> straight_through(const TracedGeometry& geometry, const 
     return steps;
 }
 
-/// Without the phases that are too thin along the ray to be certain to be seen.
+/// Without the phases that are too thin along the ray to be found with certainty.
 inline std::vector<Step> without_slivers(const std::vector<Step>& steps, double thickness) {
     std::vector<Step> kept;
     for (const Step& step : steps) {

@@ -1,4 +1,4 @@
-// A .glb file as a test says it: the document in words, and numbers for its bytes.
+// A .glb file written by a test: the document as text, and numbers for its bytes.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace phasetree::tests {
 
-/// The bytes behind a document; each part begins at a multiple of four.
+/// The bytes after a document; each part begins at a multiple of four.
 class GlbBytes {
   public:
     /// Returns the part's text for the list "bufferViews".
@@ -35,7 +35,7 @@ inline std::string glb_chunk(std::uint32_t type, std::string content, char fille
     return std::string(reinterpret_cast<const char*>(head), sizeof head) + content;
 }
 
-/// `document` is all of it but for "asset" and "buffers".
+/// `document` is the whole document except "asset" and "buffers".
 inline std::string glb(const std::string& document, const std::string& bytes, std::uint32_t version = 2) {
     const std::string all =
         "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"byteLength\": " + std::to_string(bytes.size()) + "}], " +

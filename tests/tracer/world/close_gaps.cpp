@@ -1,4 +1,4 @@
-// A glass of water whose water overlaps the glass, touches it, or leaves a gap looks like the exact one.
+// Water that overlaps its glass, touches it, or leaves a gap looks like water in exact contact.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ Quarters brightness(const std::string& tree, std::uint32_t first_seed) {
     }
     return result;
 }
-/// The smallest p-value of the quarters of two pictures having the same brightness.
+/// The smallest p-value, over the quarters of two pictures, for equal brightness.
 double p_value(const Quarters& a, const Quarters& b) {
     double least = 1;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -89,7 +89,7 @@ TEST_CASE("water that overlaps the glass, touches it, or leaves a gap looks like
         first_seed += seeds;
         CHECK(p_value(exact, brightness(closed(glass_of_water(larger_by)), first_seed)) > significance);
     }
-    // The difference would be seen: a gap of air mirrors light at the walls.
+    // The test detects a difference: a gap of air mirrors light at the walls.
     CHECK(p_value(exact, brightness(glass_of_water(-0.0005), first_seed + seeds)) < significance);
 }
 

@@ -1,4 +1,4 @@
-// Meshes beside the object that come from files: where they are placed, and what their shading normals are.
+// Meshes from files beside the object: their placement and their shading normals.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ bool is_near(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) < 1e-5f;
 }
 
-// A square in the plane z = 0 whose normals lean along x, and more so at the right.
+// A square in the plane z = 0 whose normals lean along x, more so at the right.
 const std::string leaning =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 3\nvn 0.6 0 0.8\nf 1//1 2//2 3//2\nf 1//1 3//2 4//1\n";
 
@@ -55,12 +55,12 @@ TEST_CASE("shading normals are those of the file, and turned with it") {
     CHECK(is_near(plain.seen_from({0.5f, 0.5f, 9}, {0, 0, -1}).normal, leaning_half));
     CHECK(is_near(plain.seen_from({0.5f, 0.5f, 9}, {0, 0, -1}).geometric_normal, {0, 0, 1}));
     CHECK(is_near(plain.seen_from({0.5f, 0.5f, -9}, {0, 0, 1}).normal, -leaning_half));
-    // A quarter turn makes y of x; then the square is at x from −1 to 0, and twice as large at −2 to 0.
+    // A quarter turn maps x to y. The square is then at x from −1 to 0, and at twice the size from −2 to 0.
     const FileMesh turned("obj", leaning, R"(, "rotate_z": 90, "scale": 2, "translate": [0, 0, 1])");
     const Surface surface = turned.seen_from({-1, 1, 9}, {0, 0, -1});
     CHECK(is_near(surface.normal, {0, leaning_half.x, leaning_half.z}));
     CHECK(surface.distance == doctest::Approx(8));
-    // With y up the file's z is −y of the scene.
+    // With y up, the file's z is −y in the scene.
     const FileMesh upright("obj", leaning, R"(, "y_up": true)");
     CHECK(is_near(upright.seen_from({0.5f, -9, 0.5f}, {0, 1, 0}).normal, {leaning_half.x, -leaning_half.z, 0}));
     const FileMesh flat("obj", leaning, R"(, "smooth": false)");
@@ -68,7 +68,7 @@ TEST_CASE("shading normals are those of the file, and turned with it") {
 }
 
 TEST_CASE("without normals in the file vertices have the means of their faces', also where each face has its own") {
-    // An octahedron, of which an STL file has each corner four times.
+    // An octahedron. An STL file contains each of its corners four times.
     std::string stl = "solid\n";
     for (const float x : {1.0f, -1.0f})
         for (const float y : {1.0f, -1.0f})
@@ -95,7 +95,7 @@ TEST_CASE("without normals in the file vertices have the means of their faces', 
 }
 
 TEST_CASE("corners of STL files that differ by rounding have one normal") {
-    // A bent sheet: four triangles about its middle, of which two have the middle a little elsewhere.
+    // A bent sheet: four triangles around its middle, two of which have the middle at a slightly different position.
     const auto sheet = [](const std::string& other_middle) {
         const std::string corners[] = {"1 1 0", "-1 1 0", "-1 -1 0", "1 -1 0"};
         std::string stl = "solid\n";

@@ -1,4 +1,4 @@
-// Meshes on which clear objects stand, without a gap and without reaching into each other.
+// Meshes on which clear objects stand, without a gap or an overlap.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ Scene slab_over_floor(double z, double height, double floor, const std::string& 
         "test.json"));
 }
 
-// How many of 200 rays that start in the slab and go down meet the floor first, by both kinds of question.
+// How many of 200 downward rays that start in the slab meet the floor first, for both kinds of query.
 int meet_floor(const Scene& scene, double z, double height) {
     const World world(scene);
     phasetree::tests::Uniform random(7);

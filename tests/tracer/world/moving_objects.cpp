@@ -1,5 +1,5 @@
-// Objects, groups and cameras that move while the shutter is open: where they are at a time, against closed forms; the
-// boxes that hold them; rays at any time, against one tree of what is there then; and what cannot be.
+// Objects, groups and cameras that move while the shutter is open: their positions over time, against closed forms;
+// their bounding boxes; rays at any time, against one tree of the objects at that time; and impossible motions.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ double distance(const Transform& a, const Transform& b) {
     return most;
 }
 
-// A random transform; those of one series all mirror, or none does.
+// A random transform. In one series, all transforms mirror or none does.
 std::string random_transform(Random& random, bool mirrors, float far) {
     const glm::vec3 axis = direction(random);
     return fmt::format(
@@ -53,7 +53,7 @@ std::string random_transform(Random& random, bool mirrors, float far) {
         uniform(random, -far, far));
 }
 
-// Two to four keys within the time in which the shutter is open, or about it.
+// Two to four keys within or around the time in which the shutter is open.
 std::string random_keys(Random& random, float far) {
     const bool mirrors = random() % 2 == 0;
     std::string text = R"({"keys": [)";
@@ -76,13 +76,13 @@ TEST_CASE("between keys a transform turns evenly, goes straight, and is scaled e
         [1, [{"scale": {"factor": 3}}, {"rotate": {"angle": 120}}, {"translate": {"by": [3, 2, -1]}}]]]})");
     for (double t = 0; t <= 1; t += 0.01)
         CHECK(distance(moving.at(t), turned(120 * t, 1 + 2 * t, {1 + 2 * t, 2, 3 - 4 * t})) < 1e-6);
-    // The shorter way, and mirrored all the while.
+    // The shorter way, and mirrored at all times.
     const MovingTransform back = moving_of(R"({"keys": [[0, {"affine": {"x": [-1, 0, 0]}}],
         [1, [{"affine": {"x": [-1, 0, 0]}}, {"rotate": {"angle": 300}}]]]})");
     for (double t = 0; t <= 1; t += 0.01)
         CHECK(distance(back.at(t), turned(-60 * t, 1, {}) * Transform{glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1), {}}) <
               1e-6);
-    // A number's keys turn as far as they say: two turns while the shutter is open.
+    // With keys of an angle, the rotation is as large as the angle: two turns while the shutter is open.
     const MovingTransform twice = moving_of(R"({"rotate": {"angle": {"keys": [[1, 0], [3, 720]]}}})", {1, 3});
     for (double t = 0; t <= 1; t += 0.01) CHECK(distance(twice.at(t), turned(720 * t, 1, {})) < 1e-5);
 }
@@ -93,7 +93,7 @@ TEST_CASE("transforms are what their poses say, whatever they are") {
         CAPTURE(i);
         const Document document = Document::from_text(random_transform(random, i % 2 == 0, 3));
         Transform transform = read_transform(document, document.root());
-        // Nearly flat, too.
+        // Also nearly flat.
         if (i % 3 == 0) transform.matrix = transform.matrix * glm::dmat3(1, 0, 0, 0, 1e-5, 0, 0.3, 0, 1);
         const Pose pose = Pose::of(transform);
         CHECK(distance(pose.transform(), transform) < 1e-9);
@@ -143,7 +143,7 @@ TEST_CASE("rays at any time through moving, nested, mirrored and scaled objects 
         text += fmt::format(R"({}{{"of": "group{}", "transforms": [[{}, {}, 0]]}})", i > 0 ? ", " : "", i, 24 * (i % 3),
                             24 * (i / 3));
     text += "]";
-    // Each of six stands in a group of its own that moves.
+    // Each of the six is in its own moving group.
     std::string groups;
     for (int i = 0; i < 6; ++i)
         groups += fmt::format(R"("group{}": [{{"of": "{}", "transform": {}}}], )", i, i % 2 == 0 ? "four" : "pair",
@@ -171,7 +171,7 @@ TEST_CASE("rays at any time through moving, nested, mirrored and scaled objects 
             const glm::vec3 d = direction(random);
             const glm::vec3 origin = i % 2 == 0 ? target - 90.0f * d : target;
             if (geometry.label(origin, time) != tree.label(origin)) {
-                // Only nearer to an interface than both know where it is.
+                // Only closer to an interface than the precision with which both know it.
                 bool is_near = false;
                 for (int k = 0; k < 6; ++k) {
                     glm::vec3 aside(0.0f);

@@ -1,5 +1,4 @@
-// What scene files say of several objects: their names, phases, places, and what is wrong with them. Where they
-// overlap.
+// Several objects in scene files: names, phases, placement, errors and overlaps.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -125,7 +124,7 @@ TEST_CASE("nodes stand where their files have them, also those whose phases get 
          "tree": {"set": {"phase": "glass", "of": {"translate": {"by": [-9, 0, 0], "of": "round"}}}}}])");
     NodePlaces places;
     const Scene scene = read_scene(document, &places);
-    // Of the node that chooses among the objects and of what places them nobody has written a line.
+    // The file has no text for the node that chooses between the objects, nor for those that place them.
     const Phased whole = as_one_tree(scene.placed);
     const auto path = [&](float x, const char* phase) {
         const auto number = std::ranges::find(scene.phases.names, phase) - scene.phases.names.begin();
@@ -164,7 +163,7 @@ TEST_CASE("instances and groups: each copy stands where its chain of transforms 
         return glm::distance(copies[copy].second(p), wanted) < 1e-5;
     };
     CHECK(is_at(1, {0, 0, 0}, {100, 1, 0}));
-    CHECK(is_at(2, {1, 0, 0}, {97, 2, 0}));  // three along x, turned to y, moved to x = 2; then turned and moved
+    CHECK(is_at(2, {1, 0, 0}, {97, 2, 0}));  // three along x, rotated to y, moved to x = 2; then rotated and moved
     CHECK(is_at(4, {0, 0, 0}, {100, 2, 4}));
     CHECK(is_at(5, {0, 0, 0}, {5, 56, 7}));
     CHECK(is_at(6, {0, 0, 1}, {1, 51, -5}));
@@ -189,7 +188,7 @@ TEST_CASE("what is wrong with objects is said") {
           "\"instances\" requires \"objects\"");
     CHECK(with(R"("instances": [{"of": "bell"}])") == "unknown object or group \"bell\"");
     CHECK(with(R"("groups": {"a": [{"of": "b"}], "b": [{"of": "a"}]})") == "the group \"a\" contains itself");
-    // Whether a group stands before or after those of which it is made.
+    // It does not matter whether a group stands before or after the groups that it contains.
     for (const bool is_outermost_first : {false, true})
         for (const int depth : {32, 33}) {
             std::string groups;
@@ -212,7 +211,7 @@ TEST_CASE("what is wrong with objects is said") {
     CHECK(error_of(R"("objects": [{"name": "a", "tree": {"set": {"phase": "red", "of": {"plane": {}}}}}])")
               .starts_with("\"a\": "));
 
-    // A thousand million and more, by groups of groups.
+    // More than a thousand million, by groups of groups.
     std::string groups = R"("groups": {"g0": [{"of": "ball", "transforms": [[0, 0, 0], [9, 0, 0]]}])";
     for (int i = 1; i < 31; ++i)
         groups += fmt::format(R"(, "g{}": [{{"of": "g{}", "transforms": [[0, 0, 0], [9, 0, 0]]}}])", i, i - 1);
@@ -264,7 +263,7 @@ TEST_CASE("overlaps are found, and touching is none") {
         CHECK(std::abs(o.at.z - 0.5f) <= 1.5f);
         CHECK(o.at.x > 2.8f);
     }
-    // Cubes in a heap do not hide what else overlaps.
+    // A heap of cubes does not hide other overlaps.
     const auto heap = find_overlaps(scene_of(R"("objects": [{"name": "cube", "tree": {"set": {"phase": "glass",
         "of": {"box": {"size": [2, 2, 2]}}}}}, {"name": "lone", "transform": {"translate": {"by": [6, 0, 0]}},
         "tree": {"set": {"phase": "red", "of": "round"}}}], "instances": [{"of": "cube", "transforms":
@@ -273,7 +272,7 @@ TEST_CASE("overlaps are found, and touching is none") {
     CHECK(heap.has_more);
     CHECK(!few.has_more);
     CHECK(std::ranges::any_of(heap.found, [](const Overlap& o) { return o.first.object != o.second.object; }));
-    // Balls whose boxes overlap and which do not.
+    // Balls that do not overlap although their boxes do.
     const auto balls = [&](float x) {
         return find_overlaps(
                    scene_of(std::string(R"("objects": [)") + ball +

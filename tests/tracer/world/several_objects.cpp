@@ -1,4 +1,4 @@
-// Rays through several objects: as through one tree of the same, and right where objects touch.
+// Rays through several objects: the same as through one tree of these objects, and correct where objects touch.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ Scene scene_of(const std::string& objects) {
                                           "test.json"));
 }
 
-/// A random turn, stretch and mirroring as a list of transforms, which keeps what is within the unit ball within 0.45
-/// of the place.
+/// A random rotation, stretch and reflection as a list of transforms, which map the unit ball to within 0.45 of
+/// `place`.
 std::string random_place(Random& random, const glm::vec3& place) {
     const glm::vec3 axis = direction(random);
     const float size = std::exp2(uniform(random, -3, -1.2f));
@@ -39,8 +39,8 @@ std::string random_place(Random& random, const glm::vec3& place) {
         place.z);
 }
 
-/// 1,000 objects that do not overlap: rows of ten of three kinds, ten to a layer, and ten layers, each row and each
-/// layer turned, mirrored and scaled.
+/// 1,000 objects that do not overlap: rows of ten, of three kinds; ten rows per layer; ten layers. Each row and each
+/// layer is rotated, mirrored and scaled.
 std::string thousand_objects(Random& random) {
     std::string text = R"("objects": [
         {"name": "bead", "tree": {"under": [{"set": {"phase": "glass", "of": {"sphere": {"radius": 0.95}}}},
@@ -94,8 +94,8 @@ TEST_CASE("rays through 1,000 nested, scaled and mirrored objects are as through
         const glm::vec3 d = direction(random);
         const glm::vec3 origin = i % 2 == 0 ? target - 12.0f * d : target;
         REQUIRE(geometry.label(origin) == tree.label(origin));
-        // The tree is traced at the coarser resolution, and what is thinner than 2.75 of those may be passed. Brackets
-        // are as long as one, so what is about that thin may be left out of the one list and not of the other.
+        // The tree is traced at the coarser resolution, at which anything thinner than 2.75 resolutions may be missed.
+        // Brackets are up to one resolution long, so something about that thin may be in one list and not in the other.
         const std::vector<Step> all_a = straight_through(geometry, origin, d),
                                 all_b = straight_through(tree, origin, d);
         std::vector<Step> a = without_slivers(all_a, 4 * resolution), b = without_slivers(all_b, 4 * resolution);
@@ -116,8 +116,8 @@ TEST_CASE("rays through 1,000 nested, scaled and mirrored objects are as through
 }
 
 TEST_CASE("where objects touch, a ray goes from phase to phase and is in no vacuum between") {
-    // A shell of glass, a ball of water in it that was made at another size, and a block of oil on a block of glass,
-    // the whole turned about and far from the origin of all.
+    // A shell of glass with a ball of water in it that was modelled at another size, and a block of oil on a block of
+    // glass. Everything is rotated, and far from the origin.
     const std::string at = R"([{"rotate": {"axis": [1, 2, 3], "angle": 77}}, {"translate": {"by": [20, -30, 15]}}])";
     const std::string at_half = R"([{"scale": {"factor": 0.5}}, )" + at.substr(1);
     const Scene scene = scene_of(R"("objects": [
@@ -145,7 +145,7 @@ TEST_CASE("where objects touch, a ray goes from phase to phase and is in no vacu
             const glm::vec3 from = glm::vec3(to_scene(to)) - 3.0f * d;
             const glm::dvec3 local = to_scene.inverse()(from);
             const glm::dvec3 along = to_scene.inverse().matrix * glm::dvec3(d);
-            // How near the line through the drop comes to its middle, and whether the blocks are out of its way.
+            // How near the line comes to the middle of the drop, and whether it avoids the blocks.
             if (glm::length(local - along * glm::dot(local, along)) > 0.799) continue;
             std::string met;
             for (const Step& step : straight_through(geometry, from, d)) {
@@ -180,7 +180,7 @@ TEST_CASE("where objects touch, a ray goes from phase to phase and is in no vacu
                 const Hit hit = geometry.intersect(ray, counters);
                 const auto* surface = std::get_if<Surface>(&hit);
                 if (!surface) break;
-                // The ray was in the phase that it carries all the way.
+                // The ray was in its carried phase all the way.
                 if (surface->distance > 1e-3f)
                     REQUIRE(geometry.label(ray.origin + 0.5f * surface->distance * ray.direction) == ray.phase);
                 CHECK(surface->near_side.phase == ray.phase);
@@ -220,7 +220,8 @@ TEST_CASE("where objects overlap, the first is there, and rays end") {
 }
 
 TEST_CASE("of copies at the same place the first is met, also where Embree asks a later one before it") {
-    // The box of the second instance, a group, begins nearer to most rays than that of the first: it also holds beads.
+    // The box of the second instance, a group, begins nearer to most rays than that of the first, because it also
+    // contains beads.
     const Scene scene = scene_of(R"("objects": [
         {"name": "ball", "tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}},
         {"name": "bead", "tree": {"set": {"phase": "water", "of": {"sphere": {"radius": 0.01}}}}}],

@@ -187,7 +187,7 @@ class Renderer {
     SampleRange samples_;
     CameraPaths cameras_;
     bool recording_;
-    CameraRay axis_;  // from the camera's position when the shutter opens towards its target
+    CameraRay axis_;  // from the camera towards its target, as the shutter opens
     Film& film_;
     std::optional<NoiseLimit> noise_;
     std::vector<PixelRange> blocks_;  // tiles of the film, without those that have stopped

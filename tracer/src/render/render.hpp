@@ -20,8 +20,8 @@ struct RenderJob {
     /// Range of sample numbers of each pixel: [first, last). nullopt for all samples of the scene.
     std::optional<SampleRange> samples = std::nullopt;
     int threads = 0;  ///< 0: as many as there are cores
-    /// No pass starts that would not end by then, as estimated from the previous one. The first pass, and one after
-    /// training a guide, are always done.
+    /// A pass starts only if it will probably end by then, judging by the previous one. The first pass, and the first
+    /// after training a guide, always start.
     std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
     /// Called with the number of samples done since the last call, from any thread. Samples that a block omits because
     /// it has little noise count as done.
@@ -37,7 +37,7 @@ struct RenderJob {
 struct Rendering {
     Image image;
     /// Minimum samples per pixel of the image: fewer than requested if the rendering was cancelled or ran out of time.
-    /// If pixels stop by their noise, it is the mean, rounded down.
+    /// If pixels may stop early because they have little noise, it is the mean, rounded down.
     int samples = 0;
     std::size_t blocks = 0;        ///< number of blocks, see noise_limit.hpp
     std::size_t noisy_blocks = 0;  ///< blocks that have not stopped by their noise; 0 without a limit
@@ -61,7 +61,8 @@ Rendering render(const World& world, const Scene& scene, const RenderJob& job, F
 /// As above, starting with an empty film.
 Rendering render(const World& world, const Scene& scene, const RenderJob& job);
 
-/// The names from which the planes of a scene's film derive their channels.
+/// The names of the scene's phases, light groups and objects. The film's planes, its layers of output, name their
+/// channels after them.
 SceneNames scene_names_of(const Scene& scene);
 /// The settings of a scene's film. If pixels stop by their noise, they include the planes of noise and of sample
 /// numbers.

@@ -134,7 +134,8 @@ struct OrthographicKind : OrthographicParameters, CameraInFile {
     static constexpr KindInfo info{
         "orthographic",
         "An orthographic camera: all rays are parallel, so objects have the same size at any distance."};
-    /// The widest picture has an aspect ratio of 32,768, and rays start no farther away than `farthest`.
+    /// The maximum height. In the widest picture, which is 32,768 times as wide as high, rays then still start within
+    /// `farthest`, the limit of coordinates.
     static constexpr float highest = 1e10f;
 
     template <class V>

@@ -40,10 +40,10 @@ struct ExpectationContext {
     const std::vector<std::optional<double>>& densities;  // by phase, in kg/m³
 };
 
-// A statement, and the unit in which its volume or mass is written.
+// A statement, and the unit in which its volume or mass is printed.
 struct MadeStatement {
     Statement statement;
-    double unit = 1;  // in the unit of the statement's limits
+    double unit = 1;  // its size, in the unit of the statement's limits
     std::string unit_name{};
 };
 

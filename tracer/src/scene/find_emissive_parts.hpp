@@ -1,8 +1,8 @@
 // Finds the emitting phases and meshes, whether their surface or their interior emits, and covers them with balls,
 // towards which shadow rays are sent (lights/emissive_part.hpp).
 //
-// The choice of balls affects only the noise. Light from outside all balls is found by directions that paths sample,
-// and by shadow rays that were proposed for something else.
+// The choice of balls affects only the noise. Light from outside all balls is found by the directions that paths
+// sample, and by shadow rays that were aimed at something else.
 #pragma once
 
 namespace phasetree::tracer {

@@ -43,7 +43,8 @@ void put_string(Checksum& sum, const Document& document, Value value) {
 // Parts of a scene that have no effect on the samples of its pictures.
 constexpr std::array<std::string_view, 3> parts_without_effect{"render", "unit", "expect"};
 
-// Where a value is. What changes no picture is left out, so that films made before it was added are still recognised.
+// The place of a value in the file. Properties that change no picture, such as a phase's density, are left out of the
+// fingerprint. Films made before such a property was added to the scene are then still recognised.
 enum class Place { elsewhere, objects, object, phases, phase };
 
 Place place_in(Place outer, Value member) {

@@ -12,10 +12,10 @@
 
 namespace phasetree::tracer {
 
-/// A hash of everything that a scene file says about the scene: its JSON values in order, and the content of every file
-/// that one of its strings names. Different scenes have equal hashes with a probability of 2⁻⁶⁴. Ignores comments,
-/// whitespace, number formatting, and "render", which says how the picture is made and not what it shows. Includes the
-/// time at which the document is read.
+/// A hash of everything in a scene file that affects what a picture shows: its JSON values in order, and the content of
+/// every file that one of its strings names. Different scenes have equal hashes with a probability of 2⁻⁶⁴. Includes
+/// the time at which the document is read. Ignores comments, whitespace, number formatting, "render" (how the picture
+/// is made), "unit", "expect", and the densities of phases.
 std::uint64_t fingerprint(const Document& document);
 
 /// The settings of "render" that affect the sample with a given number, as names and values. Excludes the number of

@@ -24,7 +24,8 @@ bool has_meshes_alone(const Scene& scene) {
 }
 
 Phased object_beside_meshes_alone() {
-    // Rays leaving a mesh start farther from it if the object is larger than about a metre.
+    // Rays that leave a mesh start at an offset from it, which grows with the object's diagonal once that exceeds a
+    // metre (world/traced_geometry.cpp). This object is too small to matter.
     constexpr float size = 0.25f;
     return nothing_of_size(size);
 }

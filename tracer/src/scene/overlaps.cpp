@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_found = 12, most_found_of_objects = 3;
 constexpr std::size_t most_pairs = 200'000, most_evaluations_of_pair = 4096;
 constexpr std::size_t max_evaluations = 4'000'000;
-// Copies beyond these are ignored.
+// Only this many copies are checked.
 constexpr std::uint32_t most_looked_at = 2'000'000;
 // As a fraction of the smaller box's diagonal.
 constexpr double depth_that_counts = 1e-4;

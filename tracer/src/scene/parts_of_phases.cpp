@@ -110,8 +110,8 @@ class Brightness {
     }
 
   private:
-    // A flat surface across the box is near half of the points. Something near fewer of them, such as a rod, fills less
-    // of the box.
+    // A flat surface through the box is close to half of the 64 points. A surface that is close to fewer of them, such
+    // as that of a rod, fills less of the box.
     float of(const Glowing& glowing, const Bounds& box) const {
         constexpr float places_near_even_surface = 32;
         float near_surface = 0, sum = 0;

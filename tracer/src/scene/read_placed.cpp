@@ -236,8 +236,8 @@ class ObjectsReader {
             throw document_.error(group.key_offset(), fmt::format("an object is already named \"{}\"", name));
         if (std::ranges::find(open_, name) != open_.end())
             throw document_.error(group.key_offset(), fmt::format("the group \"{}\" contains itself", name));
-        // Groups may be listed before or after those that they name, so both limits are needed: one bounds this
-        // recursion, the other the rays' recursion.
+        // The depth is checked twice, because groups may be listed before or after those that they name: here for the
+        // recursion of this function, and below for the recursion of rays.
         const auto require_depth = [&](std::size_t depth) {
             if (depth > deepest)
                 throw document_.error(group.key_offset(),

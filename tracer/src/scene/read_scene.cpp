@@ -34,7 +34,7 @@ void refuse_misplaced_settings(ObjectReader& root) {
     }
 }
 
-// All parts of the file, including optional ones: a tree alone is useful too.
+// Reads the parts of the file. None is required here, because a tree alone is useful, too; see needed().
 FileParts parts_of(ObjectReader& root) {
     FileParts::parameters([&](auto, const auto& p) { root.allow({p.name}); });
     refuse_misplaced_settings(root);
@@ -44,7 +44,7 @@ FileParts parts_of(ObjectReader& root) {
     return parts;
 }
 
-// Returns a required part.
+// Returns a part that this use of the file requires.
 Value needed(ObjectReader& root, std::optional<Value> FileParts::*wanted) {
     std::string_view name;
     FileParts::parameters([&](auto part, const auto& p) {
@@ -120,7 +120,8 @@ bool must_be_whole(const FileParts& parts, Purpose purpose) {
 void read_placed_into(const Document& document, const Shutter& shutter, NodePlaces* places, Purpose purpose,
                       Scene& scene, std::vector<ObjectsModel::Source>& materials) {
     ObjectsModel model = read_placed_objects(document, shutter, places);
-    // A model is that of the document's time, but errors while the shutter is open count too.
+    // A model shows the document's time alone. Its objects are still read first for the whole time in which the shutter
+    // is open, so that errors at any time in it are reported.
     if (purpose == Purpose::model && (shutter.open != 0 || shutter.close != 0)) model = read_placed_objects(document);
     scene.phases = std::move(model.phases);
     scene.placed = std::move(model.placed);

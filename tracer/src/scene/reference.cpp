@@ -24,7 +24,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The kinds that a mesh may have.
+// The kinds of materials that a mesh may have.
 template <class... Kinds>
 std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     std::vector<KindPage> pages;

@@ -9,7 +9,7 @@
 
 namespace phasetree::tracer {
 
-// Statements cannot be shown.
+// The chapter on "expect", whose statements have no picture.
 inline constexpr std::string_view chapter_without_pictures = "Statements";
 
 std::vector<Chapter> scene_chapters();

@@ -29,10 +29,10 @@ struct RenderSettings {
     float noise = 0;   // the error at which pixels stop early (render/noise_limit.hpp); 0 to disable
     Techniques techniques = Techniques::all;
     std::uint32_t seed = 0;
-    // The maximum number of surfaces that a path meets, including those between equal indices, and of scattering points
-    // in media. Light beyond is lost.
-    // Where light is absorbed, Russian roulette ends paths long before this. In lossless glass, a few paths in a
-    // million meet thousands of surfaces, and cutting them off would lose light.
+    // The maximum number of surfaces that a path meets, including those between phases of equal refractive index, and
+    // of scattering points in media. Longer paths are cut off, and their light is lost. Where light is absorbed,
+    // Russian roulette ends paths long before this. In lossless glass, a few paths in a million meet thousands of
+    // surfaces, and cutting them off would lose light.
     int max_depth = 1 << 16;
     bool spectral = false;    // whether paths carry wavelengths instead of colours (spectrum/wavelengths.hpp)
     bool guiding = false;     // whether paths learn where light comes from (guiding/guide.hpp)
@@ -85,8 +85,9 @@ std::vector<std::string> object_names(const Scene& scene);
 
 // Reads the model of a file that need not be a complete scene, and checks everything else in it, with the same errors
 // in the same order as read_scene. A file with a camera needs a version and a material for each phase, as in
-// read_scene. A file without a camera needs neither, and its phases may have anything but an object instead of a
-// material. Does not check whether the object can be traced, seen and lit. Throws SceneError.
+// read_scene. A file without a camera needs neither: the value of a phase may then be any JSON value. It is read as a
+// material if it is a JSON object with more than parameters such as "density". Does not check whether the object can be
+// traced, seen and lit. Throws SceneError.
 SceneModel read_scene_without_camera(const Document& document);
 
 // As above, but does not open the files of lights, meshes, textures and voxels (Document::without_assets).

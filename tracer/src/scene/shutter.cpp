@@ -8,7 +8,8 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The number of equal steps. With this many, a rotation keyed by its angle stays a rotation.
+// The number of equal steps. From one to the next, a rotation takes the shorter way, so a rotation that is keyed by its
+// angle may make up to 8 turns while the shutter is open.
 constexpr int steps = 16;
 
 // Each moment reads all keys of the value.

@@ -20,9 +20,9 @@ struct Transform {
         const glm::dmat3 back = glm::inverse(matrix);
         return {back, -(back * by)};
     }
-    /// An upper bound on the factor by which lengths grow. It is exact for rotations, reflections, scaling, and a
-    /// stretch along the axes before them; otherwise it is at most 1.32 times too large. It is √‖MᵀM‖∞: the largest
-    /// singular value of M is √‖MᵀM‖₂, and a symmetric matrix has ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
+    /// An upper bound on the factor by which lengths grow. It is exact for a stretch along the axes that is followed by
+    /// rotations, reflections and uniform scaling; otherwise it is at most 1.32 times too large. It is √‖MᵀM‖∞: the
+    /// largest singular value of M is √‖MᵀM‖₂, and a symmetric matrix has ‖·‖₂ ≤ ‖·‖∞ ≤ √3 ‖·‖₂.
     double stretch() const {
         const glm::dmat3 squared = glm::transpose(matrix) * matrix;
         double most = 0;

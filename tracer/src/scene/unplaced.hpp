@@ -13,7 +13,7 @@ struct UnplacedGroup {
     std::vector<std::uint32_t> lost;  ///< its objects, through all its groups, that are placed nowhere in the scene
 };
 
-/// Groups that are only used by such groups are not listed, because they are instanced with those groups.
+/// Groups that are used only by such groups are not listed, because placing the latter places them, too.
 struct UnplacedGroups {
     std::vector<UnplacedGroup> found;  ///< only a few, in the order of the file
     std::size_t more = 0;              ///< number of further ones

@@ -26,7 +26,7 @@ struct ParameterPage {
 /// A node or another kind, with its parameters.
 struct KindPage {
     std::string name;
-    std::string section;   ///< of the paper; may be empty
+    std::string section;   ///< NodeInfo::section: of the paper (Galin et al.); may be empty
     std::string equation;  ///< may be empty
     std::string summary;
     /// Path of the example without extension, relative to the reference; may be empty. The picture has the extension
@@ -73,7 +73,7 @@ std::vector<KindPage> pages_of(TypeList<Kinds...>) {
 std::vector<Chapter> node_chapters();
 
 /// Format chapters as text for a terminal, with parameters, units, limits, defaults, equations and sections of the
-/// paper.
+/// paper (Galin et al.).
 std::string reference_text(std::span<const Chapter>);
 
 /// The title in lower case with hyphens, such as "operators-on-fields". It names the chapter's page and folder.

@@ -67,8 +67,9 @@ struct KnownShapes {
 Field read_field(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 Phased read_object(const Document&, const PhaseNames&, KnownShapes, const FileReaders& = {});
 
-/// Read a field that is outside the "tree" of a scene document: a node, or the name of one of the document's shapes. A
-/// document that is only a part of a scene has no shapes or phases. Throws SceneError like read_tree().
+/// Read a field that is outside the "tree" of a scene document: a node, or the name of one of the document's shapes.
+/// The document may be a part of a scene that has no "shapes" and "phases"; the node then cannot refer to any. Throws
+/// SceneError like read_tree().
 Field read_field(const Document&, Value, const FileReaders& = {});
 
 }  // namespace phasetree

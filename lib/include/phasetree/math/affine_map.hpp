@@ -9,8 +9,9 @@
 
 namespace phasetree {
 
-/// The affine map p ↦ A (p − before) − after, where A has the given rows. It is evaluated in this order. A step that
-/// does nothing does not affect the rounding of the others, so maps can be composed without changing values.
+/// The affine map p ↦ A (p − before) − after, where A has the given rows. It is evaluated in this order. Subtracting
+/// zero and multiplying by the unit matrix are exact. So two maps in which some steps do nothing can often be merged
+/// without changing values: see then().
 struct AffineMap {
     glm::vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     glm::vec3 before{0}, after{0};

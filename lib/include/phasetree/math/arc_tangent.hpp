@@ -5,8 +5,9 @@
 namespace phasetree {
 
 /// The angle in radians from the x axis to the direction (x, y), in [−π, π]; 0 for the zero vector. The error is at
-/// most 3 ulp of π. Computed here for the same reason as sine_cosine(). The polynomial interpolates atan(√z)/√z, z =
-/// (y/x)², at the Chebyshev nodes of [0, 1]; its error is 5·10⁻⁹, that of its derivative 7·10⁻⁸.
+/// most 3 ulp of π. Computed here because library functions differ between scalar and SIMD code. The polynomial
+/// interpolates atan(√z)/√z, z = (y/x)², at the Chebyshev nodes of [0, 1]; its error is 5·10⁻⁹, that of its derivative
+/// 7·10⁻⁸.
 template <class T>
 T angle_of(const T& x, const T& y) {
     constexpr float pi = 3.14159265358979f;

@@ -65,7 +65,8 @@ T clamp(const T& x, const T& low, const T& high) {
     return min(max(x, low), high);
 }
 
-/// Smooth union of two 1-Lipschitz fields with blending radius r (paper, Section 9.3, after Dekkers et al. 2004):
+/// Smooth union of two 1-Lipschitz fields with blending radius r (Galin et al., Section 9.3, after Dekkers et al.
+/// 2004):
 ///     s(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 /// The result is 1-Lipschitz, and at most r/6 below the plain minimum.
 template <class T>

@@ -88,9 +88,10 @@ concept ConvexPrimitive = requires {
     N::is_convex;
 };
 
-/// A convex solid with rounded edges whose distance is exact inside and outside. rolling_radius(p, reach) is a lower
-/// bound of the radius of curvature at the surface points nearest to points within `reach` of p: at each of them, a
-/// ball of this radius inside the solid touches the surface. It is infinite for a half-space.
+/// A convex solid with rounded edges whose distance is exact inside and outside. Consider all points within `reach` of
+/// p and, for each, the nearest point of the surface. rolling_radius(p, reach) is a lower bound of the radius of
+/// curvature there: at each of these surface points, a ball of this radius inside the solid touches the surface. It is
+/// infinite for a half-space.
 template <class N>
 concept RoundedPrimitive = ConvexPrimitive<N> && requires(const N& n, const glm::dvec3& p, double reach) {
     { n.rolling_radius(p, reach) } -> std::same_as<double>;

@@ -59,7 +59,7 @@ struct ChoiceParameter : Parameter {
 /// The description of a node in the reference.
 struct NodeInfo {
     std::string_view name;
-    std::string_view section;  ///< of the paper (model/handle.hpp); empty for standard operations on distance fields
+    std::string_view section;  ///< of Galin et al. (model/handle.hpp); empty for standard operations on distance fields
     std::string_view equation;
     std::string_view summary;
 };

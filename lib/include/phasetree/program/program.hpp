@@ -16,17 +16,17 @@ enum class Op : std::uint16_t {
     subtract,           ///< a − b
     minimum,            ///< a < b ? a : b
     maximum,            ///< a > b ? a : b
-    far_bound,          ///< max(a, b): a field a, and a bound b that is larger far outside; a alone has the sign
-    far_bound_inside,   ///< min(a, b): a field a, and a bound b that is smaller far inside; a alone has the sign
+    far_bound,          ///< max(a, b): a field a, and a bound b that exceeds it far outside; the sign is that of a
+    far_bound_inside,   ///< min(a, b): a field a, and a bound b that is below it far inside; the sign is that of a
     absolute,           ///< |a|
     add_constant,       ///< a + c
     constant_minus,     ///< c − a
     multiply_constant,  ///< a · c
     smooth_minimum,     ///< smin(a, b, r = c)
-    guarded,            ///< max(a, min(b, c − a)): field b may jump between copies; the bound a keeps it 1-Lipschitz
-    falloff,            ///< (1 − (a/c)²)³, zero for a > c
-    corner,  ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
-    nearer,  ///< max((a − b)/2, a): the part of solid a where no solid b is nearer
+    guarded,  ///< max(a, min(b, c − a)): field b with a bound a; equals a where a ≥ c/2, so b may jump there
+    falloff,  ///< (1 − (a/c)²)³, zero for a > c
+    corner,   ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
+    nearer,   ///< max((a − b)/2, a): the part of solid a where no solid b is nearer
     first_primitive
 };
 

@@ -125,10 +125,11 @@ void run(const float* data, const Vec3<T>& p, T* value) {
 ///
 /// Its minima, maxima, absolute values, negations and added constants become ordinary instructions, unless they are
 /// inside other functions. The remaining sums, products and roots become primitives: terms. All are divided by λ, a
-/// bound of the slope that is found by enclosure (src/nodes/formula_slope).
+/// bound of the slope that is found by enclosure (src/nodes/formula/slope.hpp).
 ///
-/// If the author gives bounds, λ holds in a box B around the part of the solid within them. Points outside are
-/// projected onto B, and the distance to B takes over where it is larger, as with local warps (nodes/warps/warped.hpp).
+/// The formula's author may give a box. B is then the box around the part of the solid inside it, and λ bounds the
+/// slope only in B. Points outside are projected onto B, and the distance to B takes over where it is larger, as with
+/// local warps (nodes/warps/warped.hpp).
 struct Formula {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
@@ -167,7 +168,7 @@ struct Formula {
     // Everything below is derived.
     std::vector<Term> terms{};
     std::vector<Part> parts{};  ///< the last one is the formula
-    BoundingBox bound{};        ///< B: around the part of the solid in the author's box; λ holds there
+    BoundingBox bound{};        ///< B: around the part of the solid in the author's box; λ bounds the slope in it
     float lipschitz = 1;        ///< λ: the maximum bound over all terms; 1 if the formula is nearly constant
 
     template <class V>

@@ -11,10 +11,10 @@ namespace phasetree {
 
 /// The terrain z < h(x, y) of an image. h is the biquadratic B-spline of the pixels: smooth, within their range, and
 /// with slopes that are averages of the differences between neighbours. With the largest of these differences along x
-/// and y, Lx and Ly, f = (z − h)/√(1 + Lx² + Ly²) is 1-Lipschitz. Because the heights are between low and high, so is
+/// and y, Lx and Ly, f = (z − h)/√(1 + Lx² + Ly²) is 1-Lipschitz. So is
 ///     min(max(f, z − high), z − low),
-/// which has the sign of f everywhere and full slope away from the surface. Beyond its edges the image continues with
-/// the values at its border.
+/// which has slope 1 away from the surface. It has the sign of f everywhere, because the heights are between low and
+/// high. Beyond its edges the image continues with the values at its border.
 struct HeightMap {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"height_map", "7.1",

@@ -25,7 +25,7 @@ struct Siren {
         std::vector<float> values{};
 
         std::span<const float> data() const { return values; }
-        static constexpr bool is_best_in_small_boxes = true;  ///< see OpTraits
+        static constexpr bool is_best_in_small_boxes = true;  ///< expensive, with much better bounds in small boxes
         /// Encloses the values in a box inside the cube by Taylor polynomials.
         static std::optional<enclosure::Enclosure> enclosed(const float* data, const Vec3<enclosure::Enclosure>& q,
                                                             const std::array<double, 3>& half);

@@ -48,6 +48,7 @@ struct VoronoiSites {
     T moved(const T& hash) const {
         return hash * (jitter / 288.f);
     }
+    /// The lowest position, along one axis, that the jitter allows for a site in the cube that is `step` cubes ahead.
     template <class T>
     T from_corner(const T& step) const {
         return step + 0.5f - 0.5f * jitter;
@@ -83,8 +84,8 @@ struct VoronoiSites {
         std::array<double, 3> position;  ///< in cubes
         double distance;                 ///< from the centre of the search
     };
-    /// Selects sites around a point: those no farther than `most`, at most `beyond` farther than the nearest of them,
-    /// and with a hash in [low, high).
+    /// Selects the sites with a hash in [low, high) that are at most `most` from a point, and at most `beyond` farther
+    /// than the nearest site with such a hash. Lengths are in cubes.
     struct Search {
         std::array<double, 3> centre{};
         double most = 0, beyond = 0;

@@ -38,7 +38,7 @@ struct VoxelLattice {
 struct VoxelGrid {
     static constexpr int block_side = 8, kept_side = 10;
     static constexpr std::size_t kept_values = 1000;
-    /// Limits of readers and nodes: stored values, half a gigabyte, and voxels along an axis.
+    /// Limits of readers and nodes: the number of stored values (half a gigabyte), and of voxels along an axis.
     static constexpr std::size_t max_values = 120'000'000;
     static constexpr int max_along_axis = 8192;
 
@@ -82,8 +82,8 @@ struct VoxelGrid {
     /// Move all voxels so that the centre of the first one is at this point.
     void move_first_to(const glm::dvec3&);
 
-    /// A box around all points whose value depends on a voxel in a block that has a value of at most `level`; empty if
-    /// there are none.
+    /// Consider the blocks that contain a value of at most `level`. Returns a box around all points whose value depends
+    /// on a voxel of these blocks; empty if there are none.
     Bounds blocks_below(float level) const;
     /// From half a voxel before the first voxels' centres to half a voxel after the last ones'.
     Bounds extent() const;
@@ -117,14 +117,16 @@ inline float feature_size(const float* data) {
 }
 
 /// The numbers from which the value at a point is computed: the three indices of the first voxel (linear) or of the
-/// middle one (spline), and the values of all voxels, x fastest. N is float, or another number type if the voxels are
-/// not known beforehand.
+/// middle one (spline), and the values of the 8 or 27 voxels around the point, x fastest. N is float if they were
+/// looked up for one point. In batches and shaders it is the number type of the equation, because the voxels differ
+/// between lanes, or are looked up only while the shader runs.
 template <class N>
 using EightVoxels = std::array<N, 3 + 8>;
 template <class N>
 using TwentySevenVoxels = std::array<N, 3 + 27>;
 
-/// Find these numbers; for gathered_equation().
+/// Look up these numbers for a point, and write them to to[0], to[stride], …: the search of gathered_equation()
+/// (math/found_equation.hpp).
 void gather_eight(const float* data, const Vec3<float>&, float* to, std::size_t stride);
 void gather_twenty_seven(const float* data, const Vec3<float>&, float* to, std::size_t stride);
 
@@ -181,7 +183,7 @@ template <class T, class N>
     return sum;
 }
 
-/// The value of a voxel that is not known beforehand.
+/// The value of the voxel with the indices x, y, z, for shaders: the indices are known only while the shader runs.
 template <class T>
 T looked_up(const float* data, const T& x, const T& y, const T& z) {
     const auto block = [](const T& i) { return floor(i * 0.125f); };

@@ -4,8 +4,9 @@
 
 namespace phasetree {
 
-/// The equation of φₖ contains aᵢ, the component of A before the change. The paper's equation has φᵢ there, which was
-/// just reduced.
+/// A is the object `of`, i the phase `from`, k the phase `to`, and f the field of `shape`. The equation of φₖ contains
+/// aᵢ, the component of A before the change. The one in the paper (Galin et al.) contains φᵢ instead, from which the
+/// shape has already been removed.
 struct Change {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"change", "5.2", "φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀",

@@ -29,7 +29,8 @@ struct CheckerCells {
     }
 };
 
-/// The paper's equation is for unit cubes; here distances are scaled by the cubes' size. There is no vacuum.
+/// The equation of the paper (Galin et al.) is for unit cubes; here distances are scaled by the cubes' size. There is
+/// no vacuum.
 struct Checker {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"checker", "9.1",

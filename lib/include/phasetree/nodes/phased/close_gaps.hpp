@@ -17,9 +17,10 @@ namespace phasetree {
 /// is negative. The phases grow one by one, in the order of K, each below all materials that are already there, as in
 /// unite_shape_below. All dₖ are computed from the original components, so filling one gap does not widen the next.
 ///
-/// *I1.* dₖ is half the sum of two 1-Lipschitz functions and a constant.
+/// *I1*, every component is 1-Lipschitz: dₖ is half the sum of two 1-Lipschitz functions and a constant.
 ///
-/// *I2.* Let φ be the components before k grows, and φ' those afterwards. Only two components change:
+/// *I2*, φᵢ + φⱼ ≥ 0 for i ≠ j: let φ be the components before k grows, and φ' those afterwards. Only two components
+/// change:
 ///
 ///     φ'ₖ = max(min(φₖ, dₖ), −m),  m = min over j ≠ 0, k of φⱼ,        φ'₀ = max(φ₀, −dₖ).
 ///

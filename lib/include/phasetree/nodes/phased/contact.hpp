@@ -5,26 +5,29 @@
 namespace phasetree {
 
 namespace detail {
-/// A ∪₋ B, except where a part A_K of A meets a part B_L of B: the two press against each other and share the overlap.
-/// B_L loses A_K ∩ {f < 0} to A,
+/// Two objects pressed against each other. Let K be some of the phases of A, and A_K the union of these phases;
+/// likewise B_L for phases L of B. The result is A ∪₋ B (B replaces A where both are present, under.hpp), except in the
+/// overlap of A_K and B_L, which the two share: B_L loses A_K ∩ {f < 0} to A,
 ///
 ///     f = α a_K − (1 − α) b_L,    a_K < 0 within A_K,  b_L < 0 within B_L,  b_L ≤ bⱼ for j in L.
 ///
-/// This is A ∪₋ B with b'ⱼ = max(bⱼ, −f) instead of bⱼ, j ∈ L. Within A_K ∩ B_L, f decides. In B_L outside A_K both
-/// terms of −f are negative, so B keeps it. Outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀), because what B loses is within
-/// A.
+/// So the result is A ∪₋ B with b'ⱼ = max(bⱼ, −f) instead of bⱼ for j ∈ L. Within A_K ∩ B_L, the sign of f decides. In
+/// B_L outside A_K, both terms of −f are negative, so B keeps that part. Outside Bⱼ, b'ⱼ ≥ bⱼ > 0. φ₀ = max(a₀, b₀),
+/// because the part that B loses is within A.
 ///
-/// The invariants I1 and I2 of lib/README.md: I1 holds because f is a convex combination. I2: b' ≥ b preserves the
-/// proof for ∪₋, including φ₀, because φ₀ ≥ b₀.
+/// *I1*, every component is 1-Lipschitz: f is a convex combination of a_K and −b_L.
+///
+/// *I2*, φᵢ + φⱼ ≥ 0 for i ≠ j (lib/README.md): b' ≥ b, so b' satisfies it as B does. The result then satisfies it by
+/// the proof in under.hpp.
 ///
 /// For two objects with one phase each, the result is max(aᵢ, f) and max(bⱼ, −f): ∪₋ gives φᵢ = max(aᵢ, min(−bⱼ, f)),
-/// and f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ) is at most aᵢ where aᵢ + bⱼ ≥ 0, and at most −bⱼ elsewhere.
+/// and f = aᵢ − (1 − α)(aᵢ + bⱼ) = −bⱼ + α(aᵢ + bⱼ). Where aᵢ + bⱼ ≥ 0, both −bⱼ and f are at most aᵢ, so max(aᵢ,
+/// min(−bⱼ, f)) and max(aᵢ, f) are both aᵢ. Elsewhere f ≤ −bⱼ, so min(−bⱼ, f) = f.
 template <class S>
 Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S& b_l, PhaseSet l, float alpha) {
     const S f = a_k * alpha - b_l * (1.f - alpha);
     Phases<S> retreated = b;
-    // The operands are in this order because, far enough away that distances overflow, f is ∞ − ∞, and max(NaN, x) is
-    // x.
+    // −f comes first: where distances overflow, f is ∞ − ∞, which is NaN, and max(NaN, x) is x.
     for_each_phase(b.present & l.bits, [&](int j) { retreated.set(j, max(-f, b[j])); });
     return under(a, retreated);
 }
@@ -35,8 +38,8 @@ inline constexpr Parameter contact_alpha{
     limits::fraction};
 }  // namespace detail
 
-/// The signs of f are the opposite of the paper's, whose φᵢ = max(aᵢ, −f), φⱼ = max(bⱼ, f) would leave most of A ∪ B
-/// empty. For α → 0, f tends to −bⱼ, and B gets the whole overlap.
+/// The paper (Galin et al., Section 4.4) has φᵢ = max(aᵢ, −f) and φⱼ = max(bⱼ, f), which would leave most of A ∪ B
+/// empty. Here the signs of f are reversed. For α → 0, f tends to −bⱼ, and B gets the whole overlap.
 ///
 /// Everything outside the contact is as in A ∪₋ B: the other phases of A and B remain, and those of B replace those of
 /// A.

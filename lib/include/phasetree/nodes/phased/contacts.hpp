@@ -5,8 +5,9 @@
 namespace phasetree {
 
 /// A_K is the union of the phases K of A. a_K = −min aₖ over all phases not in K, including the vacuum: the depth in
-/// the union as a whole. (The minimum over K of aₖ would be zero on the interfaces within it.) By I2, it is at most aₖ
-/// for each k ∈ K. In contrast, `contact` uses the depth in a single phase, which its neighbours make shallow.
+/// the union as a whole. (The minimum over K of aₖ would be zero on the interfaces within it.) By I2 (φᵢ + φⱼ ≥ 0 for i
+/// ≠ j), it is at most aₖ for each k ∈ K. In contrast, `contact` uses the depth in a single phase, which its neighbours
+/// make shallow.
 struct Contacts {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{

@@ -4,8 +4,8 @@
 
 namespace phasetree {
 
-/// The minimum over all pairs of max(aᵢ, aⱼ) is the second smallest component, found in one pass. As in the paper, the
-/// vacuum is not part of any pair: the surface of the object is not one of its interfaces.
+/// The minimum over all pairs of max(aᵢ, aⱼ) is the second smallest component, found in one pass. As in the paper
+/// (Galin et al.), the vacuum is not part of any pair: the surface of the object is not one of its interfaces.
 struct Interfaces {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"interfaces", "7.4",

@@ -4,8 +4,8 @@
 
 namespace phasetree {
 
-/// The phase-specific form keeps Aₖ ∩ S. What Section 5.1 of the paper prints under this name is the union of Aₖ with S
-/// below the other phases.
+/// The phase-specific form keeps Aₖ ∩ S. What the paper (Galin et al., Section 5.1) prints under this name is the union
+/// of Aₖ with S below the other phases: unite_shape_below.
 struct IntersectShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{

@@ -23,8 +23,8 @@ struct PeriodicSlab {
     }
 };
 
-/// The paper has two phases of equal thickness; this node allows any number of phases and thicknesses. A phase that is
-/// listed several times is the union of its slabs.
+/// The paper (Galin et al.) has two phases of equal thickness; this node allows any number of phases and thicknesses. A
+/// phase that is listed several times is the union of its slabs.
 struct Layers {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"layers", "9.1",

@@ -1,4 +1,4 @@
-// Shared code of intersection and difference with a shape, for all phases or some of them (paper, Section 5.1).
+// Shared code of intersection and difference with a shape, for all phases or some of them (Galin et al., Section 5.1).
 //
 // The vacuum grows by what is cut away: φ₀ = min(a₀, max(aₖ, g) over the cut phases k). g = −f, where f is the field of
 // what is kept, so the inside of g is what is removed. If all phases are cut, this is min(a₀, g), because points

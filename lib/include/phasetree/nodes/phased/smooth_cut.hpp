@@ -1,5 +1,5 @@
-// Shared code of smooth intersection and difference of one phase with a shape (paper, Section 5.3). g is the field of
-// what is kept:
+// Shared code of smooth intersection and difference of one phase with a shape (Galin et al., Section 5.3). g is the
+// field of what is kept:
 //
 //     Bₖ = {s < 0},  s = −smin(−aₖ, −g);    Bᵢ = Aᵢ;    vacuum: A₀ ∪ (Aₖ − Bₖ).
 //
@@ -12,7 +12,7 @@
 //
 //     φ₀ = min(a₀, max(aₖ, −s, −g − r))
 //
-// I2: φₖ + φ₀ ≥ min(aₖ + a₀, s − s),  φₖ + aᵢ ≥ aₖ + aᵢ,  φ₀ + aᵢ ≥ min(a₀ + aᵢ, aₖ + aᵢ).
+// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φₖ + φ₀ ≥ min(aₖ + a₀, s − s),  φₖ + aᵢ ≥ aₖ + aᵢ,  φ₀ + aᵢ ≥ min(a₀ + aᵢ, aₖ + aᵢ).
 #pragma once
 
 #include "phasetree/nodes/fields/fold.hpp"

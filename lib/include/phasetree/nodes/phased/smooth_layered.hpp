@@ -6,7 +6,8 @@
 namespace phasetree {
 
 /// The layer is L = {m < 0} ∩ A₀ and the vacuum A₀ − L: φ₀ = max(a₀, −m).
-/// I2: φₖ + φ₀ ≥ m − m, φₖ + aᵢ ≥ a₀ + aᵢ, φ₀ + aᵢ ≥ a₀ + aᵢ.
+///
+/// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φₖ + φ₀ ≥ m − m, φₖ + aᵢ ≥ a₀ + aᵢ, φ₀ + aᵢ ≥ a₀ + aᵢ.
 struct SmoothLayered {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_layered", "4.5",

@@ -21,7 +21,7 @@ inline constexpr Parameter blended_shape{"shape", "", "The field to add."};
 
 /// Bₖ = {s < 0},  Bᵢ = Aᵢ − Bₖ,  and the vacuum A₀ − Bₖ: φ₀ = max(a₀, −s).
 ///
-/// I2: each sum with φₖ is ≥ s − s; every other sum is ≥ the same sum of A.
+/// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): each sum with φₖ is ≥ s − s; every other sum is ≥ the same sum of A.
 struct SmoothUniteShape {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_unite_shape", "5.3",

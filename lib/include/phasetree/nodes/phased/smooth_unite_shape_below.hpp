@@ -6,7 +6,7 @@ namespace phasetree {
 
 /// Bₖ = {s < 0} − ∪ over j ≠ k of Aⱼ,  Bᵢ = Aᵢ,  and the vacuum A₀ − {s < 0}, as with the union over the other phases.
 ///
-/// I2: φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0,  φₖ + φ₀ ≥ s − s,  aᵢ + φ₀ ≥ aᵢ + a₀.
+/// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0,  φₖ + φ₀ ≥ s − s,  aᵢ + φ₀ ≥ aᵢ + a₀.
 struct SmoothUniteShapeBelow {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"smooth_unite_shape_below", "5.3",

@@ -5,8 +5,8 @@
 namespace phasetree {
 
 namespace detail {
-/// A ∪₋ B: B replaces A where both are present. The paper's "−min φ_B" is over the *other* phases of B, and the vacuum
-/// is not one of them.
+/// A ∪₋ B: B replaces A where both are present. The "−min φ_B" of the paper (Galin et al.) is over the *other* phases
+/// of B, and the vacuum is not one of them.
 ///
 /// *I2*, φᵢ + φⱼ ≥ 0 for i ≠ j (lib/README.md), is preserved. Let i and j be materials. If aᵢ ≤ bᵢ and aⱼ ≤ bⱼ, then φᵢ
 /// + φⱼ ≥ aᵢ + aⱼ ≥ 0. If bᵢ is the smaller, φᵢ ≥ bᵢ, and φⱼ ≥ −bᵢ because bᵢ is among the others of j; likewise for

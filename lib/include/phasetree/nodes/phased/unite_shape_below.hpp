@@ -4,10 +4,10 @@
 
 namespace phasetree {
 
-/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. Section 5.1 of the paper prints these sets correctly,
-/// but under the wrong name: as the phase-specific intersection.
+/// Aₖ ∪ S − ∪ over j ≠ k of Aⱼ, which is {S filled with k} ∪₋ A. The paper (Galin et al., Section 5.1) prints these
+/// sets correctly, but under the wrong name: as the phase-specific intersection.
 ///
-/// I2: φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0, and φₖ + φ₀ ≥ min(aₖ + a₀, f − f).
+/// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φₖ + aᵢ ≥ −min aⱼ + aᵢ ≥ 0, and φₖ + φ₀ ≥ min(aₖ + a₀, f − f).
 struct UniteShapeBelow {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"unite_shape_below", "5.1",

@@ -1,6 +1,6 @@
-// A simpler volume that replaces a field or an object at points away from that volume (paper, Sections 4.1 and 7.3;
-// Hubert-Brierre et al., "Accelerating Signed Distance Functions", 2025). A bounding node that switches, "b > m ? b :
-// f", is discontinuous, and anything built on it is no longer 1-Lipschitz. This one stays 1-Lipschitz (see "Fields
+// A simpler volume that replaces a field or an object at points away from that volume (Galin et al., Sections 4.1 and
+// 7.3; Hubert-Brierre et al., "Accelerating Signed Distance Functions", 2025). A bounding node that switches, "b > m ?
+// b : f", is discontinuous, and anything built on it is no longer 1-Lipschitz. This one stays 1-Lipschitz (see "Fields
 // above a discontinuity" in lib/README.md):
 //
 //     g(f) = max(b, min(f, 2m − b))
@@ -13,9 +13,9 @@
 //
 //     φᵢ ← g(φᵢ) for i ≠ k,    φₖ ← −g(−φₖ)
 //
-// therefore preserves I2: φᵢ ≥ −φₖ gives g(φᵢ) ≥ g(−φₖ). Of two other phases i and j, at least one is not negative. If
-// φᵢ < 0 < −φᵢ ≤ φⱼ, then b < 0, and g(φᵢ) + g(φⱼ) is at least φᵢ + φⱼ or max(b, φᵢ) + 2m − b, neither of which is
-// negative.
+// therefore preserves I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φᵢ ≥ −φₖ gives g(φᵢ) ≥ g(−φₖ). Of two other phases i and j, at least
+// one is not negative. If φᵢ < 0 < −φᵢ ≤ φⱼ, then b < 0, and g(φᵢ) + g(φⱼ) is at least φᵢ + φⱼ or max(b, φᵢ) + 2m − b,
+// neither of which is negative.
 #pragma once
 
 #include "phasetree/model/concepts.hpp"

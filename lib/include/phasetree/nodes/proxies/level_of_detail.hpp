@@ -12,8 +12,8 @@ namespace detail {
 /// zeroes would cross what both have in common:
 ///     s(a, b) = min(max(a, n), max(b, −n), max(a, b)).
 /// s increases with a and b, and −s(−a, −b) = s(a, b), because the minimum of these three maxima is the maximum of the
-/// three minima. For objects, aᵢ ≥ −aⱼ and bᵢ ≥ −bⱼ therefore give s(aᵢ, bᵢ) ≥ −s(aⱼ, bⱼ): I2 is preserved, with the
-/// vacuum as one more component.
+/// three minima. For objects, aᵢ ≥ −aⱼ and bᵢ ≥ −bⱼ therefore give s(aᵢ, bᵢ) ≥ −s(aⱼ, bⱼ). So I2 (φᵢ + φⱼ ≥ 0 for i ≠
+/// j) is preserved, with the vacuum as one more component.
 template <class T>
 T switched(const T& n, const T& a, const T& b) {
     return min(min(max(a, n), max(b, -n)), max(a, b));

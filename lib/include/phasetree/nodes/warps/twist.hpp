@@ -6,9 +6,10 @@
 
 namespace phasetree {
 
-/// Rotates each slice z = const by k·z; ω⁻¹ rotates it back. J is a rotation times the shear (ρ dθ, dz) ↦ (ρ dθ − kρ
-/// dz, dz). Its largest singular value at distance ρ from the axis is (|k|ρ + √(k²ρ² + 4)) / 2. This is unbounded in
-/// space, so λ is taken over the object's bounds; see warped.hpp.
+/// The warp ω rotates each slice z = const by k·z. Its inverse ω⁻¹, which maps points to where the child is evaluated,
+/// rotates it back. The Jacobian J of ω⁻¹ is a rotation times the shear (ρ dθ, dz) ↦ (ρ dθ − kρ dz, dz). At distance ρ
+/// from the axis, its largest singular value is (|k|ρ + √(k²ρ² + 4)) / 2. This is unbounded in space, so λ, by which
+/// distances are divided, is the largest value within the object's bounds (warped.hpp).
 struct Twist {
     static constexpr NodeInfo info{"twist", "6",
                                    "φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds",
@@ -38,7 +39,7 @@ struct Twist {
     }
     Map map() const { return {glm::radians(rate)}; }
     float value_scale() const {
-        // The box around the circle extends √2 further at its corners.
+        // The corners of image(), the box around the circle of radius `reach`, are √2 times as far from the axis.
         const float k = std::abs(glm::radians(rate)) * reach * 1.41422f;
         return 2.f / (k + std::sqrt(k * k + 4.f)) * (1.f - 1e-6f);
     }

@@ -1,5 +1,5 @@
-// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ with λ ≥ sup ‖J of ω⁻¹‖ (paper, Section 6). A warp is a struct
-// with its parameters and
+// A warp deforms space: ω(A) has Φ(p) = Φ_A(ω⁻¹(p)) / λ where λ ≥ sup ‖J‖ for the Jacobian J of ω⁻¹ (Galin et al.,
+// Section 6). A warp is a struct with its parameters and
 //
 //     Map map() const                 p ↦ ω⁻¹(p), a PointMap: one instruction of the program
 //     float value_scale() const       1/λ
@@ -133,7 +133,8 @@ struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
 /// Makes a warped object an object node. An object can be warped in part: W, the warped object of the chosen phases, is
-/// put over or under R, the unwarped rest. The paper's equations of D(A, k) are the special case of one phase, over.
+/// put over or under R, the unwarped rest. The equations of D(A, k) in the paper are the special case of one phase,
+/// over.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;

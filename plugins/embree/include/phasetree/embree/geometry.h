@@ -32,7 +32,7 @@ typedef enum PhasetreeGeometryFlags {
      *   - the object can only be moved by instances.
      * The number of primitives in the application's scene grows by the number of cells, and changes with
      * phasetreeSetGeometryTree. The geometry's own scene is still built when it is first needed: by
-     * phasetreeFindClosestInterface, or by phasetreeDecodeHit if the hit's primID is not the cell that contains it. */
+     * phasetreeFindClosestInterface, or by phasetreeDecodeHit for a hit whose primID does not name its cell. */
     PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 

@@ -76,8 +76,9 @@ typedef struct PhasetreeRay {
      * modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
-    /* Out: the crossing of the last hit that a phasetree geometry reported for the ray. If the ray's final hit is on a
-     * phasetree geometry, it is that hit; its normal is in RTCHit. Unchanged by occlusion queries. */
+    /* Out: the crossing of the hit that a phasetree geometry reported last during the query. If the closest hit, which
+     * the query returns, is on a phasetree geometry, this is its crossing; its normal is in RTCHit. Unchanged by
+     * occlusion queries. */
     PhasetreeHit hit;
 } PhasetreeRay;
 
