@@ -61,7 +61,7 @@ struct PlaneList {
 };
 
 /// The sums of the chosen planes for this many pixels.
-template <class Picture, class... Others>
+template <PlaneKind Picture, PlaneKind... Others>
 class PlaneList<Picture, Others...>::Sums {
   public:
     Sums(const Choice& choice, const SceneNames& scene_names, std::size_t pixels) {
