@@ -62,7 +62,7 @@ class CommandLine(unittest.TestCase):
         for frames in (["-f", "1"], ["-s", "1", "-e", "2", "-a"]):
             done = self.blender("--python-expr", broken, "-o", f"{self.folder}/frame_", "-F", "PNG", *frames)
             self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-            self.assertIn('phasetree: error: the camera "Camera" is pano', done.stdout)
+            self.assertIn("phasetree: error: the camera's panorama is of the type", done.stdout)
             self.assertEqual(list(self.folder.glob("frame_*")), [])
             self.assertEqual(self.left_over(), [])
 

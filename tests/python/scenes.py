@@ -154,7 +154,7 @@ class Files(unittest.TestCase):
         self.assertEqual(again, scene)
         self.assertIsNone(again.object)
         self.assertGreater(again.render().pixels.min(), 0)
-        with self.assertRaisesRegex(pt.Error, "meshes alone"):
+        with self.assertRaisesRegex(pt.Error, "only meshes"):
             scene.with_(meshes=())
 
     def test_a_medium_s_density_and_temperature_are_voxels(self):
