@@ -90,7 +90,7 @@ TEST_CASE("wrong arguments: one error, exit code 2, or 1 if output cannot be wri
     CHECK(shell.run({"rendre", "scene.json"}).err ==
           "phasetree: unknown subcommand \"rendre\" (did you mean \"render\"?)\n");
     CHECK(shell.run({"nothing"}).err ==
-          "phasetree: unknown subcommand \"nothing\" (choose from render, view, merge, farm, check, info, eval, "
+          "phasetree: unknown subcommand \"nothing\" (choose from render, new, view, merge, farm, check, info, eval, "
           "trace, measure, solve, slice, nodes, export, import)\n");
     CHECK(shell.run({"--help"}).code == 0);
     CHECK(shell.run({"render", "--help"}).code == 0);

@@ -16,7 +16,7 @@ struct FoundPiece {
 };
 
 /// All pieces of a mesh with a hierarchy of boxes: a PieceList, followed by the number of nodes; the nodes, each parent
-/// before its children; and for each face, the numbers of its three vertices (lib/src/nodes/mesh_tree_view.hpp).
+/// before its children; and for each face, the numbers of its three vertices.
 struct PieceTree {
     /// Layout of a node: its box; the index of its second child, or 0 for a leaf (the first child follows the node);
     /// and for each kind of piece, the first one in the leaf and their number.
