@@ -130,7 +130,7 @@ TROUBLES = {
          "WebGL2RenderingContext.prototype.shaderSource = function(s, t) { f.call(this, s, t + 'nonsense'); }",
          "does not compile"),
     "data that are cut off":
-        ("const f = window.atob; window.atob = t => f(t).slice(0, 100)", "could not be opened"),
+        ("const f = window.atob; window.atob = t => f(t).slice(0, 100)", "cannot be opened"),
 }
 
 
@@ -157,7 +157,7 @@ def troubles(chromium, page, width, height):
     try:
         opened(browser, page)
         browser.value("document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
-        expect("a driver that gives up", browser, "gave up")
+        expect("a driver that gives up", browser, "stopped drawing")
     finally:
         browser.close()
     return wrong
