@@ -105,7 +105,8 @@ TEST_CASE("triangles: what is wrong is said in a line, and no file is written") 
     refused({"scene.json", "-o", "a.stl", "--scale", "3e38"}, "would be too large");
     refused({"scene.json", "-o", "a.stl", "--scale", "1e-40"}, "would be too small");
     refused({"scene.json", "-o", "a.stl", "--grid", "8"}, "--grid is for .glsl");
-    refused({"scene.json", "-o", "a.html", "--scale", "2"}, "--scale is for triangles and voxels, and .html files have neither");
+    refused({"scene.json", "-o", "a.html", "--scale", "2"},
+            "--scale is for triangles and voxels, and .html files have neither");
     refused({"scene.json", "-o", "a.glsl", "--phase", "glass"}, "--phase is for triangles, and .glsl files have none");
     refused({"scene.json", "-o", "{phase}.obj"}, "{phase} requires an .stl file");
     refused({"thin.json", "-o", "a.stl", "--spacing", "0.5"}, "there are no triangles");

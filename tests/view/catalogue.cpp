@@ -63,7 +63,8 @@ std::string stack_of_labels() {
     const fs::path folder = fs::temp_directory_path();
     for (const char* const layer : {"0", "1"})
         std::ofstream(folder / fmt::format("phasetree-labels-{}_{}.pgm", ::getpid(), layer), std::ios::binary)
-            << "P5\n2 2\n255\n" << '\1' << '\2' << '\2' << '\1';
+            << "P5\n2 2\n255\n"
+            << '\1' << '\2' << '\2' << '\1';
     return (folder / fmt::format("phasetree-labels-{}_#.pgm", ::getpid())).string();
 }
 
@@ -88,7 +89,8 @@ std::string scene_with(const CatalogueKind& kind, const std::string& instance) {
     const std::string& type = kind.type;
     const auto mesh = [&](const std::string& material) {
         const bool needs_colors = kind.name == "vertex_color";
-        const std::string file = needs_colors ? file_of_example(kind) : (scenes() / "reference/meshes/vase.obj").string();
+        const std::string file =
+            needs_colors ? file_of_example(kind) : (scenes() / "reference/meshes/vase.obj").string();
         return std::string("\"meshes\": [{\"") + (file.ends_with(".ply") ? "ply" : "obj") + R"(": {"file": ")" + file +
                R"(", "material": )" + material + "}}]";
     };
