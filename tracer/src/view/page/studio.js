@@ -16,6 +16,7 @@ import {TextDrawer} from "./text_drawer.js";
 const element = (id) => document.getElementById(id);
 
 export class Studio {
+  #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
 
   // `view` has canvas, camera(), radius(), tabs, lookAt(centre), changed() and lost(error).
@@ -81,6 +82,10 @@ export class Studio {
     const {scene} = this;
     this.selection.update(scene);
     this.outliner.show();
+    if (scene.hasOutline) {
+      this.#whenOutlined?.();
+      this.#whenOutlined = null;
+    }
     this.inspector.show();
     this.text.show();
     this.handles.select(this.actions.active);
@@ -107,6 +112,7 @@ export class Studio {
   }
   // Selects what the picture shows at a point: the whole thing first, and then what it is made of.
   selectNodes(path) {
+    if (!this.scene.hasOutline) return void (this.#whenOutlined = () => this.selectNodes(path));
     const entries = path.map((node) => this.entryOf(node.pointer)).filter(Boolean), deepest = entries.at(-1);
     if (!deepest) {
       this.selection.set([]);
@@ -117,6 +123,7 @@ export class Studio {
     this.selection.set([(index >= 0 && index + 1 < chain.length ? chain[index + 1] : top).key]);
   }
   selectNode(pointer) {
+    if (!this.scene.hasOutline) return void (this.#whenOutlined = () => this.selectNode(pointer));
     const entry = this.entryOf(pointer);
     if (!entry) return;
     this.selection.set([entry.key]);
