@@ -21,6 +21,12 @@ inline void write_bounds(RTCBounds& out, const Bounds& box) {
     out.upper_z = box.high.z;
 }
 
+/// The box in which Embree looks for a cell. Every crossing of the cell lies in it: if it did not, Embree might skip
+/// the cell because of another cell's crossing behind it, and the closest crossing would depend on the order of visits.
+inline Bounds searched_box(const InterfaceCells& cells, std::size_t cell) {
+    return cells.bounds(cell).inflated(1.01f * cells.look_back());
+}
+
 /// The distance at which a ray enters a box; meaningless if it misses the box.
 inline double entry(const Bounds& box, const TracedRay& ray) {
     double result = -std::numeric_limits<double>::infinity();
@@ -35,7 +41,8 @@ inline double entry(const Bounds& box, const TracedRay& ray) {
 /// Whether a crossing in a cell, which is no farther than the ray's hit so far, replaces that hit. Of equally near
 /// crossings, the hit is that of the object with the lower IDs (in the order of ObjectInstance), and within an object,
 /// that of the cell that the ray enters first. So the hit does not depend on the order in which Embree visits cells.
-/// Embree may skip a cell that the ray enters only at the hit, but such a cell comes last among those of its object.
+/// Embree may skip a cell whose searched_box() the ray enters only at the hit, but such a cell comes last among those
+/// of its object.
 inline bool replaces_hit(const InterfaceCells& cells, unsigned cell, const ObjectInstance& object,
                          const PreparedRay& prepared, float t, float far, const RTCHit& hit) {
     if (t < far || hit.geomID == RTC_INVALID_GEOMETRY_ID) return true;

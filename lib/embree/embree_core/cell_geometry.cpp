@@ -13,7 +13,7 @@ const InterfaceCells& cells_of(void* user) {
 }
 
 void bounds(const RTCBoundsFunctionArguments* arguments) {
-    write_bounds(*arguments->bounds_o, cells_of(arguments->geometryUserPtr).bounds(arguments->primID));
+    write_bounds(*arguments->bounds_o, searched_box(cells_of(arguments->geometryUserPtr), arguments->primID));
 }
 
 void intersect_query(const RTCIntersectFunctionNArguments* arguments) noexcept {

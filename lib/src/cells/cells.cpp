@@ -70,6 +70,9 @@ const std::string& InterfaceCells::warning() const {
 float InterfaceCells::reach() const {
     return data_->reach;
 }
+float InterfaceCells::look_back() const {
+    return kernel::look_back_resolutions * data_->resolution;
+}
 
 PhaseSet InterfaceCells::opaque() const {
     return data_->opaque;

@@ -12,6 +12,10 @@ namespace phasetree::kernel {
 /// The largest number of steps of a sign certificate.
 inline constexpr std::size_t most_certificate_steps = 32;
 
+/// If a ray enters a cell in another phase than it carries, the search looks back this many resolutions for the change
+/// (InterfaceCells::look_back).
+inline constexpr float look_back_resolutions = 4;
+
 /// An instruction that is ready to run. Slots count batches among the registers; a point takes three. The offsets of
 /// the constants are stored separately (Routine::data), so that routines that differ only in constants can share their
 /// steps.

@@ -443,7 +443,7 @@ bool March::find_late_entry(RayCrossing& result) {
     // `in` is the last sample found in the ray's phase, and `out` the first sample after it that is not. First move
     // backwards from the start until a sample qualifies as `in`; then subdivide the interval between the two.
     Sample in{0, 0, no_label}, out{0, 0, here_.label};
-    const float way_back = smaller(ray_.before, 4 * resolution);
+    const float way_back = smaller(ray_.before, look_back_resolutions * resolution);
     if (!(way_back > 0)) return false;
     look((lanes() + 1.f) * (-way_back / size));
     for (std::size_t i = 0; i < batch_size && in.label == no_label; ++i)

@@ -4,13 +4,16 @@
 
 #include "sampling/hash.hpp"
 #include "world/mesh_place.hpp"
+#include "world/triangle_hit.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 // Whether the mesh stops the ray there.
-bool stops(const Mesh& mesh, const RTCRay& ray, const RTCHit& hit) {
+bool stops(const Mesh& mesh, const RTCRay& ray, RTCHit hit) {
+    float distance = 0;
+    recompute_hit(mesh, ray, hit, distance);
     const MeshPlace met{mesh, hit.primID, hit.u, hit.v};
     const float opacity = mesh.opacity->at(TexturePoint(met.point(), {0, 0, 1}, met.coordinates()));
     if (opacity >= 1.0f) return true;

@@ -196,7 +196,8 @@ PlacedGeometry::PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
                             .bounds = cells_[i]->bounds(),
                             .cells = cells_[i].get(),
                             .object = static_cast<std::uint32_t>(i),
-                            .resolution = static_cast<double>(cells_[i]->resolution())});
+                            .resolution = static_cast<double>(cells_[i]->resolution()),
+                            .look_back = static_cast<double>(cells_[i]->look_back())});
         scenes_.push_back(std::move(scene));
     }
     targets_.reserve(placed.objects.size() + placed.groups.size());
@@ -209,7 +210,8 @@ PlacedGeometry::PlacedGeometry(RTCDevice device, const PlacedObjects& placed,
         targets_.push_back({.scene = instances->scene.get(),
                             .bounds = instances->bounds,
                             .instances = instances.get(),
-                            .resolution = instances->resolution});
+                            .resolution = instances->resolution,
+                            .look_back = instances->look_back});
         groups_.push_back(std::move(instances));
     }
     root_ = made(device, placed, placed.instances);
@@ -237,9 +239,12 @@ std::unique_ptr<InstanceList> PlacedGeometry::made(RTCDevice device, const Place
         for (int i = 0; i < 3 && !bounds.empty(); ++i)
             if (!(bounds.low[i] >= -farthest) || !(bounds.high[i] <= farthest))
                 throw ModelError("an instance is too large or too far away");
-        instances->list.push_back({outward.inverse(), bounds, target, moves, static_cast<std::uint32_t>(copies)});
+        const double look_back = sweep.stretch * targets_[target].look_back;
+        instances->list.push_back({outward.inverse(), bounds.inflated(1.01f * static_cast<float>(look_back)), target,
+                                   moves, static_cast<std::uint32_t>(copies)});
         instances->bounds = unite(instances->bounds, bounds);
         instances->resolution = std::max(instances->resolution, sweep.stretch * targets_[target].resolution);
+        instances->look_back = std::max(instances->look_back, look_back);
         copies += placed.copies_at(instance);
     }
     instances->geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));

@@ -91,10 +91,11 @@ class PlacedGeometry {
         std::uint32_t object = 0;
         const InstanceList* instances = nullptr;  ///< null for an object
         double resolution = 0;                    ///< coarsest in it, in its space
+        double look_back = 0;                     ///< largest InterfaceCells::look_back in it, in its space
     };
     struct EmbreeInstance {
         Transform inward;  ///< from the space of the list into that of the target, if it does not move
-        Bounds bounds;     ///< during the shutter interval
+        Bounds bounds;     ///< of all crossings that may be found in it (look_back), during the shutter interval
         std::uint32_t target = 0;
         bool moves = false;
         std::uint32_t first_copy = 0;  ///< number of the target's first copy among those of the list
@@ -109,6 +110,7 @@ class PlacedGeometry {
         const std::vector<Instance>* source = nullptr;
         Bounds bounds{};
         double resolution = 0;  ///< coarsest in it, in the space of the list
+        double look_back = 0;   ///< largest in it, in the space of the list
         GeometryHandle geometry;
         SceneHandle scene;  ///< contains only the geometry; null for the scene's own list
     };

@@ -65,7 +65,7 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     q.origin = glm::dvec3(ray.origin);
     q.direction = glm::dvec3(ray.direction);
     RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
-    embree::intersect(embree_.get(), q.query.context, hit);
+    find_closest_hit(q.query, hit);
     if (q.query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
     counters.trace.visits += q.query.counters.visits;

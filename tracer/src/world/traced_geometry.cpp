@@ -13,6 +13,7 @@
 #include "world/kept_cells.hpp"
 #include "world/mesh_holes.hpp"
 #include "world/mesh_place.hpp"
+#include "world/triangle_hit.hpp"
 
 namespace phasetree::tracer {
 
@@ -55,8 +56,8 @@ std::vector<std::shared_ptr<const InterfaceCells>> prepared(const Scene& scene, 
     return cells;
 }
 
-DeviceHandle started_embree() {
-    DeviceHandle device(rtcNewDevice(nullptr));
+DeviceHandle started_embree(const std::string& configuration) {
+    DeviceHandle device(rtcNewDevice(configuration.c_str()));
     if (!device) throw std::runtime_error("cannot start Embree");
     return device;
 }
@@ -107,7 +108,7 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
                                const std::shared_ptr<SharedSurfaces>& shared)
     : scene_(scene),
       cells_(prepared(scene, options)),
-      device_(started_embree()),
+      device_(started_embree(options.embree_configuration)),
       embree_(rtcNewScene(device_.get())),
       first_mesh_(static_cast<std::uint32_t>(std::max<std::size_t>(scene.placed.objects.size(), 1))),
       interfaces_(scene.materials, *shared),
@@ -131,13 +132,20 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
     surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
 }
 
+void TracedGeometry::find_closest_hit(embree::Query& query, RTCRayHit& rayhit) const {
+    embree::intersect(embree_.get(), query.context, rayhit);
+    auto& [ray, hit] = rayhit;
+    if (!embree::is_hit(rayhit) || hit.geomID < first_mesh_id || hit.instID[0] != RTC_INVALID_GEOMETRY_ID) return;
+    recompute_hit(embree_.get(), scene_.meshes, first_mesh_id, ray, hit, ray.tfar);
+}
+
 // Traces the ray and returns whether it meets anything.
 bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit,
                            PathCounters& counters) const {
     query.default_phase = ray.phase;  // the scene has one object
     query.start = ray.hint;
     hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
-    embree::intersect(embree_.get(), query.context, hit);
+    find_closest_hit(query, hit);
     if (query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
     counters.trace.visits += query.counters.visits;
@@ -163,7 +171,7 @@ std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ra
     embree::Query query;
     query.skips_cells = true;
     RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, distance, distance + depth);
-    embree::intersect(embree_.get(), query.context, hit);
+    find_closest_hit(query, hit);
     return embree::is_hit(hit) ? std::optional(hit) : std::nullopt;
 }
 

@@ -81,6 +81,9 @@ class TracedGeometry {
     };
     using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
 
+    /// Find the closest hit with Embree. The distance, coordinates and normal of a hit on a mesh are recomputed, so
+    /// that they do not depend on the processor.
+    void find_closest_hit(embree::Query&, RTCRayHit&) const;
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
     /// The mesh that is flush with an interface, if there is one and light continues behind the interface, in the phase
     /// `to`. The interface is between the points p_in, which is `distance` from the ray's origin, and p_out. The ray

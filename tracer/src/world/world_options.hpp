@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "phasetree/cells/cells.hpp"
 #include "shading/shared_surfaces.hpp"
@@ -24,6 +25,8 @@ struct WorldOptions {
     std::shared_ptr<const InterfaceCells> known_cells{};
     /// A cache of surfaces, which this scene extends.
     std::shared_ptr<SharedSurfaces> surfaces{};
+    /// The configuration of Embree's device (rtcNewDevice), such as "isa=sse2"; Embree's defaults if empty.
+    std::string embree_configuration{};
     std::optional<std::filesystem::path> kept_cells{};  ///< cache file for the object's cells: see kept_cells.hpp
 };
 

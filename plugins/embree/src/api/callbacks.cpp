@@ -61,7 +61,7 @@ void phasetreeGetPrimitiveBounds(PhasetreeGeometry geometry, const RTCBoundsFunc
         if (!data->has_cell_primitives())
             box = data->motion.image(cells.bounds(), args->timeStep);
         else if (args->primID < cells.size())
-            box = cells.bounds(args->primID);
+            box = searched_box(cells, args->primID);
     }
     write_bounds(*args->bounds_o, box);
 }
