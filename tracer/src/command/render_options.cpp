@@ -185,7 +185,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                     "Continue from this checkpoint of the same picture; it may be the file of --checkpoint")
         ->option_text("FILE");
     command.add_flag("--or-start", o.may_start, "With --resume: start a new render if the file does not exist");
-    command.add_option("--seed", o.seed, "Seed of the random numbers; another seed gives other noise");
+    command.add_option("--seed", o.seed, "Seed of the random numbers; a different seed gives different noise");
     command
         .add_option("--detail", o.detail,
                     "Use coarser levels of detail where their error is at most this many pixels (default: the finest "

@@ -28,10 +28,10 @@ struct ImageParameters : RenderSettings {
                                  Limits{.low = -1e6f, .high = 1e6f}, true});
         v(&P::samples, Parameter{"samples", "", "Samples per pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::noise, Parameter{"noise", "",
-                               "Noise limit: a pixel stops early, after at least 32 samples, once its estimated "
-                               "relative error is at most this; 0 turns this off.",
+                               "Noise limit: blocks of 8×8 pixels stop early, after at least 32 samples per pixel, "
+                               "once their estimated relative error is at most this; 0 turns this off.",
                                Limits{.low = 0, .high = 1}, true});
-        v(&P::seed, Parameter{"seed", "", "Seed of the random numbers; another seed gives other noise.",
+        v(&P::seed, Parameter{"seed", "", "Seed of the random numbers; a different seed gives different noise.",
                               limits::non_negative, true});
         v(&P::max_depth,
           Parameter{"max_depth", "", "Maximum number of surfaces per path, including those between equal indices.",

@@ -134,8 +134,8 @@ struct ClearParameters : FilmParameters {
                                        "Instead of absorption and scattering: a measured medium (Jensen et al. 2001).",
                                        limits::any, true},
                                       names_of_media});
-        v(&P::scale,
-          Parameter{"scale", "mm", "With a measured medium: length of the scene's unit.", limits::positive, true});
+        v(&P::scale, Parameter{"scale", "mm", "With a measured medium: how many millimetres one scene unit is.",
+                               limits::positive, true});
         v(&P::anisotropy,
           Parameter{"anisotropy", "",
                     "Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured "
@@ -146,11 +146,10 @@ struct ClearParameters : FilmParameters {
               {"emission", "1/m",
                "Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels.",
                limits::non_negative, true}});
-        v(&P::emission_spectrum,
-          Parameter{
-              "emission_spectrum", "",
-              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
-              limits::any, true});
+        v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
+                                           "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
+                                           "brightness of the emission is used.",
+                                           limits::any, true});
         v(&P::density, Parameter{"density", "",
                                  "Density as a field: 0 at its surface and outside, rising linearly to 1 inside. "
                                  "Absorption, scattering and emission are multiplied by the density.",
@@ -165,7 +164,7 @@ struct ClearParameters : FilmParameters {
         v(&P::temperature_grid,
           Parameter{"temperature_grid", "K",
                     "Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. "
-                    "Requires a density and an emission, of which only the brightness is used then. The grid's "
+                    "Requires a density and an emission, of which it uses only the brightness. The grid's "
                     "\"factor\" converts its numbers to kelvin.",
                     limits::any, true});
         v(&P::emission_temperature, Parameter{"emission_temperature", "K",
@@ -287,8 +286,9 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
     static constexpr KindInfo info{
         "principled",
         "Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a "
-        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of "
-        "other materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
+        "gloss over a diffuse material; a coat and fuzz may cover it. Its roughness parameters are the square root of "
+        "the α that other materials take. It is opaque; for transmission and subsurface scattering, use a phase of "
+        "\"clear\"."};
 
     Number base_weight = Principled{}.base_weight;
     Texture base_color = Principled{}.color;
@@ -357,11 +357,10 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
                     "inside a material of index n.",
                     Limits{.low = 0, .high = 1e12f}, true});
         color(&P::emission_color, "emission_color", "Colour of the emitted light; default white.");
-        v(&P::emission_spectrum,
-          Parameter{
-              "emission_spectrum", "",
-              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
-              limits::any, true});
+        v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
+                                           "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
+                                           "brightness of the emission is used.",
+                                           limits::any, true});
         v(&P::group, group_parameter);
         perturbation_parameters<P>(v);
     }
