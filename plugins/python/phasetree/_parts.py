@@ -85,7 +85,7 @@ def _module(name, doc, kinds):
     module = types.SimpleNamespace()
     for kind in kinds:
         function = _function(kind)
-        function.__qualname__ = f"{name}.{kind.name}"  # by which pickle finds it
+        function.__qualname__ = f"{name}.{kind.name}"  # pickle looks the function up by this name
         setattr(module, kind.name, function)
     module.__doc__ = doc
     return module

@@ -14,11 +14,12 @@
 
 namespace phasetree {
 
-/// The phase is somewhere.
+/// The phase is not empty.
+
 struct IsPresent {
     Phase phase;
 };
-/// The phase is somewhere, and in one piece: any two of its points are joined by a path in the phase.
+/// The phase is not empty, and in one piece: any two of its points are joined by a path in the phase.
 struct IsConnected {
     Phase phase;
 };
@@ -93,27 +94,27 @@ struct ProveOptions {
 ///
 /// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
 /// statement is decided from the boxes that are certainly in a phase, those that certainly do not meet it, and the
-/// rest, which may or may not. Boxes become smaller until all statements are decided, or end at the resolution.
+/// rest, which may or may not. Boxes are made smaller until all statements are decided or the resolution is reached.
 ///
 /// *What is certain.* A statement that is proved or refuted is true or false of the sets of points whose smallest
-/// component is that of a phase, up to the rounding errors that measure() allows for. "Somewhere" and "a piece" mean
-/// sets with an interior. Witnesses are points that certainly are in their phases:
+/// component is that of a phase, up to the rounding errors that measure() allows for. "Not empty" and "a piece" refer
+/// to sets with an interior. Witnesses are points that certainly are in their phases:
 ///
 /// * present, proved: a point in the phase
 /// * connected, refuted: two points of the phase in different pieces
 /// * closed, refuted: a path from a phase inside to the space around the object; each point, and each segment between
 ///   two of them, is outside the walls
 /// * apart, refuted: a point of each phase, closer to each other than required, or, if they touch, a point of each
-/// * touching, proved: a point of each phase, joined by a path that meets no third one; so are points of phases that
-/// touch
+/// * touching, proved: a point of each phase, joined by a path that meets no third phase; the same holds for the
+///   witnesses of "apart" if the phases touch
 /// * thick, refuted: a point of the phase that is not within reach of a ball
 ///
-/// A phase that certainly is nowhere refutes a statement without a witness.
+/// A phase that is certainly empty refutes a statement without a witness.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
-/// cancelled. HasVolume may use a quarter of the time before boxes are divided for the other statements, and afterwards
-/// what is left, which is at least a quarter. Throws ModelError if the object is empty or unbounded, or if an argument
-/// is out of its range.
+/// cancelled. The time is divided as follows: at most a quarter for HasVolume, then the division into boxes for the
+/// other statements, then the rest, at least a quarter, for HasVolume again. Throws ModelError if the object is empty
+/// or unbounded, or if an argument is out of its range.
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
 
 }  // namespace phasetree

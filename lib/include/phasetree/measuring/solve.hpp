@@ -49,9 +49,9 @@ struct SolveOptions {
 /// Why solving ended.
 enum class SolveEnd {
     width,      ///< the bracket is as narrow as requested
-    undecided,  ///< for none of the numbers tried next could a measurement decide the side of the target
+    undecided,  ///< no further number could be placed on one side of the target: each measured interval contains it
     same_side,  ///< there is no bracket, because both of its ends are certainly on the same side of the target
-    seconds,    ///< the time is over
+    seconds,    ///< the time ran out
     cancelled   ///< SolveOptions::cancelled returned true
 };
 

@@ -30,9 +30,9 @@ class InterfaceTracer {
     ///
     /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are certain
     /// to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
-    ///   - at most 2.75 resolutions of the ray are in the phase, and of these at most one resolution is deeper inside
-    ///     than a sixteenth of a resolution;
-    ///   - the ray grazes the phase: it is nowhere deeper inside than a sixteenth of a resolution.
+    ///   - at most 2.75 r of the ray lies in the phase, and at most r of that is deeper inside than r/16, where r is
+    ///     the resolution;
+    ///   - the ray grazes the phase: it is nowhere deeper inside than r/16.
     ///
     /// 0 selects 2·10⁻⁶ of the object's diagonal, or 10⁻⁶ of its farthest coordinate if that is more. All values are
     /// clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the diagonal or of the farthest
