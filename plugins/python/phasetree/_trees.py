@@ -328,8 +328,8 @@ class Object(Value):
     def _refuse(self, other, sign, swapped=True):
         a, b = (other, self) if swapped else (self, other)
         raise TypeError(
-            f'"{sign}" combines fields, but the operands are {_named(a)} and {_named(b)}. For objects, the order
-            matters: ' "use a.over(b), a.under(b), a.contact(b, …), or a.unite_shape_below(…) with a field"
+            f'"{sign}" combines fields, but the operands are {_named(a)} and {_named(b)}. For objects, the order '
+            "matters: use a.over(b), a.under(b), a.contact(b, …), or a.unite_shape_below(…) with a field"
         )
 
     def __or__(self, other):
