@@ -57,7 +57,8 @@ NodeParameter described(PhaseSet, const Parameter&) {
 template <class T>
 NodeParameter described(const std::vector<T>&, const Parameter& p) {
     const ValueType item = described(T{}, p).type;
-    const std::string name = fmt::format("list of {}s", item.name), schema = list_of(Json::parse(item.schema)).dump();
+    const std::string name = fmt::format("list of {}{}", item.name, item.name.ends_with(']') ? "" : "s"),
+                      schema = list_of(Json::parse(item.schema)).dump();
     if (p.one_for_all) return {{"number or " + name, schema_of_either(item.schema, schema)}, "[]"};
     return {{name, schema}, "[]"};
 }

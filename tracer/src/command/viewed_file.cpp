@@ -25,7 +25,7 @@ void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
     try {
         for (const std::filesystem::path& layer : layers_of_stack(path)) files.add(layer);
     } catch (const std::runtime_error&) {
-        // No such stack. The reader reports it if there should be one.
+        // There is no such stack. If the scene refers to one, the reader reports the error.
     }
 }
 
@@ -85,7 +85,7 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
             span_of_keys(document)};
 }
 
-// The document's present version as the options say that it is read.
+// The current version of the document, read with the command-line options.
 struct Read {
     std::uint64_t text_version;
     Document document;
@@ -108,7 +108,7 @@ view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& e
         if (desired.numbers.empty()) edited.checked(version, {});
         return scene;
     } catch (const SceneError& e) {
-        // With other numbers, what is wrong may be the numbers.
+        // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
         if (desired.numbers.empty()) edited.checked(version, e);
         throw;
     }

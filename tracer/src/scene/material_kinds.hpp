@@ -50,10 +50,11 @@ struct PerturbationParameters {
 
     template <class P, class V>
     static void perturbation_parameters(V&& v) {
-        v(&P::bump_texture, Parameter{"bump", "",
-                                      "Bump map: a texture whose bright parts look raised. It changes the normals "
-                                      "only, not the surface. A step in the texture becomes a slope of 45° to 55°.",
-                                      limits::any, true});
+        v(&P::bump_texture,
+          Parameter{"bump", "",
+                    "Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. "
+                    "A discontinuity of the texture counts as a slope of 45° to 55°.",
+                    limits::any, true});
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump map: height of white above black; may be negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
@@ -112,9 +113,9 @@ struct ClearParameters : FilmParameters {
                         limits::non_negative, true}});
         v(&P::absorption_spectrum,
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
-                             "Instead of the absorption: wavelengths and the absorption coefficient at each. Without "
-                             "\"spectral\", this is converted to red, green and blue such that a layer that transmits "
-                             "a third of white light or more looks the same.",
+                             "Instead of the absorption: wavelengths and the absorption coefficient at each. Unless "
+                             "the scene is \"spectral\", it is converted to red, green and blue. Layers that transmit "
+                             "at least a third of white light keep their colour; thicker ones may differ.",
                              limits::non_negative, true}});
         v(&P::color,
           ColourParameter{{"color", "", "Instead of the absorption: the colour of white light after a distance.",
@@ -141,11 +142,10 @@ struct ClearParameters : FilmParameters {
                     "Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured "
                     "media keep their reduced scattering, (1 − g) s, for any g. Default 0.",
                     Limits{.low = -0.99f, .high = 0.99f}, true});
-        v(&P::emission,
-          RgbParameter{
-              {"emission", "1/m",
-               "Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels.",
-               limits::non_negative, true}});
+        v(&P::emission, RgbParameter{{"emission", "1/m",
+                                      "Radiance emitted per unit of length along a ray. Requires absorption or "
+                                      "scattering in the same channels.",
+                                      limits::non_negative, true}});
         v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
                                            "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
                                            "brightness of the emission is used.",
@@ -351,11 +351,10 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
                  "Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26.");
         film_parameters<P>(v);
         fraction(&P::film_weight, "film_weight", "With a film: share of the surface that has it.");
-        v(&P::emission_radiance,
-          Parameter{"emission_radiance", "",
-                    "Radiance of the surface where the emission colour is 1, the same in all directions; n² times that "
-                    "inside a material of index n.",
-                    Limits{.low = 0, .high = 1e12f}, true});
+        v(&P::emission_radiance, Parameter{"emission_radiance", "",
+                                           "Radiance, equal in all directions, where the emission colour is 1. Inside "
+                                           "a material of index n, the radiance is n² times this value.",
+                                           Limits{.low = 0, .high = 1e12f}, true});
         color(&P::emission_color, "emission_color", "Colour of the emitted light; default white.");
         v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
                                            "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
