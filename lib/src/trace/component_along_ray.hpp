@@ -33,8 +33,8 @@ class ComponentAlongRay {
     rewriting::Arena scratch_;
 };
 
-/// The numbers that the steps of a routine compute at a point, as enclosures of the point compute them: in the order of
-/// the steps, the coordinates of a point as three numbers.
+/// The values that the steps of a routine compute at a point with the arithmetic of Enclosure: the centres of the
+/// enclosures, in the order of the steps. A step that computes a point contributes three numbers.
 std::vector<double> centres_at(const kernel::Routine&, const glm::dvec3&);
 
 }  // namespace phasetree::trace

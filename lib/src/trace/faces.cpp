@@ -80,8 +80,8 @@ struct Nearest {
     double behind = -endless;
     bool is_behind_entering = false;
 
-    // `is_front` is the side from which the ray leaves its phase. The ray starts at `begin` and passes entering
-    // crossings up to `passed`. Those behind it count from `low` on.
+    // `is_front` is the side from which the ray leaves its phase. The ray starts at `begin`. Entering crossings up to
+    // `passed` are skipped. Crossings before the start are considered back to `low`.
     Nearest(const FaceHits& hits, bool is_front, double low, double begin, double passed) {
         for (const FaceHit& hit : hits) {
             const bool is_leaving = hit.is_front == is_front;

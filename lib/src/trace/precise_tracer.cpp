@@ -21,9 +21,10 @@ namespace {
 constexpr std::size_t precise_rays = 64;
 // The default resolution, as a fraction of the diagonal; for objects that search in floats, that of floats.
 constexpr double fine = 0x1p-30, fine_in_floats = 2e-6;
-// The finest resolution, in errors of values, and the coarsest, as a fraction of the diagonal.
+// The finest resolution, as a multiple of value_error(), and the coarsest, as a fraction of the diagonal.
 constexpr double finest_in_errors = 2, coarsest_of_diagonal = 0.01;
-// Errors of values and of enclosures, in the largest difference measured between the two.
+// value_error() and the error of enclosures, as multiples of the largest measured difference between an enclosure's
+// centre and the value in double precision.
 constexpr double value_error_in_differences = 4, enclosure_error_in_differences = 2;
 
 // The largest difference between enclosures of single points and doubles, for all numbers that the program computes.

@@ -43,8 +43,8 @@ class Importer {
         for (std::string& warning : made.warnings) warn(std::move(warning));
         solids_ = std::move(made.solids);
         if (solids_.empty() && file_.parts.empty())
-            throw ParameterError("file", fmt::format("{}: nothing can be imported: its objects are clear, and none of "
-                                                     "them is a solid that a phase can have",
+            throw ParameterError("file", fmt::format("{}: nothing can be imported: all its objects are clear, but none "
+                                                     "encloses a volume that could become a phase",
                                                      gltf.string()) +
                                              reasons());
     }

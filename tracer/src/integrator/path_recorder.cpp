@@ -18,8 +18,8 @@ void PathRecorder::begin() {
     record_->lengths.assign(scene_.materials.size(), 0.0f);
 }
 
-// In a medium that scatters or varies, red, green and blue have the same weight: the mean of the flight's weights with
-// the probabilities of channel_choice(), because only that mean is bounded.
+// In a medium that scatters or varies, red, green and blue get the same weight: the mean of the flight's weights under
+// the probabilities of channel_choice(). Only this mean is bounded.
 glm::vec3 PathRecorder::rgb_weight(const Medium& medium, const Way& segment, const Flight& flight,
                                    const glm::vec3& throughput, Sampler& sampler) {
     if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium))

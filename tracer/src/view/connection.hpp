@@ -11,7 +11,8 @@
 
 namespace phasetree::tracer::view {
 
-// Which functions override one of the library's depends on its version, so some are not marked `override`.
+// cpp-httplib's virtual functions differ between versions, so some functions that override them are not marked
+// `override`.
 #ifdef __clang__
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Winconsistent-missing-override"
