@@ -24,11 +24,11 @@ struct IsConnected {
     Phase phase;
 };
 /// Every path from any of the phases in `inside` to the space around the object crosses one of the phases in `walls`.
-/// All of these phases are somewhere.
+/// None of these phases is empty.
 struct IsClosed {
     PhaseSet walls, inside;
 };
-/// Both phases are somewhere, they do not touch, and no point of the first is closer than `at_least` to a point of the
+/// Neither phase is empty, they do not touch, and no point of the first is closer than `at_least` to a point of the
 /// second.
 struct AreApart {
     Phase first, second;
@@ -38,7 +38,7 @@ struct AreApart {
 struct AreTouching {
     Phase first, second;
 };
-/// The phase is somewhere, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
+/// The phase is not empty, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
 /// centre of a ball of this diameter that lies in the phase.
 ///
 /// A reach of half the diameter, the smallest that makes sense, would require each point to be in such a ball. No
@@ -50,7 +50,7 @@ struct IsThick {
     double at_least = 0;  ///< in the scene's unit of length. Positive
     double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
 };
-/// All of the phases are somewhere, and their volume together is in this interval.
+/// None of the phases is empty, and their volume together is in this interval.
 struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();

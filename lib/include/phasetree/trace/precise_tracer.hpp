@@ -71,7 +71,7 @@ struct PreciseRay {
     double t_max = std::numeric_limits<double>::infinity();  ///< crossings beyond are not reported
     /// The phase that the ray is in, as known from the crossing at which it starts; by default, the phase at the start.
     /// If the phase at the start of the search (the origin, or where the ray enters the object's bounds) differs from
-    /// it by more than rounding explains, a crossing of zero length is reported there.
+    /// it by more than rounding error can account for, a crossing of zero length is reported there.
     std::optional<Phase> carried{};
 };
 

@@ -50,7 +50,8 @@ class InterfaceTracer {
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
     ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
-    ///               by more than rounding explains, there is a crossing where the search starts (see Crossing).
+    ///               by more than rounding error can account for, there is a crossing where the search starts (see
+    ///               Crossing).
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,
