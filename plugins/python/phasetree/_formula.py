@@ -245,7 +245,7 @@ def coordinates():
 def _function(name, least, most):
     def apply(*values):
         if len(values) < least or (most is not None and len(values) > most):
-            counts = least if least == most else f"{least} or more" if most is None else f"{least} to {most}"
+            counts = least if least == most else f"{least} or more" if most is None else f"{least} or {most}"
             raise TypeError(f"{name} takes {counts} numbers")
         of = tuple(expression(v) for v in values)
         if None in of:

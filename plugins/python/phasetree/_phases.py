@@ -64,7 +64,7 @@ def phase(name, material=None, density=None):
 vacuum = Phase("vacuum")
 
 
-most = 64  # the vacuum among them
+max_phases = 64  # including the vacuum
 
 
 def merged(*several):
@@ -84,6 +84,6 @@ def merged(*several):
             density = one.density if known.density is None else known.density
             if (material, density) != (known.material, known.density):
                 found[one.name] = Phase(one.name, material, density)
-    if len(found) > most:
-        raise Error(f"more than {most - 1} phases in one object")
+    if len(found) > max_phases:
+        raise Error(f"more than {max_phases - 1} phases in one object")
     return tuple(found.values())

@@ -146,7 +146,7 @@ def written(objects):
     return shapes, placed
 
 
-def without_places_alone(objects, groups, places):
+def without_implicit_places(objects, groups, places):
     """Removes the implicit places: those that the reader adds for objects that no instance or group names."""
     named = [one.of for listed in (*groups.values(), places) for one in listed]
     return [

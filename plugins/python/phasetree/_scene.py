@@ -389,7 +389,7 @@ def _load_objects(path):
         name: (_object_with_names(entry, raw, path), matrix[0]) for entry, (name, matrix) in zip(entries, maps)
     }
     groups = {name: [_placed.Places(*one) for one in listed] for name, listed in groups.items()}
-    instances = _placed.without_places_alone(objects, groups, [_placed.Places(*one) for one in places])
+    instances = _placed.without_implicit_places(objects, groups, [_placed.Places(*one) for one in places])
     return raw, {"objects": objects, "groups": groups, "instances": instances}
 
 

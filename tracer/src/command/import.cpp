@@ -162,7 +162,7 @@ void add_import(CLI::App& app, Run& run) {
     command->add_option("file", options->input, "glTF file, .glb or .gltf")->required();
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
-    command->add_flag("--solid", options->choices.panes_too,
+    command->add_flag("--solid", options->choices.include_panes,
                       "Also import closed objects whose clear material has no volume (default: they count as thin "
                       "panes and are left out)");
     command->add_flag(

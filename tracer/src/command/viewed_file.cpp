@@ -86,13 +86,13 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
 }
 
 // The current version of the document, read with the command-line options.
-struct Read {
+struct CurrentDocument {
     std::uint64_t text_version;
     Document document;
 };
 
 // Throws SceneError if the file cannot be read or is no valid JSON.
-Read present(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
+CurrentDocument current_document(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
     const auto state = edited.state();
     if (state->unreadable) throw *state->unreadable;
     if (!state->document) throw state->error.value();
@@ -102,7 +102,7 @@ Read present(const ViewedFile& file, studio::EditedDocument& edited, const view:
 view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& edited,
                                const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
                                const view::Reading& desired) {
-    const auto [version, document] = present(file, edited, desired);
+    const auto [version, document] = current_document(file, edited, desired);
     try {
         view::ViewedScene scene = read_viewed(file, document, kept, files, desired);
         if (desired.numbers.empty()) edited.checked(version, {});

@@ -64,7 +64,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 
 class Maker {
   public:
-    Maker(const gltf::GltfFile& file, bool panes_too) : file_(file), panes_too_(panes_too) {}
+    Maker(const gltf::GltfFile& file, bool include_panes) : file_(file), panes_too_(include_panes) {}
 
     Solids make() {
         std::vector<const gltf::ClearSolid*> of_one_mesh;
@@ -160,8 +160,8 @@ class Maker {
 
 }  // namespace
 
-Solids solids_of(const gltf::GltfFile& file, bool panes_too) {
-    return Maker(file, panes_too).make();
+Solids solids_of(const gltf::GltfFile& file, bool include_panes) {
+    return Maker(file, include_panes).make();
 }
 
 }  // namespace phasetree::tracer::gltf_import
