@@ -16,7 +16,7 @@ namespace test_narrowing {
 using namespace phasetree;
 using namespace phasetree::tests;
 
-TEST_CASE("a ray finds where it enters a ball in few batches, because it knows a bound of the distance's curvature") {
+TEST_CASE("a ray finds where it enters a ball in few batches, because it knows a bound on the distance's curvature") {
     const InterfaceCells cells(Phased(Set{.phase = Phase{1}, .of = Sphere{.radius = 1}}));
     Random rng(3);
     TraceCounters counters;

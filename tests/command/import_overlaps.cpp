@@ -49,7 +49,7 @@ TEST_CASE("overlaps: priorities come first, then containment, then matter, then 
     circle.node("block", circle.mesh(box({0, 0, 0}, {9, 9, 9}), circle.clear("glass", 1.5f)));
     circle.node("core", circle.mesh(box({3, 3, 3}, {6, 6, 6}), circle.clear("water", 1.33f)));
     circle.node("hose", circle.mesh(box({4, 4, 4}, {5, 5, 12}), circle.clear("air", 1.0f)));
-    CHECK(has(shell.import_well(circle).err, "against the rule (gas over liquid)"));
+    CHECK(has(shell.import_well(circle).err, "although the rule (gas over liquid) says otherwise"));
 }
 
 TEST_CASE("phasetree_matter says what an object is made of, whatever its name and index") {

@@ -40,13 +40,14 @@ TEST_CASE("every scene is sound, has a picture, and is quoted in the gallery wit
         const Outcome info = shell.run({"info", "--json", scene.string()});
         REQUIRE(info.code == 0);
         const auto numbers = nlohmann::json::parse(info.out);
-        const std::string said =
-            fmt::format("{} phases, {} nodes, {:.1f} kB", numbers.at("phases").size(), numbers.at("nodes").get<int>(),
-                        numbers.at("tree_bytes").get<double>() / 1000);
-        CAPTURE(said);
+        const double bytes = numbers.at("tree_bytes").get<double>();
+        const std::string caption =
+            fmt::format("{} phases, {} nodes, {}", numbers.at("phases").size(), numbers.at("nodes").get<int>(),
+                        bytes < 1e6 ? fmt::format("{:.1f} kB", bytes / 1e3) : fmt::format("{:.1f} MB", bytes / 1e6));
+        CAPTURE(caption);
         const std::size_t at = gallery.find(fmt::format("({}.json)<br>", name));
         REQUIRE(at != std::string::npos);
-        CHECK(gallery.substr(at, gallery.find('|', at) - at).find(said) != std::string::npos);
+        CHECK(gallery.substr(at, gallery.find('|', at) - at).find(caption) != std::string::npos);
         CHECK(std::filesystem::exists(root / "scenes" / "gallery" / (name + ".jpg")));
     }
 }

@@ -327,7 +327,7 @@ TEST_CASE("a density cannot be the number, because it changes no shape") {
     write_text(shell.directory / "scene.json", dense);
     const Outcome o = shell.solve({"--set", "/phases/glass/density=500:5000", "--until", "mass(glass) = 1 kg"});
     CHECK(o.code == 2);
-    CHECK(o.err.find("--set: /phases/glass/density changes no shape") != std::string::npos);
+    CHECK(o.err.find("--set: /phases/glass/density is a density and changes no shape") != std::string::npos);
 }
 
 TEST_CASE("without a value, no scene is written, and the exit code says so") {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A number type for error analysis: a value, and a bound of how far a computation in 32 bits may be from it (running
+/// A number type for error analysis: a value, and a bound on how far a computation in 32 bits may be from it (running
 /// error analysis; Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002, Section 3.3). An equation
 /// that is evaluated over it gives the tolerance of its own result at this point. Each operation adds its own rounding:
 /// half a unit in the last place for sums, differences and products; what GLSL ES 3.00 allows, two and a half units,

@@ -1,4 +1,4 @@
-// Fields of voxels against the definition of their interpolation, and the bound of its slope against slopes that are
+// Fields of voxels against the definition of their interpolation, and the bound on its slope against slopes that are
 // seen.
 #include "phasetree/nodes/fields/volume.hpp"
 

@@ -104,7 +104,7 @@ class ManyObjects(unittest.TestCase):
             (lambda: pt.Scene(ball, objects={"a": ball}), "an object, named objects, or only meshes"),
             (lambda: pt.Scene(ball, instances=pt.places("a", (0, 0, 0))), "place named objects"),
             (lambda: pt.Scene(objects={"a": pt.sphere(1)}), "must be an object of phases"),
-            (lambda: pt.Scene(objects={"a": ball, "b": other}), 'a phase "glass", of different materials'),
+            (lambda: pt.Scene(objects={"a": ball, "b": other}), 'different materials for the phase "glass"'),
             (lambda: pt.Scene(objects={"a": (ball, np.zeros((2, 3)))}), "2 maps of its own"),
             (lambda: pt.places("a", np.zeros((2, 2))), r"the shape is \(2, 2\)"),
             (lambda: pt.places("a", (0, np.nan, 0)), "finite"),

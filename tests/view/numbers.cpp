@@ -61,8 +61,8 @@ TEST_CASE("numbers are replaced, and all else of the text stays") {
     const NumberEdits edits{{"/a/0", 0.125}, {"/a/1", 7}, {"/b/c", 0.001}};
     const std::string edited = with_numbers(text, edits);
     for (const char* const word : {"/* 1 */", "\"a\"", "3]", "\"b\"", "// end"})
-        CHECK(offset_without_numbers(text, edits, edited.find(word)) == text.text().find(word));
-    CHECK(offset_without_numbers(text, {}, 5) == 5);
+        CHECK(offset_in_original(text, edits, edited.find(word)) == text.text().find(word));
+    CHECK(offset_in_original(text, {}, 5) == 5);
     // What the file no longer has counts for nothing.
     CHECK(with_numbers(text, {{"/a/3", 1}, {"/b", 2}, {"/b/d", 3}, {"", 4}}) == text.text());
 }

@@ -42,7 +42,7 @@ class Metric {
     }
 
     double distance(const glm::vec3& p) const { return glm::length(map_ * (glm::dvec3(p) - glm::dvec3(from_))); }
-    // A lower bound of the distance to the box.
+    // A lower bound on the distance to the box.
     double lower_bound(const Bounds& box) const {
         if (is_similarity_) {
             const glm::vec3 nearest = glm::clamp(from_, box.low, box.high);
@@ -150,7 +150,7 @@ class Search {
         best_.there = found->crossing.to;
     }
 
-    // The distances at the point give a lower bound of how far away the next phase is, and their gradient its
+    // The distances at the point give a lower bound on how far away the next phase is, and their gradient its
     // direction.
     void guess_from_distances() {
         const Phases<float> phi = whole_.distances(point_, workspace_);

@@ -22,7 +22,7 @@ struct AffinePoint {
     Vec3<Dual> at_centre;  ///< the point and its Jacobian at the box's centre, in floats
     glm::dvec3 centre;     ///< the same point in doubles
     double largest_coordinate;
-    double squared_stretch, stretch;  ///< an upper bound of the Jacobian's norm, by which lengths grow at most
+    double squared_stretch, stretch;  ///< an upper bound on the Jacobian's norm, by which lengths grow at most
     Enclosure::Vector half;           ///< the half extents of the box
     double squared_radius, radius;    ///< half of the box's diagonal
 
@@ -75,7 +75,7 @@ bool enclose_convex(const P& solid, const AffinePoint& point, Enclosure& result)
     const double least_radius = value - drop + solid.rolling_radius(point.centre, point.stretch * point.radius);
     if (!(least_radius > 0)) return false;
     const double inverse = 1 / least_radius, curvature = point.squared_stretch * inverse;
-    // An upper bound of the rounding error of the gradient, from that of the centre's coordinates and its own.
+    // An upper bound on the rounding error of the gradient, from that of the centre's coordinates and its own.
     const double rounding_error = point.stretch * (4e-7 * point.largest_coordinate * inverse + 1e-6);
 
     result.centre = value;

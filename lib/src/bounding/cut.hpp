@@ -4,7 +4,7 @@
 
 namespace phasetree::bounding {
 
-/// An upper bound of the distance by which rounding errors move a plane when a box is cut. `value_error` is that of
+/// An upper bound on the distance by which rounding errors move a plane when a box is cut. `value_error` is that of
 /// ProgramContext.
 float cut_margin(const Bounds& box, float value_error);
 

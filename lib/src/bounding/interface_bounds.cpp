@@ -17,7 +17,7 @@ bool is_clear(const ProgramOutput& o, const EnclosedProgram& enclosed) {
 }
 
 // The bounds of the curvature of s, the distance within which the label is constant. There are two definitions of s
-// (Routine::is_by_own). One is minus the label's own component, whose curvature is at most minus the lower bound of
+// (Routine::is_by_own). One is minus the label's own component, whose curvature is at most minus the lower bound on
 // that component's curvature. The other is the minimum of the other components, which curves upwards no more than the
 // most curved of them. The definition with the smaller sum of bounds is chosen.
 Curvature curvature_of_distance(const EnclosedProgram& enclosed) {

@@ -10,7 +10,7 @@ namespace phasetree::bounding {
 
 using enclosure::Enclosure, enclosure::Interval;
 
-/// A linear function and an upper bound of the deviation of a field f from it in a box:
+/// A linear function and an upper bound on the deviation of a field f from it in a box:
 ///     |f(p) − (at_centre + normal·(p − centre))| ≤ slack.
 /// It is a LinearBound in doubles, relative to the box's centre. There are two ways to find it, and the one with the
 /// smaller slack is chosen. One is the mean value theorem, with the middle of the gradient's range as the normal. The
@@ -44,7 +44,7 @@ struct NearlyLinear {
         at_centre += 0.5 * (above - below);
         slack = 0.5 * (above + below);
     }
-    /// An upper bound of the distance of the gradient from the normal.
+    /// An upper bound on the distance of the gradient from the normal.
     double spread(const Enclosure& f, const Enclosure::Vector& half) const {
         double squared = 0, squared_half = 0;
         for (std::size_t i = 0; i < 3; ++i) {

@@ -17,7 +17,7 @@ using kernel::absolute_lane, kernel::network_lanes;
 namespace {
 
 // A neuron's Taylor polynomial: its value and its 3 first, 6 second and 10 third partial derivatives, in the order xx,
-// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is an upper bound of the fourth
+// xy, xz, yy … All of these are linear in the inputs of a layer. The last number is an upper bound on the fourth
 // derivatives, which a layer combines using the absolute values of the weights.
 struct alignas(64) Jet {
     std::array<double, network_lanes> all;

@@ -9,7 +9,7 @@ struct ValueRanges {
     std::span<const float> lows, highs;
     std::span<const float> slope;  ///< a Lipschitz bound of each value in the box
     EnclosedProgram enclosed;
-    double margin;  ///< an upper bound of the rounding error of one value
+    double margin;  ///< an upper bound on the rounding error of one value
 
     float low(std::uint32_t i) const { return lows[i]; }
     float high(std::uint32_t i) const { return highs[i]; }

@@ -1,6 +1,6 @@
 // The recursive subdivision. Decisions are made bottom-up, as when building a bounding volume hierarchy by the surface
 // area heuristic: a box becomes one cell unless the cells of its children cost less (cost_model.hpp). How deep to go
-// depends on a bound of the possible saving.
+// depends on a bound on the possible saving.
 #include "building/divide.hpp"
 
 #include <tbb/parallel_for.h>

@@ -55,7 +55,7 @@ class EmptyBalls {
     std::size_t evaluations() const { return evaluations_; }
 
   private:
-    /// An upper bound of the error of a value at p. As for traced values (src/trace/prepare.cpp), it is 10⁻⁶ of the
+    /// An upper bound on the error of a value at p. As for traced values (src/trace/prepare.cpp), it is 10⁻⁶ of the
     /// farthest coordinate on which the value may depend.
     double rounding_error_at(const glm::dvec3& p) const {
         return 1e-6 * std::max({farthest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});

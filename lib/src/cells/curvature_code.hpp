@@ -9,7 +9,7 @@ namespace phasetree::cells {
 
 using kernel::Curvature;
 
-/// Encodes an upper bound of curvature in eight bits, rounding up by at most an eighth. The code is the exponent and
+/// Encodes an upper bound on curvature in eight bits, rounding up by at most an eighth. The code is the exponent and
 /// the upper three fraction bits of the float (curvature · the object's diagonal). Code 0 means no curvature, 255
 /// unknown. Bounds below 2⁻¹⁰/diagonal are rounded up to that value; bounds too large for the code become unknown.
 class CurvatureCode {

@@ -7,7 +7,7 @@
 
 namespace phasetree::enclosure {
 
-/// A lower bound of a − b in a box with the given half extents. It is the better of two bounds: one from the ranges of
+/// A lower bound on a − b in a box with the given half extents. It is the better of two bounds: one from the ranges of
 /// the gradients, and one from the gradients at the centre and the bounds of curvature. Where one solid continues
 /// another, their gradients are nearly the same, so the difference is known much more accurately than either value.
 inline double least_difference(const Enclosure& a, const Enclosure& b, const Enclosure::Vector& half) {

@@ -6,7 +6,7 @@
 namespace phasetree::enclosure {
 
 namespace detail {
-/// An upper bound of |dx/dv|² for a vector x and any direction v of unit length. This is the largest eigenvalue of JᵀJ,
+/// An upper bound on |dx/dv|² for a vector x and any direction v of unit length. This is the largest eigenvalue of JᵀJ,
 /// where J is the Jacobian. It is at most the largest row sum of absolute values of that matrix (Gershgorin).
 template <std::size_t n>
 double squared_stretch(const std::array<const Enclosure*, n>& x) {
@@ -23,7 +23,7 @@ double squared_stretch(const std::array<const Enclosure*, n>& x) {
     }
     return most;
 }
-/// An upper bound of the length of the second derivative of a vector along any line.
+/// An upper bound on the length of the second derivative of a vector along any line.
 template <std::size_t n>
 double curvature_of(const std::array<const Enclosure*, n>& x) {
     double sum = 0;

@@ -73,7 +73,7 @@ struct Enclosure {
         curvature = c;
         value_curvature = value * c;
     }
-    /// An upper bound of the gradient's squared length.
+    /// An upper bound on the gradient's squared length.
     double squared_slope() const {
         double sum = 0;
         for (const Interval& g : gradient) sum += g.magnitude() * g.magnitude();

@@ -51,13 +51,14 @@ NodeParameter described(Phase, const Parameter&) {
 }
 NodeParameter described(PhaseSet, const Parameter&) {
     const Json phase{{"type", "string"}};
-    return {{"phase or list of phases", Json{{"anyOf", {phase, list_of(phase)}}}.dump()}, "all"};
+    return {{"phase or list of phases", Json{{"anyOf", {phase, list_of(phase)}}}.dump()}, "none"};
 }
 // A single number may be given instead of a list of one.
 template <class T>
 NodeParameter described(const std::vector<T>&, const Parameter& p) {
     const ValueType item = described(T{}, p).type;
-    const std::string name = fmt::format("list of {}s", item.name), schema = list_of(Json::parse(item.schema)).dump();
+    const std::string name = fmt::format("list of {}{}", item.name, item.name.ends_with(']') ? "" : "s"),
+                      schema = list_of(Json::parse(item.schema)).dump();
     if (p.one_for_all) return {{"number or " + name, schema_of_either(item.schema, schema)}, "[]"};
     return {{name, schema}, "[]"};
 }
@@ -179,7 +180,7 @@ std::vector<Chapter> node_chapters() {
     std::vector<Chapter> chapters{
         {"Shapes",
          "A field is one signed distance, negative inside. Fields that are called exact are the distance to the "
-         "surface; others are lower bounds of it. These fields are not made from other nodes.",
+         "surface; others are lower bounds on it. These fields are not made from other nodes.",
          pages_of_nodes<false>(PlainFields())},
         {"Operators on fields", "These fields are made from other nodes: combined, rounded, repeated or bounded.",
          pages_of_nodes<true>(PlainFields())},

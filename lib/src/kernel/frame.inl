@@ -28,7 +28,7 @@ struct RaySegment {
     float t_begin;
     float before;  // the length of the ray before the origin; samples with t < 0 may be taken there
     float resolution;
-    float slope;         // an upper bound of the rate at which a component changes along the ray
+    float slope;         // an upper bound on the rate at which a component changes along the ray
     float curvature[2];  // as in Visit
     float carried;       // the ray's phase; if negative, use the label at its start
     bool is_monotone;    // there is one component, and it is monotone along the ray

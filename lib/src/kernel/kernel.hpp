@@ -47,7 +47,7 @@ struct PackedCertificateStep {
     float threshold;
     std::uint32_t slot : 30, kind : 2;
     std::uint16_t factor;
-    std::uint16_t up, down;  ///< upper bounds of the second derivatives of g and of −g; infinite if unknown
+    std::uint16_t up, down;  ///< upper bounds on the second derivatives of g and of −g; infinite if unknown
     std::uint16_t unused = 0;
 
     bool operator==(const PackedCertificateStep&) const = default;
@@ -124,7 +124,7 @@ inline constexpr std::size_t network_lanes = 24, absolute_lane = 20;
 struct Kernel {
     /// Computes all outputs of a routine, one batch after another.
     void (*evaluate)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* out);
-    /// Computes labels and lower bounds of the distance to an interface.
+    /// Computes labels and lower bounds on the distance to an interface.
     void (*sample)(const Routine&, const float* x, const float* y, const float* z, float* registers, float* label,
                    float* distance);
     /// Does the same at the points origin + t·direction of a ray.

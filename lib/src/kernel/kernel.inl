@@ -163,7 +163,7 @@ HWY_INLINE void set_points(const Batch& x, const Batch& y, const Batch& z, float
     store(z, registers + 2 * batch_size);
 }
 
-// What a batch of samples says about each point. The kernel's s(p), a lower bound of the distance to a change of label,
+// What a batch of samples says about each point. The kernel's s(p), a lower bound on the distance to a change of label,
 // is one of these:
 //  - the second smallest component;
 //  - minus the smallest component, which is no larger (Routine::is_by_own);

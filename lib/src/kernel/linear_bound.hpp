@@ -19,7 +19,7 @@ struct LinearBound {
     float spread = Bounds::infinity;
 };
 
-/// An upper bound of d²s/dt² along any straight line of unit speed in a cell, where s is the kernel's lower bound of
+/// An upper bound on d²s/dt² along any straight line of unit speed in a cell, where s is the kernel's lower bound on
 /// the distance to a change of label. No such bound exists where the slope jumps upwards. A cell with more than one
 /// component can use either of two definitions of s: see Routine::is_by_own.
 struct Curvature {

@@ -124,7 +124,7 @@ class Writer {
     float* nodes_;
 };
 
-// A lower bound of the signed distance from a box, or from a point, to the balls below a node.
+// A lower bound on the signed distance from a box, or from a point, to the balls below a node.
 template <class Number>
 Number least_distance(const float* node, const std::array<Number, 3>& p, const std::array<Number, 3>& half_extents) {
     Number sum = 0;
@@ -165,7 +165,7 @@ void for_each_leaf(const TreeView& view, const std::array<Number, 3>& p, const s
     }
 }
 
-// An upper bound of the rounding error of the distance from p to a ball.
+// An upper bound on the rounding error of the distance from p to a ball.
 template <class Number>
 Number margin(float largest, const std::array<Number, 3>& p) {
     const Number far = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});

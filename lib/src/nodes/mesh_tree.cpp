@@ -37,7 +37,7 @@ Number squared_distance_to_box(const float* node, const Number* p) {
     return sum;
 }
 
-// An upper bound of the rounding errors of distances from p to pieces. It depends on the size of the box and on the
+// An upper bound on the rounding errors of distances from p to pieces. It depends on the size of the box and on the
 // distance of p from it.
 template <class Number>
 Number margin(const float* box, const Number* p) {
@@ -171,7 +171,7 @@ bool PieceTree::pieces_in(const float* tree, const PointRange& range, std::span<
     box.margin = margin(tree + piece_kinds, box.centre.data()) + 2e-6 * box.radius;
     if (!(box.margin < 1e12)) return false;
 
-    // First find an upper bound of the distance at the centre, then all pieces that can be at most that far away
+    // First find an upper bound on the distance at the centre, then all pieces that can be at most that far away
     // somewhere.
     struct Candidate {
         const float* piece;

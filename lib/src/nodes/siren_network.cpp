@@ -14,7 +14,7 @@ using model::Preparation;
 
 namespace {
 
-// An upper bound of ‖W‖₂. The eigenvalues of WᵀW are the squares of the singular values of W.
+// An upper bound on ‖W‖₂. The eigenvalues of WᵀW are the squares of the singular values of W.
 double spectral_norm(const SirenNetwork::Layer& layer) {
     const auto n = static_cast<std::size_t>(std::min(layer.inputs, layer.outputs));
     const auto inputs = static_cast<std::size_t>(layer.inputs), outputs = static_cast<std::size_t>(layer.outputs);

@@ -79,7 +79,7 @@ void VoronoiSites::find(const Search& search, std::span<const float> list, std::
         std::array<float, 3> own;
         for (std::size_t axis = 0; axis < 3; ++axis) own[axis] = static_cast<float>(std::floor(centre[axis]));
         const int steps = static_cast<int>(std::ceil(search.most));
-        // A lower bound of the squared distance, along an axis, to the sites of a layer of cubes.
+        // A lower bound on the squared distance, along an axis, to the sites of a layer of cubes.
         const auto away = [&](std::size_t axis, int step) {
             const double low = static_cast<double>(own[axis]) + step + corner - centre[axis];
             const double high = static_cast<double>(own[axis]) + step + highest - centre[axis];

@@ -76,7 +76,7 @@ class Skeletons {
     std::array<std::vector<double>, batch_size> at_;
 };
 
-// An upper bound of sup ‖∇b‖ over all space, close to the maximum of Σ wᵢ |gᵢ′|. The supports are covered by cubes, and
+// An upper bound on sup ‖∇b‖ over all space, close to the maximum of Σ wᵢ |gᵢ′|. The supports are covered by cubes, and
 // the cube with the largest bound is divided until that no longer helps (branch and bound).
 double blob_slope(const Blob& blob) {
     double everywhere = 0;

@@ -30,7 +30,7 @@
 ///     a > u       a′ > u;                      b′ > u, because b ≥ a > u          so min(a′, b′) > u
 ///     a < l       a′ < l                                                          so min(a′, b′) < l
 /// A replacement has the same sign relative to each threshold and is itself Lipschitz. So its distance from the
-/// threshold is still a lower bound of the distance to where the sign changes.
+/// threshold is still a lower bound on the distance to where the sign changes.
 ///
 /// *A replacement is no steeper than the value's recorded bound* (WorkingProgram::lipschitz), so the components of a
 /// pruned program are 1-Lipschitz in the region. The proof is by induction over the instructions, from the first to the
@@ -38,7 +38,7 @@
 ///   - An instruction that is kept has the bound that follows from the bounds of its operands, with three exceptions.
 ///     `corner` is no steeper than its steeper operand because its operands vary along orthogonal directions; an
 ///     operand's replacement is made of parts of it, so it varies along the same directions. `guarded` is as steep as
-///     its first operand, which is required everywhere and hence is not changed. A node may prove a bound of its own
+///     its first operand, which is required everywhere and hence is not changed. A node may prove a bound on its own
 ///     (`one_lipschitz` in tree/domain.hpp) that is smaller than the one that follows from its operands, as a blob does
 ///     for its sum of `falloff`s. Each falloff is required wherever it is not zero, so none of them is changed.
 ///   - An operand that replaces a minimum, a maximum, a smooth minimum or a corner is no steeper than the steeper
@@ -78,7 +78,7 @@ struct RangesInBall {
 /// If nothing can be deleted from the program, the program itself may be returned.
 ///
 /// In the region, the result gives the same labels (the phases with the smallest components), and the absolute values
-/// of its components are still lower bounds of the distance to where the label changes.
+/// of its components are still lower bounds on the distance to where the label changes.
 std::optional<WorkingProgram> prune(const WorkingProgram&, const ValueRanges&, const ProgramContext&, const Arenas&);
 std::optional<WorkingProgram> prune(const WorkingProgram&, const RangesInBall&, const ProgramContext&, const Arenas&);
 /// Does the same, and also returns the largest values that matter of local primitives. In smaller boxes, where

@@ -11,7 +11,7 @@ namespace phasetree::rewriting {
 struct ProgramContext {
     std::span<const float> constants;  ///< of the whole program; the instructions of derived programs refer to them
     PhaseSet opaque;                   ///< phases that no ray is ever in
-    /// An upper bound of the rounding error of any value, as a distance: half a resolution (cells/build.cpp).
+    /// An upper bound on the rounding error of any value, as a distance: half a resolution (cells/build.cpp).
     float value_error;
     bool has_folds;             ///< whether an instruction folds space
     bool has_local_primitives;  ///< whether an instruction is a LocalPrimitive

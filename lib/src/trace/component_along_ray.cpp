@@ -18,8 +18,8 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(). The run stops at a fold of space that jumps between the values of its point,
-// because an enclosure across a jump would be wrong.
+// The steps of a routine for interpret(). Execution stops at a fold of space that jumps somewhere within the enclosure
+// of its point, because an enclosure across a jump would be wrong.
 class StepsUpToJump : public RoutineSteps {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers) : RoutineSteps(routine), registers_(registers) {}

@@ -17,7 +17,7 @@ class ComponentAlongRay {
     /// object.
     ComponentAlongRay(const kernel::Routine&, const glm::dvec3& origin, const glm::dvec3& direction, float phase);
 
-    /// An upper bound of the component between two distances along the ray; Interval::most if none is known. The caller
+    /// An upper bound on the component between two distances along the ray; Interval::most if none is known. The caller
     /// does not need a bound that is tighter than `precision`.
     double upper_bound(double t_low, double t_high, double precision);
 
@@ -33,8 +33,8 @@ class ComponentAlongRay {
     rewriting::Arena scratch_;
 };
 
-/// The numbers that the steps of a routine compute at a point, as enclosures of the point compute them: in the order of
-/// the steps, the coordinates of a point as three numbers.
+/// The values that the steps of a routine compute at a point with the arithmetic of Enclosure: the centres of the
+/// enclosures, in the order of the steps. A step that computes a point contributes three numbers.
 std::vector<double> centres_at(const kernel::Routine&, const glm::dvec3&);
 
 }  // namespace phasetree::trace

@@ -17,10 +17,10 @@
 // flickers because of rounding errors, the kernel takes over, at three resolutions per batch.
 //
 // So the work is bounded by the length of the creep. At the resolution chosen for an object, the longest ray through it
-// has half a million resolutions. Finer resolutions allow more. Once a search has taken more than max_batches batches,
-// the step doubles with each further walk (of at most 256 batches), so that every ray terminates. Once the ray is away
-// from the interface, steps are a resolution again. After a walk, the kernel searches the rest of the ray, at the
-// object's resolution.
+// is half a million resolutions long; with a finer resolution, it is longer. Once a search has taken more than
+// max_batches batches, the step doubles with each further walk (of at most 256 batches), so that every ray terminates.
+// Once the ray is away from the interface, steps are a resolution again. After a walk, the kernel searches the rest of
+// the ray, at the object's resolution.
 #pragma once
 
 #include "kernel/kernel.hpp"

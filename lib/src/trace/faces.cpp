@@ -15,7 +15,7 @@ using kernel::FaceBatch, kernel::FaceHit, kernel::most_faces;
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double infinite_distance = std::numeric_limits<double>::infinity();
 
 // The crossings of a line with a cell's faces, in any order.
 class FaceHits {
@@ -37,7 +37,7 @@ glm::vec3 point_at(const TracedRay& ray, double t) {
 
 // The part of a ray's line in a box; empty if low > high.
 struct Part {
-    double low = -endless, high = endless;
+    double low = -infinite_distance, high = infinite_distance;
 };
 Part part_in(const Bounds& box, const TracedRay& ray) {
     Part part;
@@ -46,7 +46,7 @@ Part part_in(const Bounds& box, const TracedRay& ray) {
         const double to_low = static_cast<double>(box.low[axis]) - origin;
         const double to_high = static_cast<double>(box.high[axis]) - origin;
         if (ray.direction[axis] == 0) {
-            if (to_low > 0 || to_high < 0) part.high = -endless;
+            if (to_low > 0 || to_high < 0) part.high = -infinite_distance;
             continue;
         }
         const double a = to_low * ray.inverse[axis], b = to_high * ray.inverse[axis];
@@ -72,16 +72,16 @@ struct Plane {
     double side(const glm::vec3& p) const { return glm::dot(normal, glm::dvec3(p) - corner); }
 };
 
-// The crossings that matter for a ray in a phase. Distances are endless if there is none.
+// The crossings that matter for a ray in a phase. Distances are infinite if there is none.
 struct Nearest {
-    FaceHit leaving{endless, 0, false};
-    double entering = endless;
+    FaceHit leaving{infinite_distance, 0, false};
+    double entering = infinite_distance;
     bool has_passed = false;  // an entering one was passed at the start
-    double behind = -endless;
+    double behind = -infinite_distance;
     bool is_behind_entering = false;
 
-    // `is_front` is the side from which the ray leaves its phase. The ray starts at `begin` and passes entering
-    // crossings up to `passed`. Those behind it count from `low` on.
+    // `is_front` is the side from which the ray leaves its phase. The ray starts at `begin`. Entering crossings up to
+    // `passed` are skipped. Crossings before the start are considered back to `low`.
     Nearest(const FaceHits& hits, bool is_front, double low, double begin, double passed) {
         for (const FaceHit& hit : hits) {
             const bool is_leaving = hit.is_front == is_front;
@@ -154,7 +154,7 @@ FaceAnswer first_crossing(const FacesOfCell& cell, const FaceVisit& visit, Cross
     bool is_front = carried == cell.first;
     if (!carried) {
         // The ray is in the phase on the near side of the first face.
-        FaceHit first{endless, 0, false};
+        FaceHit first{infinite_distance, 0, false};
         for (const FaceHit& hit : hits)
             if (hit.t >= begin && hit.t < first.t) first = hit;
         is_front = first.is_front;

@@ -26,11 +26,11 @@ struct FaceVisit {
     std::optional<Phase> carried;
 };
 
-/// What the faces tell of the first change of phase along a ray.
+/// What the faces alone determine about the first change of phase along a ray.
 enum class FaceAnswer {
     none,
     crossing,
-    none_if_in_phase,  ///< none if the ray starts in the phase that it carries, which the faces do not tell
+    none_if_in_phase,  ///< none if the ray really starts in the phase that it carries, which the faces cannot decide
     unclear            ///< rounding errors matter, so the cell's program must decide
 };
 
@@ -40,8 +40,8 @@ enum class FaceAnswer {
 /// of the carried phase, `entering` those into it. In order along the ray, from its start in the box:
 ///
 ///   * If a crossing that enters comes first, the ray is not in its phase. Where it enters the box far from any face,
-///     the change of phase is there and has no length; otherwise it is unclear. At the start of a ray, a crossing
-///     within four resolutions is passed, as by the kernel: rounding has moved the start across the face.
+///     the change of phase is there and has no length; otherwise it is unclear. At the start of a ray, such a crossing
+///     within four resolutions is skipped, as in the kernel, because rounding has moved the start across the face.
 ///   * If one that leaves comes first, it is the change of phase. If another follows within three resolutions, it may
 ///     be undone, or the ray may be on an edge: unclear.
 ///   * If there is none, the phase does not change. For a ray that starts in the box, the last crossing behind the

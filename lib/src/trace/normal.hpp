@@ -19,8 +19,8 @@ using evaluation::Component;
 /// component's value: a plane with this normal and distance must cross the ray within the bracket. If the gradient at
 /// the near end does not, others are tried, in this order:
 ///  * a resolution before the bracket on the ray;
-///  * a resolution from the near end into `from`: against the normal found by the previous point, then against the near
-///    end's own normal;
+///  * a resolution from the near end into `from`: opposite to the normal found by the previous point, then opposite to
+///    the near end's own normal;
 ///  * the far end; a resolution beyond it on the ray; and a resolution from the far end into `to`, along the normal
 ///    found by the previous point;
 ///  * two resolutions from each end in both directions of each coordinate axis, taking the point deepest in its phase.

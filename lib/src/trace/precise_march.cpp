@@ -162,9 +162,9 @@ bool PreciseMarch::pass_enclosed(Sample& a) {
 }
 
 // The crossing between two samples. `low` is in the ray's phase, `high` is certainly not. Where other phases are less
-// deep than rounding errors, as along edges and between faces in common, labels near the crossing mean little. So what
-// is bracketed is not where the ray's label ends, but where the label of `high` begins. If what lies before is
-// certainly another phase, it is bracketed instead.
+// deep than rounding errors, as along edges and within shared faces, labels near the crossing mean little. So the
+// bracket is placed where the label of `high` begins, not where the ray's label ends. If a sample just before that is
+// certainly in a third phase, the start of that phase is bracketed instead.
 PreciseCrossing PreciseMarch::crossing_between(const Sample& low, Sample high) {
     for (;;) {
         const auto [before, behind] = begin_of_label(low, high);
@@ -173,7 +173,7 @@ PreciseCrossing PreciseMarch::crossing_between(const Sample& low, Sample high) {
     }
 }
 
-// Two samples next to each other between `low`, and `high`, of which only the second has the label of `high`.
+// Two adjacent samples between `low` and `high`, of which only the second has the label of `high`.
 std::pair<PreciseMarch::Sample, PreciseMarch::Sample> PreciseMarch::begin_of_label(Sample low, Sample high) const {
     const Phase sought = high.phase;
     bool was_low = false;  // whether the last sample replaced `low`
@@ -212,9 +212,9 @@ PreciseCrossing PreciseMarch::passed(const Sample& in, const Sample& out) {
     return c;
 }
 
-// The gradients of the components on both sides, at the bracket's ends and a resolution before and behind it. The first
-// that points along the ray is taken. A gradient does not where the ray runs along the interface, or at a point of no
-// slope; then the one with the smallest angle is taken, or the ray's direction.
+// The gradients of the components on both sides, at the bracket's ends and a resolution before and after it. The first
+// gradient that points along the ray is used. If none does, because the ray runs along the interface or the slope is
+// zero, the one with the smallest angle to the ray is used, or the ray's direction.
 glm::dvec3 PreciseMarch::normal(double t_in, double t_out, Phase to) const {
     // The cosine of an angle that is certainly below 90°.
     constexpr double certain = 1e-6;

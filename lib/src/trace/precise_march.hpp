@@ -47,8 +47,9 @@ class PreciseMarch {
     const PreciseTracer& tracer_;
     const kernel::Routine routine_;
     const double resolution_, value_error_;
-    double finest_ = 0;  // brackets end at this length
-    // The ray from where the search starts, a distance `skipped_` behind its origin. The direction is of unit length.
+    double finest_ = 0;  // bracketing stops at this length
+    // The ray, restarted where the search begins, a distance `skipped_` past its origin. The direction is of unit
+    // length.
     glm::dvec3 start_{0}, direction_{0};
     double skipped_ = 0, length_ = 1;
     Phase carried_;

@@ -21,10 +21,11 @@ namespace {
 constexpr std::size_t precise_rays = 64;
 // The default resolution, as a fraction of the diagonal; for objects that search in floats, that of floats.
 constexpr double fine = 0x1p-30, fine_in_floats = 2e-6;
-// The finest resolution, in errors of values, and the coarsest, as a fraction of the diagonal.
-constexpr double finest_in_errors = 2, coarsest_of_diagonal = 0.01;
-// Errors of values and of enclosures, in the largest difference measured between the two.
-constexpr double value_error_in_differences = 4, enclosure_error_in_differences = 2;
+// The finest resolution, as a multiple of value_error(), and the coarsest, as a fraction of the diagonal.
+constexpr double min_resolution_over_error = 2, max_resolution_over_diagonal = 0.01;
+// value_error() and the error of enclosures, as multiples of the largest measured difference between an enclosure's
+// centre and the value in double precision.
+constexpr double value_error_over_difference = 4, enclosure_error_over_difference = 2;
 
 // The largest difference between enclosures of single points and doubles, for all numbers that the program computes.
 double measured_difference(const PreciseProgram& program, const Bounds& bounds) {
@@ -60,12 +61,13 @@ PreciseTracer::PreciseTracer(const Phased& object, double resolution)
     const double difference = measured_difference(program, bounds_);
     if (!(difference < 0.01 * diagonal)) {
         enclosure_error_ = std::numeric_limits<double>::infinity();
-    } else if (value_error_in_differences * difference > value_error_) {
-        value_error_ = value_error_in_differences * difference;
-        enclosure_error_ = enclosure_error_in_differences * difference;
+    } else if (value_error_over_difference * difference > value_error_) {
+        value_error_ = value_error_over_difference * difference;
+        enclosure_error_ = enclosure_error_over_difference * difference;
     }
     const double chosen = resolution > 0 ? resolution : (program.searches_in_floats ? fine_in_floats : fine) * diagonal;
-    resolution_ = std::max(std::min(chosen, coarsest_of_diagonal * diagonal), finest_in_errors * value_error_);
+    resolution_ =
+        std::max(std::min(chosen, max_resolution_over_diagonal * diagonal), min_resolution_over_error * value_error_);
 }
 
 std::optional<PreciseCrossing> PreciseTracer::first_crossing(const PreciseRay& ray) const {

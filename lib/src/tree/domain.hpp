@@ -15,7 +15,7 @@ namespace phasetree {
 /// * Scalar and Point: a value, and a point in space.
 /// * field(f, p), phases(a, p): the value of a field and the components of an object at a point.
 /// * primitive(s, p): the value of a solid or pattern that is a single instruction; of any Primitive or DataPrimitive.
-/// * map(m, p, lipschitz): the image of a point under a PointMap, and an upper bound of the factor by which it
+/// * map(m, p, lipschitz): the image of a point under a PointMap, and an upper bound on the factor by which it
 ///   lengthens distances.
 /// * one_lipschitz(v, p): the value v. The node guarantees that it is 1-Lipschitz in p, where the domain would derive a
 ///   larger bound.

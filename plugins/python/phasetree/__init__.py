@@ -10,7 +10,8 @@
 
 Fields (sphere, box, union …) are signed distances; objects of several phases are made of them. There is one function
 for each kind of node and material; textures, lights, meshes and cameras have modules of their own. All are generated
-from the library's list of nodes. A formula in x, y, z = pt.coordinates() can be used as a field, too:
+from the lists of nodes and scene parts that the reader of scene files uses. A formula in x, y, z = pt.coordinates() can
+also be used as a field:
 glass(pt.sqrt(x**2 + y**2) - 1).
 """
 

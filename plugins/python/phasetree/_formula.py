@@ -26,7 +26,7 @@ FUNCTIONS = {
     "square": (1, 1),
 }
 
-# NumPy's functions of the same meaning: np.sqrt(x) of an expression is one.
+# NumPy's functions that map to functions of formulas: np.sqrt(x) of an expression x is an expression.
 _UFUNCS = {
     "add": "+",
     "subtract": "-",
@@ -49,7 +49,7 @@ class Expression(Value):
 
     It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
     negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
-    are evaluated in single precision. Making the field determines an upper bound of the slope, by which the formula is
+    are evaluated in single precision. Making the field determines an upper bound on the slope, by which the formula is
     divided.
     """
 
@@ -163,7 +163,7 @@ class Expression(Value):
         return NotImplemented if None in of else Expression(name, of)
 
     def __getattr__(self, name):
-        # What can be done with a field can be done with what stands for one.
+        # An expression can be used wherever a field can, so it has the methods of fields, too.
         if name.startswith("_"):
             raise AttributeError(name)
         if not hasattr(_registry.classes["Field"], name):
@@ -191,7 +191,7 @@ def expression(value):
 class _Writer:
     """Writes an expression as text. Subexpressions that are used more than once, or nested deeply, get a name."""
 
-    deepest = 20  # levels of brackets before a name
+    deepest = 20  # expressions nested more deeply get a name
 
     def __init__(self, root):
         self.order, self.uses, self.names, self.levels = [], {}, {}, {}
@@ -245,7 +245,8 @@ def coordinates():
 def _function(name, least, most):
     def apply(*values):
         if len(values) < least or (most is not None and len(values) > most):
-            raise TypeError(f"{name} takes {least if least == most else f'{least} or more'} numbers")
+            counts = least if least == most else f"{least} or more" if most is None else f"{least} or {most}"
+            raise TypeError(f"{name} takes {counts} numbers")
         of = tuple(expression(v) for v in values)
         if None in of:
             raise Error(f"{name} takes numbers and expressions of pt.coordinates(), not {values[of.index(None)]!r}")

@@ -85,7 +85,7 @@ def _module(name, doc, kinds):
     module = types.SimpleNamespace()
     for kind in kinds:
         function = _function(kind)
-        function.__qualname__ = f"{name}.{kind.name}"  # by which pickle finds it
+        function.__qualname__ = f"{name}.{kind.name}"  # pickle looks the function up by this name
         setattr(module, kind.name, function)
     module.__doc__ = doc
     return module
@@ -104,7 +104,7 @@ materials = _module("materials", "Materials: what phases and meshes are made of.
 textures = _module("textures", "Textures: colours that differ from place to place.", _chapters["Textures"])
 numbers = _module("numbers", "Numbers that differ from place to place.", _chapters["Number textures"])
 lights = _module("lights", "Lights.", _chapters["Lights"])
-meshes = _module("meshes", "Meshes: what stands beside the object.", _chapters["Meshes"])
+meshes = _module("meshes", "Meshes in the scene in addition to the object.", _chapters["Meshes"])
 cameras = _module("cameras", "Cameras.", _chapters["Cameras"])
 image = _function(_chapters["Render settings"][0])
 image.__name__ = image.__qualname__ = "image"

@@ -21,9 +21,9 @@ class Phase(Value):
         if not isinstance(name, str) or not name:
             raise Error(f"a phase needs a name, but this is {name!r}")
         if name == "vacuum" and material is not None:
-            raise Error('"vacuum" is always there and cannot be a phase of one\'s own')
+            raise Error('"vacuum" is predefined; choose another name for the phase')
         if material is not None and not (isinstance(material, Part) and material.chapter == "Materials"):
-            raise Error(f'the material of "{name}" must be one, such as pt.clear(ior=1.5), but is {material!r}')
+            raise Error(f'the material of "{name}" must be a material such as pt.clear(ior=1.5), but is {material!r}')
         if density is not None and not 0 <= float(density) <= 1e12:
             raise Error(f'the density of "{name}" must be from 0 to 1e12 kg/m³, but is {density!r}')
         object.__setattr__(self, "name", name)
@@ -57,14 +57,14 @@ class Phase(Value):
 def phase(name, material=None, density=None):
     """Returns the phase with this name, material and density in kg/m³: pt.phase("glass", pt.clear(ior=1.5), 2500)."""
     if name == "vacuum":
-        raise Error('"vacuum" is always there and cannot be a phase of one\'s own')
+        raise Error('"vacuum" is predefined; choose another name for the phase')
     return Phase(name, material, density)
 
 
 vacuum = Phase("vacuum")
 
 
-most = 64  # the vacuum among them
+max_phases = 64  # including the vacuum
 
 
 def merged(*several):
@@ -84,6 +84,6 @@ def merged(*several):
             density = one.density if known.density is None else known.density
             if (material, density) != (known.material, known.density):
                 found[one.name] = Phase(one.name, material, density)
-    if len(found) > most:
-        raise Error(f"more than {most - 1} phases in one object")
+    if len(found) > max_phases:
+        raise Error(f"more than {max_phases - 1} phases in one object")
     return tuple(found.values())

@@ -28,9 +28,12 @@ def _maps(transforms, what):
     elif array.shape[-2:] == (3, 4) and array.ndim <= 3:
         array = array.reshape(-1, 3, 4)
     else:
-        raise Error(f"{what} must be positions (3,) or (N, 3), or matrices 3x4 or 4x4, one or N; the shape is {array.shape}")
+        raise Error(
+            f"{what} must be positions of shape (3,) or (N, 3), or affine matrices of shape (3, 4), (4, 4), (N, 3, 4) "
+            f"or (N, 4, 4); the shape is {array.shape}"
+        )
     if len(array) == 0 or not np.all(np.isfinite(array)):
-        raise Error(f"{what} must have at least one place, and finite numbers")
+        raise Error(f"{what} must contain at least one transform, and only finite numbers")
     return np.ascontiguousarray(array)
 
 
@@ -65,8 +68,8 @@ class Places:
 def places(of, transforms):
     """Places an object or a group of a scene, once or many times. Returns Places.
 
-    of: the name of the object or group. transforms: one position or N, of shape (3,) or (N, 3); or one matrix or N of
-    an affine map, 3x4 or 4x4.
+    of: the name of the object or group. transforms: positions of shape (3,) or (N, 3), or matrices of
+    affine maps, of shape (3, 4), (4, 4), (N, 3, 4) or (N, 4, 4).
     """
     if not isinstance(of, str) or not of:
         raise Error(f"places need the name of an object or a group, not {of!r}")
@@ -102,12 +105,12 @@ def phases_of(objects):
     for placed, _ in objects.values():
         for p in placed.phases[1:]:
             if known.setdefault(p.name, p) != p:
-                raise Error(f'two objects have a phase "{p.name}", of different materials: give one another name')
+                raise Error(f'two objects have different materials for the phase "{p.name}"; rename it in one of them')
     return (vacuum, *known.values())
 
 
 def _numbers(array):
-    """Lists of numbers with as few digits as identify each float32."""
+    """Nested lists of numbers, each with the fewest digits that identify the float32."""
     if array.ndim > 1:
         return [_numbers(row) for row in array]
     return [float(str(value)) for value in array]
@@ -122,7 +125,8 @@ def written(objects):
     """The "shapes" and "objects" of a scene file. Shapes that a tree uses repeatedly are named after the object."""
     shapes, placed = {}, []
     for name, (one, matrix) in objects.items():
-        # A phase may be called as the writer calls a shape, so phases have other names until shapes have theirs.
+        # A phase's name may equal a name that the writer gives a shape. So phases have temporary names until the shapes
+        # are renamed.
         phases = {f"{name}: phase {i}": p.name for i, p in enumerate(one.phases[1:], 1)}
         scene = _phasetree.value_of(one._handle.text(list(phases), ["null"] * len(phases)))
         renamed = phases | {shape: f"{name}: {shape}" for shape in scene.get("shapes", {})}
@@ -142,8 +146,8 @@ def written(objects):
     return shapes, placed
 
 
-def without_places_alone(objects, groups, places):
-    """Removes the places of objects that stand in the scene only because nothing names them."""
+def without_implicit_places(objects, groups, places):
+    """Removes the implicit places: those that the reader adds for objects that no instance or group names."""
     named = [one.of for listed in (*groups.values(), places) for one in listed]
     return [
         one

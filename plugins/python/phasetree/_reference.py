@@ -81,7 +81,9 @@ class Kind:
         if self.equation:
             text += f"\n\n    {self.equation}"
         if self.section:
-            text += f"\n\nSection {self.section} of the paper."
+            *first, last = self.section.split(", ")
+            sections = f"Sections {', '.join(first)} and {last}" if first else f"Section {last}"
+            text += f"\n\n{sections} of Galin et al. (2026)."
         return text + "\n\n" + "\n".join(p.text for p in self.parameters)
 
     def signature(self):
@@ -114,10 +116,11 @@ class Kind:
     def bound(self, signature, arguments, named):
         """The arguments of a call as {parameter: value}. Raises TypeError or Error if they do not fit."""
         if self.many and self.many.python_name in named:
-            raise Error(f'{self.name}: what it is made of comes first and unnamed: {self.name}(a, b, …)')
+            raise Error(f'{self.name}: pass its fields or objects as positional arguments: {self.name}(a, b, …)')
         known = {p.python_name: p for p in self.parameters}
         for p, value in (*self._unnamed(arguments), *((known.get(name), value) for name, value in named.items())):
-            # Who writes translate(1, 2, 3) is not to hear of the parameters that 2 and 3 would be.
+            # For translate(1, 2, 3), report that the vector must be one list, instead of the parameters to which 2 and
+            # 3 would be bound.
             if p and p.type.startswith("[") and isinstance(value, numbers.Real):
                 raise Error(f'{self.name}: "{p.name}" must be {p.type} as one list or tuple, but is {value!r}')
         named = self._in_known_spelling(named, known)
@@ -153,7 +156,7 @@ def written(value, what):
     if isinstance(value, (str, bool)) or value is None:
         return value
     if hasattr(value, "text") and hasattr(value, "within"):
-        return value.text  # a formula, which has what a field has, too
+        return value.text  # a formula; tested first, because it also has the attributes of fields, such as written()
     if hasattr(value, "written"):
         return value.written()
     if hasattr(value, "tolist"):

@@ -58,7 +58,7 @@ class Image:
         return _phasetree.png(self.pixels, self.exposure if exposure is None else exposure, view or self.view)
 
     def save(self, path, exposure=None, view=None):
-        """Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name: one file per plane."""
+        """Writes .exr (linear, with all planes), .png, .jpg or .tif; one file per plane if an .exr name has "{plane}"."""
         exposure = self.exposure if exposure is None else exposure
         _phasetree.save_image(
             path_text(path), self.pixels, self.planes, list(self.attributes.items()), self.crop, exposure,
@@ -89,13 +89,14 @@ class Image:
 class Scene(Value):
     """One or several objects, with everything that a picture of them needs. Immutable; `with_` replaces parts.
 
-    object: to be rendered, its phases need materials. A scene has either this object, or `objects`, or only meshes.
-    objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix. Objects may
-    touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
-    An object that is placed does not also stand where its own map puts it. groups: {name: places}.
+    object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
+    meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
+    Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
+    and groups. An object that has instances appears only there, not also where its own map puts it. groups: {name:
+    places}.
 
-    unit: that of the lengths, "mm", "cm", "m" or "in"; it changes no picture. expect: statements, as in "expect" of a scene
-    file, which `phasetree check --prove` proves or refutes.
+    unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
+    of a scene file, which `phasetree check --prove` proves or refutes.
 
     camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
     sees instead of the lights at infinity. image: pt.image(…).
@@ -122,7 +123,7 @@ class Scene(Value):
         self.lights = _several(lights, "Lights", "a light")
         self.meshes = _several(meshes, "Meshes", "a mesh")
         self.background = background
-        if isinstance(background, dict):  # of keys, as it changes with time
+        if isinstance(background, dict):  # an animated background, {"keys": …}
             self.background = _reference.written(background, "the background")
         elif background is not None and not isinstance(background, str):
             self.background = tuple(float(c) for c in background)
@@ -237,8 +238,8 @@ class Scene(Value):
         command. denoise: True, "regression" (the same bits everywhere) or "oidn". Image.planes then has the picture
         before denoising as "noisy.R", "noisy.G" and "noisy.B".
 
-        time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is given too, only the time
-        ends the render. at: the time in seconds at which keys are read.
+        time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
+        time ends the render. at: the time in seconds at which animated values are evaluated.
         """
         if self.camera is None:
             raise Error("the scene has no camera: Scene(…, camera=pt.camera(position, look_at))")
@@ -331,7 +332,7 @@ def _phases_of(parts):
 
 
 def _material_and_density(entry):
-    """What an entry of "phases" says; None for what it lacks."""
+    """The material and the density in an entry of "phases"; None for each that is missing."""
     if not isinstance(entry, dict):
         return None, None
     material = {key: value for key, value in entry.items() if key != "density"}
@@ -358,7 +359,7 @@ def _object_with_names(entry, raw, path):
 
 
 def _fields_of_materials(value):
-    """The fields of textures and densities, which become handles when they are read."""
+    """The JSON of all fields in textures and densities, which reading converts to handles."""
     if isinstance(value, dict):
         field = "of" if "ramp" in value else "density" if "density_depth" in value else None
         own = [value[field]] if field in value else []
@@ -388,7 +389,7 @@ def _load_objects(path):
         name: (_object_with_names(entry, raw, path), matrix[0]) for entry, (name, matrix) in zip(entries, maps)
     }
     groups = {name: [_placed.Places(*one) for one in listed] for name, listed in groups.items()}
-    instances = _placed.without_places_alone(objects, groups, [_placed.Places(*one) for one in places])
+    instances = _placed.without_implicit_places(objects, groups, [_placed.Places(*one) for one in places])
     return raw, {"objects": objects, "groups": groups, "instances": instances}
 
 

@@ -18,7 +18,7 @@ class Solution(NamedTuple):
     The arrays hold [low, high, estimate]: the measure certainly lies between the first two.
     """
 
-    value: float  #: in the bracket; the measure there is about the target
+    value: float  #: a number in the bracket at which the measure is close to the target
     low: float  #: the lower end of the bracket
     high: float  #: its upper end
     measure: np.ndarray  #: float64 (3): at the value; infinite if there was no time to measure it
@@ -29,7 +29,7 @@ class Solution(NamedTuple):
 
 
 def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seconds=None, progress=None):
-    """The number between two others for which a phase has a volume or mass, as a Solution.
+    """Finds the number between `low` and `high` for which a phase has a given volume or mass. Returns a Solution.
 
     make: a function that returns the object for a number. target: the volume, in cubed units of length; with
     densities, the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the

@@ -15,7 +15,7 @@ _TYPES = {
     "number": "float",
     "whole number": "int",
     "true or false": "bool",
-    "text": "str | Expression",
+    "text": "str",
     "name of a file": "str | PathLike[str]",
     "field": "Field | Expression",
     "object": "Object",
@@ -72,7 +72,8 @@ def _arguments(kind, first=None):
             continue
         star = "*" if p is kind.many else ""
         optional = " | None = ..." if p.optional else ""
-        parts.append(f"{star}{argument.name}: {_type(p.type)}{optional}")
+        python_type = "str | Expression" if (kind.name, p.name) == ("formula", "text") else _type(p.type)
+        parts.append(f"{star}{argument.name}: {python_type}{optional}")
     return ", ".join(parts)
 
 
@@ -181,7 +182,8 @@ def text():
     for name in _formula.functions:
         out += f"def {name}(*values: {_NUMBER}) -> Expression: ...\n"
     out += "\n" + _plain(_solve.solve, "")
-    out += "\ndef load(path: str | PathLike[str]) -> Scene: ...\n\n"
+    doc = textwrap.indent(f'r"""{inspect.getdoc(_scene.load)}\n"""', "    ")
+    out += f"\ndef load(path: str | PathLike[str]) -> Scene:\n{doc}\n\n"
     for name, function in _trees.functions.items():
         out += _overloads(name, function) + "\n"
     for title, kinds in _parts.kinds.items():

@@ -70,7 +70,7 @@ class NextCrossings(NamedTuple):
     after: np.ndarray  #: uint8 (…): the phase that the ray enters
     normal: np.ndarray  #: float64 (…, 3): the unit normal, from `before` into `after`
     near: np.ndarray  #: float64 (…, 3): the point before the crossing, where a reflected ray starts, in `before`
-    far: np.ndarray  #: float64 (…, 3): the point behind the crossing, where the ray goes on, in `after`
+    far: np.ndarray  #: float64 (…, 3): the point just past the crossing, where the ray continues, in `after`
 
 
 class Closest(NamedTuple):
@@ -138,7 +138,7 @@ class Proof(NamedTuple):
     verdict: str  #: "proved", "refuted" or "undecided"
     reason: str  #: why, in words; may be empty
     witnesses: list  #: points that show it: ((x, y, z), name of the phase that certainly is there)
-    resolution: float  #: the side of the smallest boxes that were looked at; 0 of volumes and masses
+    resolution: float  #: the side of the smallest boxes that were examined; 0 for statements about volumes and masses
     interval: tuple | None  #: (low, high) of a volume or mass, in the unit of the statement
 
 
@@ -170,7 +170,7 @@ class Field(Value):
 
     def __init__(self, handle, phases=(vacuum,), radius=None):
         self._handle_ = handle
-        self._phases_ = phases  # of the objects that it is made of, which are mostly none
+        self._phases_ = phases  # the phases of the objects in it; usually only the vacuum
         self._joined = None  # (kind, fields) of a | b | c until the handle is asked for
         self._radius = radius
         self._evaluator_ = None
@@ -280,7 +280,7 @@ class Field(Value):
 
 
 def _name_of_phase(value):
-    """What stands for a phase in the text of a statement."""
+    """The JSON for a Phase in a statement: its name."""
     if isinstance(value, Phase):
         return value.name
     raise Error(f"statements contain phases, names and numbers, not {type(value).__name__}")
@@ -328,8 +328,8 @@ class Object(Value):
     def _refuse(self, other, sign, swapped=True):
         a, b = (other, self) if swapped else (self, other)
         raise TypeError(
-            f'"{sign}" joins fields, but here are {_named(a)} and {_named(b)}. Which of two objects is over the other '
-            "matters: a.over(b), a.under(b), a.contact(b, …), or a.unite_shape_below(…) with a field"
+            f'"{sign}" combines fields, but the operands are {_named(a)} and {_named(b)}. For objects, the order '
+            "matters: use a.over(b), a.under(b), a.contact(b, …), or a.unite_shape_below(…) with a field"
         )
 
     def __or__(self, other):
@@ -360,9 +360,9 @@ class Object(Value):
         numbers = {}
         for i, p in enumerate(wanted):
             if not isinstance(p, Phase):
-                raise Error(f"{p!r} is no phase")
+                raise Error(f"{p!r} is not a phase")
             if p.name in numbers:
-                raise Error(f'"{p.name}" is there twice')
+                raise Error(f'"{p.name}" is listed twice')
             numbers[p.name] = i
         used = self._handle.phases
         kept = []
@@ -415,7 +415,7 @@ class Object(Value):
         return self.names.index(name)
 
     def prepare(self, quality="medium", resolution=0, progress=None):
-        """Builds the cells in which rays are traced. Otherwise, the first ray builds them.
+        """Builds the cells in which rays are traced. If this is not called, the first ray builds them.
 
         quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
         certain to be found. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
@@ -434,7 +434,7 @@ class Object(Value):
 
     @property
     def resolution(self):
-        """The thickness of a phase along a ray that is certain to be found."""
+        """The smallest thickness along a ray at which a phase is certain to be found."""
         return self._prepared.resolution
 
     def trace(self, origins, directions):
@@ -493,13 +493,14 @@ class Object(Value):
     def crossings(self, origins, directions, phases=None, limit=float("inf")):
         """Every crossing along rays in double precision, as Crossings with float64 arrays.
 
-        origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of it. phases: the
-        phase that each ray is in (an integer array, a phase, or its name), by default that at its origin. A ray that is
-        in another phase than its origin crosses there, at t = 0. limit: the largest t, a number or one per ray.
+        origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of this length.
+        phases: the phase that each ray is in (an integer array, a phase, or its name), by default that at its origin.
+        If a ray's phase differs from that at its origin, there is a crossing at t = 0. limit: the largest t, a number
+        or one per ray.
 
-        Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is always
-        `before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need `prepare`.
-        Raises Error if the object is empty or unbounded.
+        Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is
+        always `before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need
+        `prepare`. Raises Error if the object is empty or unbounded.
         """
         arrays, _ = self._precise_rays(origins, directions, phases, limit)
         return Crossings(*self._precise.crossings(*arrays))
@@ -573,8 +574,8 @@ class Object(Value):
         seconds: a limit of the time, by default none. progress: called with "proving" and a guess of the fraction done,
         up to 1.
 
-        Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
-        rays. Raises Error if a statement is malformed, or if the object is empty or unbounded.
+        Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half of
+        `resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded.
         """
         densities = [(i, p.density) for i, p in enumerate(self.phases) if p.density is not None]
         text = json.dumps({"expect": list(statements)}, ensure_ascii=False, default=_name_of_phase)

@@ -17,7 +17,7 @@ from phasetree._phases import Phase
 from phasetree._scene import Scene
 from phasetree._trees import Object
 
-# Colours that differ for those who see few, too (Okabe and Ito, "Color Universal Design", 2008), as linear values.
+# A palette that colour-blind people can distinguish (Okabe and Ito, "Color Universal Design", 2008), as linear values.
 _COLOURS = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
 
 
@@ -74,7 +74,7 @@ class View:
             shutil.rmtree(folder)
             raise
         self.url = served.url
-        # When the view is no longer referred to, or the program ends.
+        # Runs when the view is garbage-collected or the program exits.
         self._end = weakref.finalize(self, View._ended, served, folder)
 
     @staticmethod

@@ -95,10 +95,11 @@ void add_check(CLI::App& app, Run& run) {
         "prints the error and exits with 2. Parts that render ignores must be valid, too. For a\n"
         "valid scene without a camera, check prints what it can be used for and exits with 3.\n"
         "\n"
-        "With --prove, it prints for each statement in \"expect\" whether it is proved, refuted, with\n"
-        "points that show it, or undecided at the resolution or in the time given. Without \"expect\", it\n"
-        "prints for each phase whether it is somewhere, and in one piece. With several objects, their\n"
-        "union is examined. The scene may lack a camera and lights. Ctrl-C prints what is known so far.");
+        "With --prove, it prints one of these for each statement in \"expect\": proved; refuted, with\n"
+        "points that show it; or undecided, at the given resolution or within the given time. Without\n"
+        "\"expect\", it prints for each phase whether it is present and whether it is connected. With\n"
+        "several objects, their union is examined. The scene may lack a camera and lights. Ctrl-C prints\n"
+        "what is known so far.");
     const auto file = add_scene_file(*command);
     auto prove = std::make_shared<ProveCommand>();
     add_prove_options(*command, *prove);

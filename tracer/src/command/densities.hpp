@@ -20,8 +20,8 @@ namespace phasetree::tracer {
 void add_densities(CLI::App& command, std::vector<std::string>& texts);
 
 // The densities of the object's phases in kg/m³: those of the option, which are parsed here, and those of the scene for
-// other phases. Throws UsageError if one of the option is malformed, names a phase that the object lacks, or names the
-// same phase as another.
+// other phases. Throws UsageError if a value of the option is malformed, names a phase that the object lacks, or
+// repeats a phase.
 std::vector<std::pair<Phase, double>> densities_of(const std::vector<std::string>& texts, const SceneTree& tree,
                                                    const SceneModel& model);
 

@@ -32,7 +32,8 @@ struct ExitCode {
 
 inline constexpr std::array exit_codes{
     ExitCode{exit_code::success, "success"},
-    ExitCode{exit_code::failure, "output cannot be written, memory or threads run out, or SIGTERM or SIGHUP"},
+    ExitCode{exit_code::failure,
+             "output cannot be written, memory or threads ran out, or SIGTERM or SIGHUP ended the command"},
     ExitCode{exit_code::usage, "the scene, another input or an option is wrong"},
     ExitCode{exit_code::tree_only, "check: the scene is valid but has no camera"},
     ExitCode{exit_code::refuted, "check --prove: a statement is refuted"},

@@ -175,10 +175,10 @@ void add_export(CLI::App& app, Run& run) {
         ".3mf .stl .obj .glb .ply: triangles. Each phase has a closed surface. Neighbouring phases\n"
         "share vertices, so there are no gaps or overlaps. .3mf, .obj and .glb have one coloured object\n"
         "per phase; an .obj comes with an .mtl. The unit of length is a millimetre in .3mf and a metre\n"
-        "in .glb; lengths are converted to it if the scene has a \"unit\". An .stl has the outer surface of all "
-        "phases; with {phase} in its name, one file per\n"
-        "phase is written. A .ply has each triangle once, with the phases on both sides. Another\n"
-        "--max-memory may change the last digits of coordinates.\n"
+        "in .glb; lengths are converted to it if the scene has a \"unit\". An .stl has the outer surface of\n"
+        "all phases; with {phase} in its name, one file per phase is written. A .ply has each triangle\n"
+        "once, with the phases on both sides. A different --max-memory may change the last digits of\n"
+        "coordinates.\n"
         "\n"
         ".nrrd .vdb: the index of the phase at the centre of each voxel, 0 for the vacuum. A file whose\n"
         "name ends in .seg.nrrd is a segmentation for 3D Slicer, with the names and colours of phases.\n"
@@ -210,9 +210,8 @@ void add_export(CLI::App& app, Run& run) {
         ->option_text("LENGTH");
     command
         ->add_option("--scale", options->mesh.scale,
-                     "Triangles and voxels: enlarge the object by this factor (default: in .3mf and .glb, what "
-                     "converts the scene's "
-                     "\"unit\" to that of the format; else 1)")
+                     "Triangles and voxels: scale the object by this factor (default: in .3mf and .glb, the factor "
+                     "from the scene's \"unit\" to that of the format; otherwise 1)")
         ->check(is_positive("a factor such as 25.4"), "", "factor")
         ->option_text("FACTOR");
     command

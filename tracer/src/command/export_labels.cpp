@@ -91,7 +91,7 @@ void set_labels(LabelVolume& volume, const Program& program, LateProgress& progr
                       });
 }
 
-// A unit is that of the written lengths, so a scale hides it.
+// The file's unit describes the lengths as written. After scaling, the scene's unit would be wrong, so it is omitted.
 std::string unit_of(const LabelExport& wanted, const SceneModel& model) {
     return model.unit && !wanted.scale ? std::string(model.unit->name) : "";
 }

@@ -15,7 +15,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Exclusive upper bound of frame numbers: seven digits.
+// Exclusive upper bound on frame numbers: seven digits.
 constexpr int most_frames = 10'000'000;
 
 struct FrameRange {

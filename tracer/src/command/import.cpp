@@ -90,8 +90,8 @@ bool write(const ImportOptions& options, const gltf_import::ImportedScene& scene
     return true;
 }
 
-// A scene names its meshes and its glTF file relative to its own folder. Behind a link into another folder, they would
-// be found either from the link or from the scene, but not from both.
+// A scene names its meshes and its glTF file relative to its own folder. If the output is a symbolic link into another
+// folder, they would be found relative to the link or relative to its target, but not both.
 void check_is_in_its_folder(const std::string& scene) {
     std::error_code problem;
     if (!std::filesystem::is_symlink(std::filesystem::symlink_status(scene, problem))) return;
@@ -147,25 +147,24 @@ void add_import(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("import", "Convert a glTF file to a scene, with clear objects as phases");
     command->footer(
         "Clear objects (KHR_materials_transmission and KHR_materials_volume) become phases of one tree;\n"
-        "their triangles are written to a folder beside the scene: cup.json has cup.meshes. The rest of\n"
+        "their triangles are written to a folder next to the scene: cup.json has cup.meshes. The rest of\n"
         "the file stays in it and is used as a mesh. The first perspective camera and the lights are\n"
         "copied to the scene. y up becomes z up; the unit is the metre.\n"
         "\n"
-        "Where clear objects overlap, one of them keeps the space: the one with the higher number\n"
-        "phasetree_priority in the extras of its node or material (default: 0); else the one within the\n"
-        "other; else a solid rather than a gas, and a gas rather than a liquid; else the earlier in the\n"
-        "file. What is a liquid follows from phasetree_matter in the extras (\"solid\", \"liquid\", \"gas\"),\n"
-        "or else from names (\"ice\", \"Orange juice\") and indices. Thin gaps along surfaces are closed.\n"
-        "The order, overlaps and gaps are printed; warnings name materials and extensions of which\n"
-        "something is lost.");
+        "Where clear objects overlap, one of them keeps the space. The first rule that applies decides:\n"
+        "(1) the higher phasetree_priority in the extras of the node or material (default: 0); (2) the\n"
+        "object inside the other; (3) solids over gases over liquids; (4) the object earlier in the file.\n"
+        "What is a liquid follows from phasetree_matter in the extras (\"solid\", \"liquid\", \"gas\"), or\n"
+        "else from names (\"ice\", \"Orange juice\") and indices. Thin gaps along surfaces are closed.\n"
+        "The order, overlaps and gaps are printed. Warnings name materials and extensions that are not\n"
+        "fully preserved.");
     auto options = std::make_shared<ImportOptions>();
     command->add_option("file", options->input, "glTF file, .glb or .gltf")->required();
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
-    command->add_flag(
-        "--solid", options->choices.panes_too,
-        "Make closed objects of clear materials without volume phases, too; otherwise they are thin panes "
-        "and left out");
+    command->add_flag("--solid", options->choices.include_panes,
+                      "Also import closed objects whose clear material has no volume (default: they count as thin "
+                      "panes and are left out)");
     command->add_flag(
         "!--keep-gaps", options->choices.closes_gaps,
         "Keep thin gaps beside liquids; otherwise the node close_gaps fills those that cover a tenth of a "

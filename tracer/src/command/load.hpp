@@ -42,8 +42,8 @@ void make_one_tree(const Document&, Scene&);
 // Where errors of the scene's object are located: at "tree", at "objects", or at "meshes" if there are only meshes.
 Value model_in(const Document&);
 
-// Returns what `make` makes of the document's tree. If the object does not allow it (it is unbounded or too large), the
-// exception becomes an error at the node responsible, or at "tree".
+// Calls make(tree) with the document's tree, and returns the result. If the object does not allow it (it is unbounded
+// or too large), the exception becomes an error at the node responsible, or at "tree".
 template <class F>
 auto made_of_tree(const Document& document, F&& make) {
     try {

@@ -121,7 +121,7 @@ void add_measure(CLI::App& app, Run& run) {
     add_object(*command, options->object);
     command
         ->add_option("--tolerance", options->tolerance,
-                     "Stop when each volume is known to this fraction of it (default: 0.001)")
+                     "Stop when the interval of each volume is at most this fraction of the volume (default: 0.001)")
         ->check(number_in(1e-9, 1))
         ->option_text("T");
     add_duration(*command, "--time", options->seconds,

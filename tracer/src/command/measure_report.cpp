@@ -84,7 +84,7 @@ void print_table(const MeasureReport& report) {
     put("{:<20}{}\n", "stopped because", explanation_of(m.end));
     put("{:<20}{}\n", "boxes", m.boxes);
     put("\nEach line has an estimate, and the interval in which the number certainly lies. Areas are statistical\n"
-        "estimates. Moments of inertia are about the centre of mass; without a density, it is taken to be 1.\n");
+        "estimates. Moments of inertia are about the centre of mass; phases without a density count with density 1.\n");
     for (const MeasuredPhase& p : m.phases) print_phase(report, p);
     if (m.all) {
         put("\nall phases with a density\n");

@@ -104,8 +104,8 @@ int merge_parts(const MergeOptions& options) {
     std::vector<std::string> images, film_files;
     for (const std::string& output : options.outputs) (is_film_file(output) ? film_files : images).push_back(output);
     check_outputs(options.outputs);
-    // A single part is allowed: a farm's command list merges a part that is left over alone, which copies it for the
-    // next step.
+    // A single part is allowed: if one part remains after grouping, a farm's command list merges it by itself, which
+    // copies it for the next step.
     const bool is_one = options.parts.size() == 1;
     check_overwrites(named_files_of("the part", options.parts),
                      named_files_of("--output", is_one ? images : options.outputs));

@@ -61,7 +61,8 @@ inline void check_outputs(const std::vector<std::string>& outputs, std::span<con
 // Reports invalid samples, which a valid scene never produces.
 inline void say_faults(const FilmFaults& faults) {
     if (faults.not_finite > 0)
-        say("phasetree: {} sample values were not finite and count as black; please report this scene as a bug\n",
+        say("phasetree: {} sample values were not finite and count as black; this is a bug; please report it with the "
+            "scene\n",
             faults.not_finite);
     if (faults.too_large > 0) say("phasetree: {} sample values above 10^12 were clamped\n", faults.too_large);
 }

@@ -26,17 +26,17 @@ LengthUnit length_unit(const std::optional<std::string>& name, const SceneModel&
 
 struct Quantity {
     std::string name;    // such as "volume(water)"
-    SolveTarget target;  // in cubed units of the scene's lengths, or in kg
-    double unit = 1;     // the unit of the value's text, in the unit of `target`
+    SolveTarget target;  // its value is in cubed scene units, or in kg
+    double unit = 1;     // the unit that the user wrote, in units of `target`
     std::string unit_name;
 
-    // A value of the target in the unit of the text.
+    // Converts a value of the target to the unit that the user wrote.
     double shown(double value) const { return value / unit; }
 };
 
-// Parses "volume(PHASE) = VALUE UNIT" or "mass(PHASE) = VALUE UNIT". The phase "total" stands for all phases; of a
-// mass, for all that have a density. Without a unit, a volume is in cubed units of the scene's lengths, and a mass in
-// kg. Densities are in kg/m³. Throws UsageError.
+// Parses "volume(PHASE) = VALUE UNIT" or "mass(PHASE) = VALUE UNIT". The phase "total" stands for all phases; in a
+// mass, it stands for all phases that have a density. Without a unit, a volume is in cubed units of the scene's
+// lengths, and a mass in kg. Densities are in kg/m³. Throws UsageError.
 Quantity quantity_of(const std::string& text, const SceneTree& tree, const LengthUnit& lengths,
                      const std::vector<std::pair<Phase, double>>& densities);
 

@@ -23,7 +23,7 @@ auto showing(const char* task, std::uint64_t bytes, bool quiet, Read&& read) {
     std::uint64_t done = 0;
     const support::ReadingListener listener([&](std::uint64_t more) {
         done += more;
-        // Some bytes may not have been counted, so 1 must not be shown as complete.
+        // Some bytes may not have been counted, so never report a progress of 1, which would read as complete.
         const double share = static_cast<double>(done) / static_cast<double>(std::max(bytes, std::uint64_t{1}));
         progress.tell(std::min(share, 0.9999));
     });

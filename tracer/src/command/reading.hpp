@@ -1,5 +1,5 @@
-// Reading and preparing a scene, with progress. This may take long before the first sample and leaves nothing behind:
-// progress is shown after a second, and a signal ends the command at once.
+// Reading and preparing a scene, with progress. This may take long, so progress is shown after a second. There is
+// nothing to save yet, so a signal ends the command at once.
 #pragma once
 
 #include <cstdint>

@@ -65,8 +65,8 @@ void write_stats(const std::string& path, const RenderOptions& options, const Wo
     write_file(json.dump(2) + "\n", path);
 }
 
-// Checks that no output overwrites another file. A film file may be the checkpoint, an output and the file to resume at
-// once.
+// Checks that no output overwrites another file. A film file may serve as the checkpoint, as an output and as the file
+// to resume from.
 void check_overwrites(const RenderOptions& options, const Document& document, const std::vector<std::string>& outputs) {
     std::vector<NamedFile> written;  // except for film files
     for (const std::string& output : outputs)

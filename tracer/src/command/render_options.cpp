@@ -145,7 +145,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         "Render only these samples of each pixel, numbered from 0, with LAST excluded: a share of the work. Write it "
         "to a .part and join the parts with merge");
     range->option_text("FIRST:LAST");
-    // CLI11 runs these functions in the order of the options, so the new name's has run.
+    // CLI11 runs these functions in the order in which options are added, so that of --sample-range has already run.
     const auto use_old_name = [&share = o.share](const std::string& text) {
         if (share) throw CLI::ValidationError("--samples is the old name of --sample-range; give only one of them");
         say("phasetree: warning: --samples is deprecated; use --sample-range instead\n");
@@ -185,7 +185,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                     "Continue from this checkpoint of the same picture; it may be the file of --checkpoint")
         ->option_text("FILE");
     command.add_flag("--or-start", o.may_start, "With --resume: start a new render if the file does not exist");
-    command.add_option("--seed", o.seed, "Seed of the random numbers; another seed gives other noise");
+    command.add_option("--seed", o.seed, "Seed of the random numbers; a different seed gives different noise");
     command
         .add_option("--detail", o.detail,
                     "Use coarser levels of detail where their error is at most this many pixels (default: the finest "

@@ -58,7 +58,8 @@ class RenderProgress {
     std::optional<TimePoint> deadline_;
     std::function<void()> samples_begin_;
     std::optional<LateProgress> learning_;
-    // Samples that need not be rendered, reported by one thread before there is a progress to add them to.
+    // Samples that need not be rendered. One thread reports them before `progress_` exists; they are added when it
+    // does.
     std::uint64_t done_before_ = 0;
     std::optional<Progress> progress_;
     std::optional<TimeProgress> time_progress_;

@@ -34,8 +34,8 @@ std::shared_ptr<SceneFile> add_scene_file(CLI::App& command) {
     command.add_option("scene", file->name, "Scene file; - reads standard input")->required();
     command
         .add_option("--assets-within", file->assets_within,
-                    "Reject files that the scene names outside this folder, after following links. Use this for "
-                    "untrusted scenes (default: any file may be named)")
+                    "Reject files named by the scene that lie outside this folder once links are followed. Use this "
+                    "for untrusted scenes (default: any file may be named)")
         ->option_text("DIR");
     command.add_option("--at", file->at, "Time, in seconds, at which to read an animated scene (default: 0)")
         ->check([](const std::string& text) {

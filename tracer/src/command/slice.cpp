@@ -146,7 +146,8 @@ class SliceDrawing {
         }
         return files;
     }
-    // The files of a stack have different names, so each is compared with the inputs alone. An input exists.
+    // The files of a stack have different names, so they need only be compared with the inputs. Inputs exist, so an
+    // output that does not exist yet is not one of them.
     void check_no_input(const std::vector<std::string>& files) const {
         std::error_code unknown;
         for (const std::string& one : files)
@@ -254,9 +255,9 @@ void add_slice(CLI::App& app, Run& run) {
         "right for --x.\n"
         "\n"
         ".svg: outlines in the scene's coordinates, one path per phase, with areas and a scale bar.\n"
-        "Phases in contact share their outlines, so there are no gaps. A point that is farther from\n"
-        "every outline than the tolerance certainly is in the phase drawn there; places where that\n"
-        "cannot be proven are reported.\n"
+        "Phases in contact share their outlines, so there are no gaps. A point farther than the\n"
+        "tolerance from every outline is certainly in the phase drawn there. Where this cannot be\n"
+        "proven, it is reported.\n"
         "\n"
         ".png: a palette of the phases, and for each pixel the index of the phase at its centre.\n"
         "\n"

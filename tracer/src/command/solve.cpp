@@ -95,10 +95,10 @@ void check_is_no_density(const std::string& pointer) {
     if (!pointer.starts_with(phases) || !pointer.ends_with(density)) return;
     const std::string_view name = std::string_view(pointer).substr(phases.size());
     if (name.size() < density.size() || name.find('/') != name.size() - density.size()) return;
-    throw UsageError(fmt::format(
-        "--set: {} changes no shape; the mass is proportional to it, so divide the target by the volume that "
-        "\"phasetree measure\" prints",
-        pointer));
+    throw UsageError(
+        fmt::format("--set: {} is a density and changes no shape; to get it, divide the mass by the volume that "
+                    "\"phasetree measure\" prints",
+                    pointer));
 }
 
 [[noreturn]] void throw_same_side(const NumberToSet& number, const Quantity& q, const SolveResult& r) {
@@ -202,17 +202,17 @@ void add_solve_options(CLI::App& command, SolveCommand& options) {
 }  // namespace
 
 void add_solve(CLI::App& app, Run& run) {
-    CLI::App* command = app.add_subcommand("solve", "Find the number for which a phase has a volume or mass");
+    CLI::App* command = app.add_subcommand("solve", "Find the number for which a phase has a given volume or mass");
     command->footer(
         "PATH is the number's place in the scene file, as a JSON pointer, such as\n"
         "/shapes/level/plane/offset; items of lists count from 0. Units of volume are mm3, ml, cm3, cl,\n"
         "dl, l and m3, units of mass mg, g, kg and t. Without a unit, a volume is in cubed units of\n"
         "length, and a mass in kilograms.\n"
         "\n"
-        "The bracket is halved repeatedly. An end moves only if the volume's certain interval\n"
-        "proves on which side of the target it is. So at one end of the final bracket the volume is\n"
-        "certainly below the target, at the other above it, and one crossing is in between. There may\n"
-        "be others. The value printed lies in the bracket. Ctrl-C prints the bracket so far.\n"
+        "The bracket is halved repeatedly. An end moves only if the certain interval of the volume lies\n"
+        "entirely on one side of the target. So at one end of the final bracket the volume is certainly\n"
+        "below the target, at the other above it, and one solution is in between. There may be\n"
+        "others. The value printed lies in the bracket. Ctrl-C prints the bracket so far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
         "lights, meshes, textures and voxels are not opened.");

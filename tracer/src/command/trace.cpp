@@ -38,8 +38,8 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
         const double length = glm::length(glm::dvec3(given));
         if (!(length > 0)) throw table.error(3, "the direction must not be zero; any other length will do");
         const glm::vec3 direction(glm::dvec3(given) / length);
-        // After the first interface, positions are computed from there. Restarting the ray at each interface would
-        // round at each of them, and at grazing angles these errors would keep it there.
+        // After the first interface, positions are computed from there. Restarting the ray at each interface would add
+        // a rounding error each time; at grazing angles, these errors could keep the ray at the interface.
         glm::vec3 start = origin;
         float from = 0;
         bool is_at_object = false;

@@ -25,7 +25,7 @@ void add_file(const std::filesystem::path& path, view::WatchedFiles& files) {
     try {
         for (const std::filesystem::path& layer : layers_of_stack(path)) files.add(layer);
     } catch (const std::runtime_error&) {
-        // No such stack. The reader reports it if there should be one.
+        // There is no such stack. If the scene refers to one, the reader reports the error.
     }
 }
 
@@ -85,14 +85,14 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
             span_of_keys(document)};
 }
 
-// The document's present version as the options say that it is read.
-struct Read {
+// The current version of the document, read with the command-line options.
+struct CurrentDocument {
     std::uint64_t text_version;
     Document document;
 };
 
 // Throws SceneError if the file cannot be read or is no valid JSON.
-Read present(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
+CurrentDocument current_document(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
     const auto state = edited.state();
     if (state->unreadable) throw *state->unreadable;
     if (!state->document) throw state->error.value();
@@ -102,13 +102,13 @@ Read present(const ViewedFile& file, studio::EditedDocument& edited, const view:
 view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& edited,
                                const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
                                const view::Reading& desired) {
-    const auto [version, document] = present(file, edited, desired);
+    const auto [version, document] = current_document(file, edited, desired);
     try {
         view::ViewedScene scene = read_viewed(file, document, kept, files, desired);
         if (desired.numbers.empty()) edited.checked(version, {});
         return scene;
     } catch (const SceneError& e) {
-        // With other numbers, what is wrong may be the numbers.
+        // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
         if (desired.numbers.empty()) edited.checked(version, e);
         throw;
     }

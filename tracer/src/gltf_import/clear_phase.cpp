@@ -33,7 +33,7 @@ SceneJson clear_phase(const gltf::ClearMaterial& material, double mean_chord, st
         else if (abbe <= most_abbe)
             clear["abbe_number"] = short_number(std::max(abbe, least_abbe));
         if (abbe < least_abbe && clear.contains("abbe_number"))
-            losses.push_back(fmt::format("has the Abbe number {:.3g}; the least, 10, is used", abbe));
+            losses.push_back(fmt::format("has the Abbe number {:.3g}, which is below the minimum; 10 is used", abbe));
     }
     if (alpha > 0) clear["roughness"] = short_number(alpha);
     const glm::vec3 attenuation = glm::max(material.attenuation_color, glm::vec3(darkest));
@@ -44,7 +44,8 @@ SceneJson clear_phase(const gltf::ClearMaterial& material, double mean_chord, st
             absorption -= glm::log(glm::dvec3(attenuation)) / static_cast<double>(*material.attenuation_distance);
         clear["absorption"] = rounded(absorption);
         losses.emplace_back(
-            "tints its surface by its base colour; it absorbs instead, so thick parts are darker than thin ones");
+            "has a base colour that tints its surface; this becomes absorption inside, so thick parts are darker than "
+            "thin ones");
     } else if (absorbs) {
         clear["color"] = short_numbers(attenuation);
         clear["color_distance"] = short_number(*material.attenuation_distance);

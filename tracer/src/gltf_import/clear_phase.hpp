@@ -7,9 +7,10 @@
 // | roughness r | roughness r² | exact: glTF's α |
 // | attenuation colour c after distance d | color c, color_distance d | exact: a = −ln(c)/d |
 // | iridescence | film_thickness, film_ior | exact for a factor of 1 |
-// | base colour t | absorption −2 ln(t)/l more | approximate: glTF tints light at each crossing of the surface; light
-// that
-//     crosses two surfaces and the mean chord l = 4 volume/area between them has the same colour here |
+// | base colour t | absorption increased by −2 ln(t)/l | approximate |
+//
+// glTF tints light by the base colour at each crossing of the surface. Here, light that crosses two surfaces and the
+// mean chord between them, l = 4 volume/area, gets the same colour.
 #pragma once
 
 #include <string>

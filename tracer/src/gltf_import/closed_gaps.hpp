@@ -19,10 +19,10 @@ struct ClosedGaps {
 };
 
 /// Gaps are closed if they lie between a liquid and something else and cover a tenth or more of a surface, such as
-/// those along the wall of a glass. `matter` has an entry per solid. `order` has the numbers of all solids, those that
-/// win first; the liquid comes after what it touches and fills the gap. Air between solids, as in double glazing,
-/// stays. All gaps are closed up to twice the width of the widest one, because gaps are wider in corners. nullopt if
-/// there are none.
+/// those along the wall of a glass. `matter` has an entry per solid. `order` lists the numbers of all solids, winners
+/// of overlaps first. A liquid comes after what it touches, so it fills the gap. Air between solids, as in double
+/// glazing, stays. Every gap narrower than twice the widest one found is closed, because gaps are wider in corners.
+/// nullopt if there are none.
 std::optional<ClosedGaps> closed_gaps(const std::vector<Solid>& solids, std::span<const Matter> matter,
                                       const std::vector<Contact>& contacts, std::span<const std::size_t> order);
 

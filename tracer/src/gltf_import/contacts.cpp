@@ -20,8 +20,8 @@ struct SurfacePoint {
     glm::vec3 at, normal;
 };
 
-// Points on a surface, equally many per area. Point i of n lies where the accumulated area reaches (i + 1/2)/n of the
-// whole.
+// Points distributed uniformly by area over a surface. Point i of n lies where the accumulated area reaches (i + 1/2)/n
+// of the whole.
 std::vector<SurfacePoint> points_on(const Solid& solid, std::size_t count) {
     std::vector<SurfacePoint> points;
     points.reserve(count);
@@ -87,7 +87,7 @@ class Finder {
     }
 
   private:
-    // The results of the points on one surface about another solid.
+    // What the points on one solid's surface tell about another solid.
     struct Side {
         float depth = 0;
         bool is_inside = true;

@@ -39,12 +39,12 @@ class Importer {
           choices_(choices),
           file_(read_gltf_file(gltf, {.clear = gltf::ReadClear::as_solids})) {
         for (const std::string& sentence : file_.not_shown) warn(sentence);
-        Solids made = solids_of(file_, choices.panes_too);
+        Solids made = solids_of(file_, choices.include_panes);
         for (std::string& warning : made.warnings) warn(std::move(warning));
         solids_ = std::move(made.solids);
         if (solids_.empty() && file_.parts.empty())
-            throw ParameterError("file", fmt::format("{}: nothing can be imported: its objects are clear, and none of "
-                                                     "them is a solid that a phase can have",
+            throw ParameterError("file", fmt::format("{}: nothing can be imported: all its objects are clear, but none "
+                                                     "encloses a volume that could become a phase",
                                                      gltf.string()) +
                                              reasons());
     }

@@ -20,8 +20,8 @@ struct ImportedScene {
 };
 
 struct ImportChoices {
-    bool panes_too = false;   ///< whether closed objects of materials without volume become phases, too
-    bool closes_gaps = true;  ///< whether thin gaps between clear objects are closed (closed_gaps.hpp)
+    bool include_panes = false;  ///< whether closed objects of materials without volume become phases, too
+    bool closes_gaps = true;     ///< whether thin gaps between clear objects are closed (closed_gaps.hpp)
 };
 
 /// Imports a .gltf or .glb file for a scene file of that name. Reads files, and writes none. Throws ParameterError for

@@ -171,10 +171,10 @@ Precedence precedence_of(const std::vector<Solid>& solids, const std::vector<Mat
         for (Decision& d : made.decisions) {
             if (d.rule != rule || order.add(d)) continue;
             if (solids[d.winner].material != solids[d.loser].material)
-                made.warnings.push_back(fmt::format(
-                    "\"{}\" replaces \"{}\" where they overlap, against the rule ({}), because others overlap both; "
-                    "give one a phasetree_priority to choose",
-                    solids[d.loser].name, solids[d.winner].name, d.reason));
+                made.warnings.push_back(
+                    fmt::format("\"{}\" replaces \"{}\" where they overlap, although the rule ({}) says otherwise, "
+                                "because of overlaps with other objects; set a phasetree_priority to choose",
+                                solids[d.loser].name, solids[d.winner].name, d.reason));
             std::swap(d.winner, d.loser);
             d.reason = "because of others";
         }

@@ -64,13 +64,13 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 
 class Maker {
   public:
-    Maker(const gltf::GltfFile& file, bool panes_too) : file_(file), panes_too_(panes_too) {}
+    Maker(const gltf::GltfFile& file, bool include_panes) : file_(file), include_panes_(include_panes) {}
 
     Solids make() {
         std::vector<const gltf::ClearSolid*> of_one_mesh;
         for (const gltf::ClearSolid& read : file_.solids) {
             if (!of_one_mesh.empty() && of_one_mesh.front()->placed_mesh != read.placed_mesh) add_all(of_one_mesh);
-            if (panes_too_ || file_.clear_materials[read.material].material.has_volume)
+            if (include_panes_ || file_.clear_materials[read.material].material.has_volume)
                 of_one_mesh.push_back(&read);
             else
                 panes_[read.material].push_back(read.name);
@@ -152,7 +152,7 @@ class Maker {
     }
 
     const gltf::GltfFile& file_;
-    bool panes_too_;
+    bool include_panes_;
     Solids made_;
     std::set<std::string> names_;
     std::map<std::size_t, std::vector<std::string>> panes_;  // names of objects left out, by their material
@@ -160,8 +160,8 @@ class Maker {
 
 }  // namespace
 
-Solids solids_of(const gltf::GltfFile& file, bool panes_too) {
-    return Maker(file, panes_too).make();
+Solids solids_of(const gltf::GltfFile& file, bool include_panes) {
+    return Maker(file, include_panes).make();
 }
 
 }  // namespace phasetree::tracer::gltf_import

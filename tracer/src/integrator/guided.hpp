@@ -32,8 +32,9 @@ class GuidedBsdf {
     float pdf(const glm::vec3& wi, const glm::vec3& world) const { return mixed(bsdf_.pdf(wo_, wi), world); }
 
     struct Sample : BsdfSample {
-        /// The pdf of `wi` divided by the pdf with which the BSDF alone would choose it. Not 1 where a guide, or the
-        /// choice by lights at a smooth interface (interface_choice.hpp), takes part. It is never less than a half.
+        /// The pdf of `wi` divided by the pdf with which the BSDF alone would choose it. It differs from 1 only where a
+        /// guide, or the choice by lights at a smooth interface (interface_choice.hpp), changed the odds. It is never
+        /// less than a half.
         float pdf_over_unguided = 1;
 
         /// Accounts for choosing this sample `odds` times as often as the BSDF alone would have.

@@ -32,7 +32,7 @@ float brightness(const Scene& scene, const Surface& surface, const Frame& frame,
 InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, const Bsdf& bsdf, const Frame& frame,
                                  const glm::vec3& wo, float u) {
     const InterfaceChoice by_fresnel{u, 1.0f};
-    const auto reflected = bsdf.sample(wo, 0.0f, {}), refracted = bsdf.sample(wo, greatest_below_one, {});
+    const auto reflected = bsdf.sample(wo, 0.0f, {}), refracted = bsdf.sample(wo, one_minus_epsilon, {});
     if (!reflected || !refracted || reflected->transmitted || !refracted->transmitted) return by_fresnel;
     const float f = reflected->pdf;
     const float from_reflection = f * brightness(scene, surface, frame, *reflected);
@@ -44,7 +44,7 @@ InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, con
     const float rest = (u - q) / (1.0f - q);
     // 1 − q is computed without the rounding of q, so that the quotient stays at least a half even where F is nearly 1.
     const float refracted_odds = 0.5f * ((1.0f - f) + from_refraction / from_both);
-    return {std::min(f + rest * (1.0f - f), greatest_below_one), refracted_odds / (1.0f - f)};
+    return {std::min(f + rest * (1.0f - f), one_minus_epsilon), refracted_odds / (1.0f - f)};
 }
 
 }  // namespace phasetree::tracer

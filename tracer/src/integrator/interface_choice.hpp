@@ -23,7 +23,7 @@
 namespace phasetree::tracer {
 
 /// The greatest `u_lobe`. With it, a smooth interface refracts unless reflection is total; with 0, it reflects.
-inline constexpr float greatest_below_one = 0x1.fffffep-1f;
+inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 
 struct InterfaceChoice {
     float u_lobe;             ///< argument of Bsdf::sample(), which then takes the chosen branch

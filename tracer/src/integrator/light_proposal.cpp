@@ -41,7 +41,7 @@ float bent_pdf(const Lights& lights, const LightReceiver& at, const glm::vec3& i
     return outside ? lights.pdf(at, outside->direction) * outside->widening : 0.0f;
 }
 
-// The outward normal of the first boundary along a line behind which the index is 1.
+// Follows a line to the first boundary beyond which the index is 1, and returns its outward normal.
 std::optional<glm::vec3> boundary_along(const glm::vec3& line, const Surface& surface, const World& world,
                                         const Scene& scene, PathCounters& counters) {
     constexpr int max_interfaces = 8;

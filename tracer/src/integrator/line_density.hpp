@@ -1,5 +1,6 @@
-// The density of photons at the light's end of a chain (EmittedPhoton::line_density), for the MIS weights of the other
-// techniques. All are 0 without photons.
+// The density of photons at the light's end of a chain (EmittedPhoton::line_density), per area across the line and
+// solid angle, divided by n² there (path.hpp). It enters the MIS weights of the other techniques. All are 0 without
+// photons.
 #pragma once
 
 #include "integrator/path_context.hpp"

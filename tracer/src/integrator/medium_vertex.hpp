@@ -54,8 +54,8 @@ class MediumVertex {
     MediumPoint point_;
     glm::vec3 arriving_;  ///< direction of the path's segment that ends here
     LightProposal proposal_;
-    std::optional<PhotonPlacement> placement_;  ///< nullopt if no photons count
-    float per_line_density_across_;             ///< 0 if no photons count
+    std::optional<PhotonPlacement> placement_;  ///< nullopt if the vertex gathers no photons
+    float per_line_density_across_;             ///< 0 if the vertex gathers no photons
 };
 
 static_assert(PathVertex<MediumVertex>);

@@ -14,7 +14,7 @@ void add_light_of_shadow_ray(const PathContext& context, const PathState& path, 
     PathContext of_ray = context;
     if (!(by_photons.per_line_density > 0.0f)) of_ray.photons = {};
     const Arrival arrival = trace_shadow_ray(of_ray, scattering.ray, light, path.wavelengths, interfaces_before);
-    // No sampled direction of the path meets a point.
+    // A direction sampled by the path hits a point light with probability 0.
     const float by_directions = light.is_of_point_light() ? 0.0f : scattering.pdf;
     const auto add = [&](const glm::vec3& found, float line_density, const LightSource& source,
                          const glm::vec3& direction) {

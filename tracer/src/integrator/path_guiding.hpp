@@ -36,7 +36,7 @@ class PathGuiding {
     float pdf_over_unguided() const { return pdf_over_unguided_; }
 
   private:
-    // Once the product falls below this, a path chooses as BSDFs do. A wrong guide, or an occluded lamp
+    // Once the product falls below this, a path samples from the BSDFs alone. A wrong guide, or an occluded lamp
     // (interface_choice.hpp), may double a path's weight at each surface, and once more after it has reached this
     // limit.
     static constexpr float least_pdf_over_unguided = 2.0f / PathRecord::weight_limit;

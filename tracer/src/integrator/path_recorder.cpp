@@ -18,8 +18,8 @@ void PathRecorder::begin() {
     record_->lengths.assign(scene_.materials.size(), 0.0f);
 }
 
-// In a medium that scatters or varies, red, green and blue have the same weight: the mean of the flight's weights with
-// the probabilities of channel_choice(), because only that mean is bounded.
+// In a medium that scatters or varies, red, green and blue get the same weight: the mean of the flight's weights under
+// the probabilities of channel_choice(). Only this mean is bounded.
 glm::vec3 PathRecorder::rgb_weight(const Medium& medium, const Way& segment, const Flight& flight,
                                    const glm::vec3& throughput, Sampler& sampler) {
     if (const auto* absorbing = std::get_if<AbsorbingMedium>(&medium))
@@ -47,7 +47,7 @@ void PathRecorder::add_departure(const Surface& surface, const GuidedBsdf& bsdf,
     // sampled for the branch that the path took: with films and dispersion the odds differ in colours, and a
     // reflection must not get the weight of a refraction.
     const Bsdf in_colours = surface.bsdf();
-    if (next && is_link(in_colours, surface)) u_lobe = next->transmitted ? greatest_below_one : 0.0f;
+    if (next && is_link(in_colours, surface)) u_lobe = next->transmitted ? one_minus_epsilon : 0.0f;
     const auto unguided =
         GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(u_lobe, departure.u);
     add_surface(surface, in_colours, unguided, from, rgb_throughput_);

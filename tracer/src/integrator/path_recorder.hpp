@@ -19,8 +19,8 @@ class PathRecorder {
         if (record_) begin();
     }
 
-    /// The path has flown through a medium, up to a surface at the end of `segment`. To be called for paths in
-    /// wavelengths only. `throughput` is that at the start of the flight.
+    /// The path has flown through a medium, up to a surface at the end of `segment`. Call this only for paths that
+    /// carry wavelengths. `throughput` is that at the start of the flight.
     void flew(const Medium& medium, const Way& segment, const Flight& flight, const glm::vec3& throughput,
               Sampler& sampler) {
         if (record_) rgb_throughput_ *= rgb_weight(medium, segment, flight, throughput, sampler);

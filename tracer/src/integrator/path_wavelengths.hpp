@@ -14,9 +14,10 @@ class PathWavelengths {
     /// For a path that is spectral or may be dispersed.
     explicit PathWavelengths(const Wavelengths& all) : all_(all) {}
 
-    /// Those of a spectral path, or those that a path of colours has once it is dispersed; null without wavelengths.
+    /// The wavelengths of the path: in use from the start if it is spectral, otherwise from dispersion on; null if it
+    /// has none.
     const Wavelengths* all() const { return all_ ? &*all_ : nullptr; }
-    /// What the path's numbers stand for; null if they are red, green and blue.
+    /// The wavelengths to which the three numbers of the path belong; null if these are red, green and blue.
     const Wavelengths* now() const { return all_ && (is_dispersed_ || all_->is_spectral) ? &*all_ : nullptr; }
 
     bool is_dispersed() const { return is_dispersed_; }

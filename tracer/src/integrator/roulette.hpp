@@ -9,9 +9,9 @@ namespace phasetree::tracer {
 /// the path can still make. `depth` is the number of surfaces and scattering events of the path so far.
 ///
 /// The first three are exempt: with a wall of glass in front, they reach what is visible behind it. After that, the
-/// probability is four times the share, so a path survives for certain from a quarter on. In long chains of clear
-/// interfaces, the noise from terminating paths costs more than the saved steps. At least a twentieth of the paths
-/// survive, so that no weight grows by more than 20 at once. Probabilities that are nearly 1 are rounded up to 1.
+/// probability is four times the share, so a path with a share of at least a quarter always survives. In long chains of
+/// clear interfaces, the noise from terminating paths costs more than the saved steps. At least a twentieth of the
+/// paths survive, so that no weight grows by more than 20 at once. Probabilities that are nearly 1 are rounded up to 1.
 ///
 /// Variance times time by the factor on the share, relative to a factor of 1:
 ///

@@ -25,8 +25,9 @@ inline const std::string& checked_group(const std::string& group) {
 
 inline constexpr Parameter spectrum_parameter{
     "spectrum", "",
-    "Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the "
-    "brightness of the light's colour is used then. Without \"spectral\" the light has the colour of this spectrum.",
+    "Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, "
+    "only the brightness of the light's colour is used. Without \"spectral\", the light has the colour of this "
+    "spectrum.",
     limits::any, true};
 
 template <class Kind>

@@ -57,8 +57,8 @@ struct IesLightParameters {
         v(&P::target,
           Parameter{"target", "m", "Point towards which the file's downward direction points.", coordinate});
         v(&P::turn_degrees, Parameter{"turn", "degrees",
-                                      "Rotation about that direction, anticlockwise as seen from behind the light. At "
-                                      "0, the 0° plane of a light that points down faces +x.",
+                                      "Rotation about the direction towards `target`, anticlockwise as seen from "
+                                      "behind the light. At 0, the 0° plane of a light that points down faces +x.",
                                       limits::any, true});
         v(&P::color, colour_of_a_point);
         v(&P::intensity,

@@ -20,7 +20,7 @@ struct ParameterType<std::vector<glm::vec3>, Parameter> {
     }
     static ValueType describe(const Parameter& p) {
         const ValueType point = Point::describe(p);
-        return {"list of " + point.name + "s", R"({"type": "array", "items": )" + point.schema + "}"};
+        return {"list of " + point.name, R"({"type": "array", "items": )" + point.schema + "}"};
     }
     static std::string written(const std::vector<glm::vec3>& points) {
         std::string text;

@@ -51,7 +51,7 @@ class Renderer {
     int run() {
         leave_out_quiet_blocks();
         int done = fewest_samples();
-        // A resumed render whose time is over needs no guide.
+        // A resumed render whose time has run out needs no guide.
         const bool is_late = job_.deadline && done > 0 && Clock::now() >= *job_.deadline;
         if (scene_.settings.guiding && done < samples_.size() && !blocks_.empty() && !is_late) {
             guide_ = trained_guide(

@@ -30,12 +30,13 @@ template <class P, class V>
 void view_parameters(V&& v) {
     v(&P::position, Parameter{"position", "m", "Position of the camera.", coordinate});
     v(&P::look_at, Parameter{"look_at", "m", "Point at the centre of the image.", coordinate});
-    v(&P::up,
-      Parameter{"up", "", "Direction that points up in the image; +y, or else +x, if the camera looks along it.",
-                limits::any, true});
+    v(&P::up, Parameter{"up", "",
+                        "Direction that points up in the image. If the camera looks along it, +y is used instead, or "
+                        "+x if it looks along +y.",
+                        limits::any, true});
     v(&P::turn_degrees, Parameter{"turn", "degrees",
-                                  "Angle by which the camera orbits the axis through look_at along up, starting to its "
-                                  "right. With keys, this makes a turntable.",
+                                  "Rotates the camera's position about the axis through `look_at` in the direction "
+                                  "`up`; positive angles move the camera to its right. Animate it for a turntable.",
                                   limits::any, true});
     v(&P::filter_name,
       ChoiceParameter{{"filter", "", "Distribution of samples around the centre of a pixel.", limits::any, true},
@@ -51,7 +52,7 @@ void lens_parameters(V&& v) {
                                  Limits{.low = 0, .high = farthest}, true});
     v(&P::blades,
       Parameter{"blades", "",
-                "Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk.",
+                "Number of aperture blades, and of corners of the aperture: 3 or more; 0 for a circular aperture.",
                 Limits{.low = 0, .high = Aperture::most_blades}, true});
     v(&P::rotation_degrees, Parameter{"blade_rotation", "degrees",
                                       "Rotation of the aperture; at 0 a corner points right.", limits::any, true});

@@ -2,8 +2,9 @@
 //
 // *Phases:* the phase's component φ of the tree's distances is 1-Lipschitz and negative inside the phase. A box whose
 // points are all within r of its centre therefore contains nothing of the phase if φ(centre) > r, and none of its
-// surface if |φ(centre)| > r. Starting with the object's bounds, boxes are divided into octants while few enough are
-// kept. Each of the final boxes becomes a ball. For a phase whose medium emits, the interior counts too.
+// surface if |φ(centre)| > r. Starting with the object's bounds, boxes are divided into octants as long as the number
+// of boxes kept is small enough. Each of the final boxes becomes a ball. For a phase whose medium emits, the interior
+// counts too.
 //
 // *Meshes:* the largest set of triangles is divided repeatedly: into halves, or, if it is a single triangle, at the
 // middle of its longest edge.

@@ -77,7 +77,8 @@ struct ConnectedParameters {
 
 struct ClosedParameters {
     static constexpr KindInfo info{
-        "closed", "The walls have no hole: every path from a phase inside to the space around the object crosses one."};
+        "closed",
+        "The walls have no hole: every path from a phase inside to the space around the object crosses a wall."};
     std::vector<std::string> walls{}, around{};
 
     template <class V>
@@ -129,11 +130,11 @@ struct WallParameters {
         using P = WallParameters;
         v(&P::phase, expected_phase);
         v(&P::at_least, Parameter{"at_least", "m", "The diameter.", limits::positive});
-        v(&P::reach,
-          Parameter{"reach", "m",
-                    "More than half of the diameter; by default, the diameter. A smaller reach finds smaller "
-                    "dents, but then edges and corners are too thin: by default, those sharper than 60°.",
-                    limits::positive, true});
+        v(&P::reach, Parameter{"reach", "m",
+                               "More than half of the diameter; by default, the diameter, with which edges and corners "
+                               "sharper than 60° count as too thin. A smaller reach finds smaller dents, but blunter "
+                               "edges and corners then count as too thin as well.",
+                               limits::positive, true});
     }
     MadeStatement made(const ExpectationContext&) const;
 };

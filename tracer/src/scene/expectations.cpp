@@ -16,7 +16,8 @@ Phase phase_of(const std::string& name, const char* key, const ExpectationContex
     const std::vector<std::string>& names = context.names.names;
     const auto found = std::ranges::find(names, name);
     if (found == names.begin() && !allows_vacuum)
-        throw ParameterError(key, "the vacuum surrounds the object and cannot be meant here; name another phase");
+        throw ParameterError(
+            key, "this statement is not possible for the vacuum, which surrounds the object; name another phase");
     if (found != names.end()) return Phase{static_cast<std::uint8_t>(found - names.begin())};
     const auto meant = closest(name, names);
     throw ParameterError(

@@ -40,18 +40,17 @@ struct FileParts {
         v(&P::version, PartParameter{{"version", "", "Version of the format."}, "1", R"({"const": 1})"});
         v(&P::unit, PartParameter{{"unit", "",
                                    "Unit of the lengths: \"mm\", \"cm\", \"m\" or \"in\", for measures, drawings and "
-                                   "files of other programs. It changes no picture. By default, a metre.",
+                                   "files of other programs. It does not affect rendering. By default, a metre.",
                                    limits::any, true},
                                   "text",
                                   R"({"$ref": "#/definitions/unit"})"});
-        v(&P::phases,
-          PartParameter{{"phases", "",
-                         "The phases of the tree: their names and their materials. A phase may also have a "
-                         "\"density\" in kg/m³, from 0 to 10¹², beside its material; it changes no picture. A "
-                         "scene of meshes alone has neither phases nor a tree.",
-                         limits::any, true},
-                        "object of materials",
-                        R"({"type": "object", "minProperties": 1, "maxProperties": 63,
+        v(&P::phases, PartParameter{{"phases", "",
+                                     "The phases of the tree: their names and their materials. A phase may also have a "
+                                     "\"density\" in kg/m³, from 0 to 10¹², beside its material; it does not affect "
+                                     "rendering. A scene of meshes alone has neither phases nor a tree.",
+                                     limits::any, true},
+                                    "object of materials",
+                                    R"({"type": "object", "minProperties": 1, "maxProperties": 63,
                                         "additionalProperties": {"$ref": "#/definitions/phase"}})"});
         v(&P::shapes,
           PartParameter{{"shapes", "", "Named parts of the tree that can be used several times.", limits::any, true},
@@ -80,7 +79,7 @@ struct FileParts {
                         "list of instances",
                         R"({"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/instance"}})"});
         v(&P::meshes,
-          PartParameter{{"meshes", "", "Opaque meshes beside the object, or on their own.", limits::any, true},
+          PartParameter{{"meshes", "", "Opaque meshes in addition to the object, or on their own.", limits::any, true},
                         "list of meshes",
                         R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});
         v(&P::lights, PartParameter{{"lights", "", "Light sources. An image needs at least one.", limits::any, true},

@@ -25,8 +25,8 @@ constexpr std::size_t most_parts = 50'000;
 // At the opening of the shutter, halfway, and at its closing.
 using Places = std::array<Transform, 3>;
 
-// A ball that contains another ball in all three positions, though not necessarily in between. Returns nullopt if it
-// exceeds the range of floats or has no radius.
+// A ball that contains a moving ball at the three sampled moments, though not necessarily in between. Returns nullopt
+// if it exceeds the range of floats or has no radius.
 std::optional<BoundingSphere> around(const BoundingSphere& ball, const Places& places) {
     Bounds centres;
     double stretch = 0;
@@ -73,7 +73,7 @@ std::vector<EmissiveObject> emissive_objects(const Scene& scene) {
     for (std::size_t i = 0; i < objects.size(); ++i) try {
             objects[i].parts = parts_of_phases(placed.objects[i].tree, scene.materials);
         } catch (const ModelError&) {
-            // The object cannot be traced, which building the world reports.
+            // The object cannot be traced; building the World reports the error.
         }
     std::size_t emissive = 0;
     for (std::size_t moment = 0; moment < Places().size(); ++moment)

@@ -28,14 +28,15 @@ struct ImageParameters : RenderSettings {
                                  Limits{.low = -1e6f, .high = 1e6f}, true});
         v(&P::samples, Parameter{"samples", "", "Samples per pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::noise, Parameter{"noise", "",
-                               "Noise limit: a pixel stops early, after at least 32 samples, once its estimated "
-                               "relative error is at most this; 0 turns this off.",
+                               "Noise limit: blocks of 8×8 pixels stop early, after at least 32 samples per pixel, "
+                               "once their estimated relative error is at most this; 0 turns this off.",
                                Limits{.low = 0, .high = 1}, true});
-        v(&P::seed, Parameter{"seed", "", "Seed of the random numbers; another seed gives other noise.",
+        v(&P::seed, Parameter{"seed", "", "Seed of the random numbers; a different seed gives different noise.",
                               limits::non_negative, true});
-        v(&P::max_depth,
-          Parameter{"max_depth", "", "Maximum number of surfaces per path, including those between equal indices.",
-                    Limits{.low = 1, .high = 1 << 20}, true});
+        v(&P::max_depth, Parameter{"max_depth", "",
+                                   "Maximum number of interactions per path: surfaces, including interfaces between "
+                                   "equal refractive indices, and scattering events in media.",
+                                   Limits{.low = 1, .high = 1 << 20}, true});
         v(&P::spectral, Parameter{"spectral", "",
                                   "Whether to render with wavelengths, three per path, instead of red, green and blue. "
                                   "Metals, films on smooth surfaces, absorption and light then have their values at "
@@ -50,7 +51,7 @@ struct ImageParameters : RenderSettings {
           Parameter{"caustics", "",
                     "Whether to use photons for caustics: light from lamps, glowing surfaces, the sun and bright parts "
                     "of environment maps that reaches surfaces and scattering media through clear materials or by "
-                    "metal. Photons blur caustics by a pixel or two, less with more samples.",
+                    "reflection from metal. Photons blur caustics by a pixel or two, less with more samples.",
                     limits::any, true});
         v(&P::photons,
           Parameter{"photons", "", "For caustics: photons per pixel and sample.", Limits{.low = 0, .high = 64}, true});

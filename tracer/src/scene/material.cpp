@@ -64,9 +64,9 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness, std::string
 
 std::optional<Dispersion> ClearParameters::dispersion() const {
     if (glass && (ior || abbe_number))
-        throw ParameterError("glass",
-                             "\"glass\" cannot be combined with \"ior\" or \"abbe_number\"; remove one or the others",
-                             ParameterError::Place::key);
+        throw ParameterError(
+            "glass", "\"glass\" cannot be combined with \"ior\" or \"abbe_number\"; remove either \"glass\" or these",
+            ParameterError::Place::key);
     if (!glass && !ior) throw ParameterError("ior", "is missing");
     if (!glass && !abbe_number) return std::nullopt;
     const char* const key = glass ? "glass" : "abbe_number";
@@ -94,7 +94,8 @@ Clear ClearParameters::made() const {
 Conductor ConductorParameters::made() const {
     if (metal && (eta || k || reflectance))
         throw ParameterError(
-            "metal", "\"metal\" cannot be combined with \"eta\", \"k\" or \"reflectance\"; remove one or the others",
+            "metal",
+            "\"metal\" cannot be combined with \"eta\", \"k\" or \"reflectance\"; remove either \"metal\" or these",
             ParameterError::Place::key);
     if (metal) {
         const Metal found = find_metal(*metal).value();
@@ -102,9 +103,10 @@ Conductor ConductorParameters::made() const {
     }
     if (reflectance) {
         if (eta || k)
-            throw ParameterError("reflectance",
-                                 "\"reflectance\" cannot be combined with \"eta\" or \"k\"; remove one or the others",
-                                 ParameterError::Place::key);
+            throw ParameterError(
+                "reflectance",
+                "\"reflectance\" cannot be combined with \"eta\" or \"k\"; remove either \"reflectance\" or these",
+                ParameterError::Place::key);
         if (film_thickness)
             throw ParameterError("film_thickness",
                                  "a metal with a \"reflectance\" cannot have a film; give \"eta\" and \"k\" instead",
@@ -184,7 +186,7 @@ Material read_material_of_phase(const Document& document, Value phase) {
     const PhaseEntry entry = phase_entry(document, phase);
     if (!entry.has_parameters) return read_material(document, phase);
     if (entry.material) return material_of_member(MaterialKinds(), document, *entry.material);
-    throw document.error(phase, "the phase has no material, which a picture needs, such as {\"diffuse\": {…}}");
+    throw document.error(phase, "the phase needs a material to be rendered, such as {\"diffuse\": {…}}");
 }
 
 }  // namespace phasetree::tracer

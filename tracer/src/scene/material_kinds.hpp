@@ -50,10 +50,11 @@ struct PerturbationParameters {
 
     template <class P, class V>
     static void perturbation_parameters(V&& v) {
-        v(&P::bump_texture, Parameter{"bump", "",
-                                      "Bump map: a texture whose bright parts look raised. It changes the normals "
-                                      "only, not the surface. A step in the texture becomes a slope of 45° to 55°.",
-                                      limits::any, true});
+        v(&P::bump_texture,
+          Parameter{"bump", "",
+                    "Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. "
+                    "A discontinuity of the texture counts as a slope of 45° to 55°.",
+                    limits::any, true});
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump map: height of white above black; may be negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
@@ -112,9 +113,9 @@ struct ClearParameters : FilmParameters {
                         limits::non_negative, true}});
         v(&P::absorption_spectrum,
           SpectrumParameter{{"absorption_spectrum", "nm, 1/m",
-                             "Instead of the absorption: wavelengths and the absorption coefficient at each. Without "
-                             "\"spectral\", this is converted to red, green and blue such that a layer that transmits "
-                             "a third of white light or more looks the same.",
+                             "Instead of the absorption: wavelengths and the absorption coefficient at each. Unless "
+                             "the scene is \"spectral\", it is converted to red, green and blue. Layers that transmit "
+                             "at least a third of white light keep their colour; thicker ones may differ.",
                              limits::non_negative, true}});
         v(&P::color,
           ColourParameter{{"color", "", "Instead of the absorption: the colour of white light after a distance.",
@@ -134,23 +135,21 @@ struct ClearParameters : FilmParameters {
                                        "Instead of absorption and scattering: a measured medium (Jensen et al. 2001).",
                                        limits::any, true},
                                       names_of_media});
-        v(&P::scale,
-          Parameter{"scale", "mm", "With a measured medium: length of the scene's unit.", limits::positive, true});
+        v(&P::scale, Parameter{"scale", "mm", "With a measured medium: how many millimetres one scene unit is.",
+                               limits::positive, true});
         v(&P::anisotropy,
           Parameter{"anisotropy", "",
                     "Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured "
                     "media keep their reduced scattering, (1 − g) s, for any g. Default 0.",
                     Limits{.low = -0.99f, .high = 0.99f}, true});
-        v(&P::emission,
-          RgbParameter{
-              {"emission", "1/m",
-               "Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels.",
-               limits::non_negative, true}});
-        v(&P::emission_spectrum,
-          Parameter{
-              "emission_spectrum", "",
-              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
-              limits::any, true});
+        v(&P::emission, RgbParameter{{"emission", "1/m",
+                                      "Radiance emitted per unit of length along a ray. Requires absorption or "
+                                      "scattering in the same channels.",
+                                      limits::non_negative, true}});
+        v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
+                                           "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
+                                           "brightness of the emission is used.",
+                                           limits::any, true});
         v(&P::density, Parameter{"density", "",
                                  "Density as a field: 0 at its surface and outside, rising linearly to 1 inside. "
                                  "Absorption, scattering and emission are multiplied by the density.",
@@ -165,7 +164,7 @@ struct ClearParameters : FilmParameters {
         v(&P::temperature_grid,
           Parameter{"temperature_grid", "K",
                     "Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. "
-                    "Requires a density and an emission, of which only the brightness is used then. The grid's "
+                    "Requires a density and an emission, of which it uses only the brightness. The grid's "
                     "\"factor\" converts its numbers to kelvin.",
                     limits::any, true});
         v(&P::emission_temperature, Parameter{"emission_temperature", "K",
@@ -287,8 +286,9 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
     static constexpr KindInfo info{
         "principled",
         "Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a "
-        "gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of "
-        "other materials. It is opaque; for transmission and subsurface scattering, use a phase of \"clear\"."};
+        "gloss over a diffuse material; a coat and fuzz may cover it. Its roughness parameters are the square root of "
+        "the α that other materials take. It is opaque; for transmission and subsurface scattering, use a phase of "
+        "\"clear\"."};
 
     Number base_weight = Principled{}.base_weight;
     Texture base_color = Principled{}.color;
@@ -351,17 +351,15 @@ struct PrincipledParameters : FilmParameters, PerturbationParameters, GrainParam
                  "Roughness of the fuzz: low for velvet, high for dust. Values below 0.26 are treated as 0.26.");
         film_parameters<P>(v);
         fraction(&P::film_weight, "film_weight", "With a film: share of the surface that has it.");
-        v(&P::emission_radiance,
-          Parameter{"emission_radiance", "",
-                    "Radiance of the surface where the emission colour is 1, the same in all directions; n² times that "
-                    "inside a material of index n.",
-                    Limits{.low = 0, .high = 1e12f}, true});
+        v(&P::emission_radiance, Parameter{"emission_radiance", "",
+                                           "Radiance, equal in all directions, where the emission colour is 1. Inside "
+                                           "a material of index n, the radiance is n² times this value.",
+                                           Limits{.low = 0, .high = 1e12f}, true});
         color(&P::emission_color, "emission_color", "Colour of the emitted light; default white.");
-        v(&P::emission_spectrum,
-          Parameter{
-              "emission_spectrum", "",
-              "Spectrum of the emission, as \"spectrum\" of lights. Only the brightness of the emission is used then.",
-              limits::any, true});
+        v(&P::emission_spectrum, Parameter{"emission_spectrum", "",
+                                           "Spectrum of the emission, as \"spectrum\" of lights. With it, only the "
+                                           "brightness of the emission is used.",
+                                           limits::any, true});
         v(&P::group, group_parameter);
         perturbation_parameters<P>(v);
     }

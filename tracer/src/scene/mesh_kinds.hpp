@@ -24,11 +24,10 @@ struct OpacityParameters {
 
     template <class P, class V>
     static void opacity_parameters(V&& v) {
-        v(&P::opacity_number,
-          Parameter{
-              "opacity", "",
-              "Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net.",
-              limits::fraction, true});
+        v(&P::opacity_number, Parameter{"opacity", "",
+                                        "Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the "
+                                        "light passes straight through, as through a fine net.",
+                                        limits::fraction, true});
         v(&P::opacity_cutoff,
           Parameter{"opacity_cutoff", "",
                     "With an opacity: values below this are holes and all others opaque, so edges are sharp.",
@@ -56,8 +55,8 @@ struct MeshFileParameters : OpacityParameters {
         opacity_parameters<P>(v);
         v(&P::y_up, y_up_parameter);
         v(&P::smooth, Parameter{"smooth", "",
-                                "Whether to shade the mesh as a smooth surface, with the normals in the file, or else "
-                                "with the mean normals of the faces around each vertex.",
+                                "Whether to shade the mesh smoothly. Normals come from the file; if it has none, they "
+                                "are the mean normals of the faces around each vertex.",
                                 limits::any, true});
     }
     // `ending` is the required extension, such as ".obj". Both throw ParameterError. The first checks what it can
@@ -138,11 +137,10 @@ struct GltfParameters {
               limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
-        v(&P::imported,
-          Parameter{"imported", "",
-                    "Whether this scene has the file's clear materials as phases and its lights in \"lights\", as "
-                    "`phasetree import` writes it; then no warning reports that they are missing here.",
-                    limits::any, true});
+        v(&P::imported, Parameter{"imported", "",
+                                  "Set by `phasetree import`: this scene has the file's clear materials as phases and "
+                                  "its lights in \"lights\", so no warning reports that the mesh ignores them.",
+                                  limits::any, true});
     }
     /// Checks the parameters without reading the file. Throws ParameterError.
     void check() const;
@@ -190,7 +188,9 @@ struct BackdropParameters : OpacityParameters {
         v(&P::radius, Parameter{"radius", "m", "Radius of the curve between floor and wall.", extent, true});
         v(&P::width, Parameter{"width", "m", "Length along x.", extent, true});
         v(&P::front, Parameter{"front", "m", "The floor begins at y = −front.", extent, true});
-        v(&P::wall, Parameter{"wall", "m", "Height of the wall above the curve.", extent, true});
+        v(&P::wall,
+          Parameter{"wall", "m", "Height of the straight part of the wall, which begins `radius` above the floor.",
+                    extent, true});
         opacity_parameters<P>(v);
     }
     Mesh made() const;

@@ -25,8 +25,8 @@ struct Pose {
     bool mirrors() const { return glm::determinant(stretch) < 0; }
 };
 
-/// Interpolates by `share`, in [0, 1]. Both or neither must mirror; every map in between is then as far from singular
-/// as they are.
+/// Interpolates by `share`, in [0, 1]. Either both or neither must mirror. Then no map in between is closer to singular
+/// than they are.
 Pose between(const Pose& from, const Pose& to, double share);
 
 class MovingTransform {

@@ -20,10 +20,10 @@ inline constexpr std::string_view transform_schema = R"({"$ref": "#/definitions/
 struct ObjectParameters {
     static constexpr KindInfo info{
         "objects",
-        "An object of the scene, in a list. Objects must not overlap. Where they do, the first copy takes precedence: "
-        "first objects that no instance refers to, in the order of this list, then the copies made by instances, in "
-        "their order. If one object begins within a few resolutions of where another ends, rays pass from one to the "
-        "other with nothing in between."};
+        "An object of the scene, in a list. Objects must not overlap. Where they do, the earliest copy wins: objects "
+        "that no instance refers to come first, in the order of this list, and then the copies made by instances, in "
+        "the order of the instances. Gaps of less than a few millionths of an object's size are ignored: rays pass "
+        "directly from one object to the other."};
 
     std::string name{};
     std::optional<Value> tree{};
@@ -69,11 +69,13 @@ struct InstanceParameters {
     static void parameters(V&& v) {
         using P = InstanceParameters;
         v(&P::of, Parameter{"of", "", "Name of an object or a group."});
-        v(&P::transform, PartParameter{{"transform", "",
-                                        "Transform of the instance, or the last of its transforms if there is a list.",
-                                        limits::any, true},
-                                       "transform or list",
-                                       transform_schema});
+        v(&P::transform,
+          PartParameter{
+              {"transform", "",
+               "Transform of the instance. If there is a list of transforms, it is applied after each of them.",
+               limits::any, true},
+              "transform or list",
+              transform_schema});
         v(&P::transforms,
           PartParameter{{"transforms", "",
                          "Many instances: for each, the image of the origin, or twelve numbers: the images of the "

@@ -11,9 +11,9 @@ namespace phasetree::tracer {
 
 namespace {
 
-// More balls allow better aiming, but choosing among them takes longer. Halving the boxes doubles their number along a
-// rod thinner than they are, and quadruples it on a surface. Growth below 3 is taken for a rod, which may have more
-// balls because it fills smaller balls better.
+// More balls allow better aiming, but choosing among them takes longer. Halving the boxes doubles their number if the
+// part is a rod thinner than a box, and quadruples it if it is a surface. So a growth factor below 3 indicates a rod.
+// Rods may have more balls, because they fill small balls better.
 constexpr std::size_t max_boxes = 16, most_boxes_of_rod = 128;
 constexpr std::size_t growth_of_rod = 3;
 constexpr float finest = 1e-4f;  // as a fraction of the object's diagonal

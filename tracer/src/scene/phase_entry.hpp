@@ -16,7 +16,7 @@ struct PhaseParameters {
     template <class V>
     static void parameters(V&& v) {
         v(&PhaseParameters::density,
-          Parameter{"density", "kg/m³", "Density, from which masses are computed. It changes no picture.",
+          Parameter{"density", "kg/m³", "Density, from which masses are computed. It does not affect rendering.",
                     Limits{.low = 0, .high = 1e12f}, true});
     }
 };

@@ -94,7 +94,7 @@ struct PlacedObjects {
     }
 };
 
-/// Exclusive upper bound of copy numbers, and the maximum number of instances in all lists.
+/// Exclusive upper bound on copy numbers, and the maximum number of instances in all lists.
 inline constexpr std::uint64_t max_copies = 1'000'000'000, most_instances = 20'000'000;
 
 /// The objects of a scene file without their materials, which are read from the listed sources.

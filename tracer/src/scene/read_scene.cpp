@@ -120,8 +120,8 @@ bool must_be_whole(const FileParts& parts, Purpose purpose) {
 void read_placed_into(const Document& document, const Shutter& shutter, NodePlaces* places, Purpose purpose,
                       Scene& scene, std::vector<ObjectsModel::Source>& materials) {
     ObjectsModel model = read_placed_objects(document, shutter, places);
-    // A model shows the document's time alone. Its objects are still read first for the whole time in which the shutter
-    // is open, so that errors at any time in it are reported.
+    // A model is evaluated only at the document's time. Its objects are nevertheless read first for the whole time in
+    // which the shutter is open, so that errors at any moment of it are reported.
     if (purpose == Purpose::model && (shutter.open != 0 || shutter.close != 0)) model = read_placed_objects(document);
     scene.phases = std::move(model.phases);
     scene.placed = std::move(model.placed);

@@ -12,8 +12,8 @@
 
 namespace phasetree::tracer {
 
-/// Reads {"translate": {"by": […]}} and the like, or a list of such, which are applied in order, or keys of either; at
-/// the document's time. Throws SceneError.
+/// Reads a transform at the document's time. It is written {"translate": {"by": […]}} or similar, as a list of such
+/// maps that are applied in order, or as keys whose values are either. Throws SceneError.
 Transform read_transform(const Document&, Value);
 
 /// A transform at the opening of the shutter, and, if it may move, how it changes until the shutter closes.

@@ -89,7 +89,7 @@ ssize_t Connection::read(char* to, std::size_t size) {
 }
 
 ssize_t Connection::write(const char* from, std::size_t size) {
-    if (!std::exchange(is_answering_, true)) deadline_ = Clock::now() + to_take_an_answer;
+    if (!std::exchange(is_answering_, true)) deadline_ = Clock::now() + answer_timeout;
     if (!wait(POLLOUT)) return -1;
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
     return sent < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : sent;

@@ -11,7 +11,8 @@
 
 namespace phasetree::tracer::view {
 
-// Which functions override one of the library's depends on its version, so some are not marked `override`.
+// cpp-httplib's virtual functions differ between versions, so some functions that override them are not marked
+// `override`.
 #ifdef __clang__
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Winconsistent-missing-override"
@@ -21,8 +22,8 @@ class Connection : public httplib::Stream {
   public:
     static constexpr std::size_t most_bytes_of_head = 16 * 1024;
     static constexpr std::size_t most_bytes_of_body = 8 * 1024 * 1024;  ///< for the text of a scene
-    static constexpr std::chrono::milliseconds to_send_a_request{3000};
-    static constexpr std::chrono::milliseconds to_take_an_answer{10000};
+    static constexpr std::chrono::milliseconds request_timeout{3000};
+    static constexpr std::chrono::milliseconds answer_timeout{10000};
 
     /// Takes ownership of the socket, which the destructor closes.
     explicit Connection(int socket);
@@ -58,7 +59,7 @@ class Connection : public httplib::Stream {
     std::string head_;          ///< and data that arrived with it
     std::size_t given_ = 0;     ///< bytes of it passed to the library
     std::size_t received_ = 0;  ///< in total
-    Clock::time_point deadline_ = Clock::now() + to_send_a_request;
+    Clock::time_point deadline_ = Clock::now() + request_timeout;
     bool is_answering_ = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 // Black would have unbounded absorption.
 constexpr float darkest = 1e-4f;
-// For phases made clear that had no index of refraction: glass.
+// The index of refraction of a phase that is made clear and had none: that of glass.
 constexpr float usual_ior = 1.5f;
 
 std::optional<float> constant(const Number& number) {

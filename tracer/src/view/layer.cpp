@@ -55,7 +55,7 @@ std::vector<glm::vec3> grey(const std::vector<float>& values) {
 }
 
 std::vector<glm::vec3> depths(const std::vector<float>& values) {
-    constexpr float farthest = 0.1f;  // so that it differs from nothing
+    constexpr float farthest = 0.1f;  // so that the farthest surface differs from pixels that hit nothing
     float least = no_depth, most = 0;
     for (const float v : values)
         if (is_something(v)) {

@@ -69,7 +69,7 @@ std::string with_numbers(const Document& document, const NumberEdits& edits) {
     return result.append(text, kept);
 }
 
-std::size_t offset_without_numbers(const Document& document, const NumberEdits& edits, std::size_t offset) {
+std::size_t offset_in_original(const Document& document, const NumberEdits& edits, std::size_t offset) {
     std::size_t longer = 0, shorter = 0;  // growth and shrinkage of the text before
     each_replacement(document, edits, [&](Value number, const std::string& by) {
         if (number.offset() + longer - shorter >= offset) return;

@@ -37,6 +37,6 @@ TextNumbers numbers_of(const Document&);
 std::string with_numbers(const Document&, const NumberEdits&);
 
 /// Maps an offset in with_numbers(), outside of numbers, to the offset in the document's own text.
-std::size_t offset_without_numbers(const Document&, const NumberEdits&, std::size_t offset);
+std::size_t offset_in_original(const Document&, const NumberEdits&, std::size_t offset);
 
 }  // namespace phasetree::tracer::view

@@ -32,7 +32,7 @@ constexpr int most_waiting = 8;
 constexpr const char* plain = "text/plain; charset=utf-8";
 constexpr const char* json = "application/json";
 
-// What is posted, besides the requests of the studio.
+// The names that accept POST, in addition to the studio's.
 constexpr std::string_view posted[] = {"change", "ask", "write", "write_numbers"};
 constexpr std::uint64_t most_bytes_of_small_body = 64 * 1024;
 

@@ -80,7 +80,7 @@ class Session {
     void write_numbers();
 
     std::shared_ptr<const Shown> shown() const;
-    /// Waits until the version of what is shown exceeds `version`, until the time is over, or until stop(), and returns
+    /// Waits until the version of what is shown exceeds `version`, until the timeout, or until stop(), and returns
     /// what is shown.
     std::shared_ptr<const Shown> shown_after(std::uint64_t version, std::chrono::milliseconds most) const;
     /// Ends all waiting and working permanently.
@@ -89,8 +89,9 @@ class Session {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // What the page requests. The numbers count requests: to read the files, and to change the text, the object and the
-    // view. They only increase. `document` counts those changes of the text that are not replaced numbers.
+    // What the page requests. Each number counts the requests of its kind and only increases: `reading` those to read
+    // the files, `text`, `object` and `view` those to change them. `document` counts the changes of the text other than
+    // replaced numbers.
     struct DesiredState {
         std::uint64_t reading = 1, text = 0, object = 0, view = 0, document = 0;
         Edits edits;

@@ -5,7 +5,7 @@ namespace phasetree::tracer::view {
 std::optional<NodePlace> ViewedScene::place_of(const void* node) const {
     std::optional<NodePlace> place = places.find(node);
     if (!place || !file || place->file != file->name()) return place;
-    place->offset = offset_without_numbers(*file, edits, place->offset);
+    place->offset = offset_in_original(*file, edits, place->offset);
     const SceneError there = file->error(place->offset, "");
     place->line = there.line();
     place->column = there.column();

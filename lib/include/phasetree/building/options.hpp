@@ -23,8 +23,8 @@ enum class BuildQuality {
 /// Options for building cells.
 struct CellOptions {
     float resolution = 0;  ///< in the scene's unit of length; 0 for a default; see InterfaceTracer
-    /// The maximum number of divisions from the bounds to the smallest cell. If it is at least the default, boxes in
-    /// which every sample searches the parts of a `mesh` or `balls` node may be divided three more times.
+    /// The maximum number of divisions from the bounds to the smallest cell. At the default or above, the limit is
+    /// three levels higher for boxes in which every sample has to search a `mesh` or `balls` node.
     int max_depth = 14;
     BuildQuality quality = BuildQuality::medium;
     /// Phases that rays never enter because they are opaque. Interfaces between two of them are not searched for and

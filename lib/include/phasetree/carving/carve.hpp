@@ -22,7 +22,7 @@ struct CarveOptions {
     /// Outward normals of the planes to use in addition to the six sides of the box (a k-DOP), of any nonzero length.
     /// If empty, carve() chooses the directions and their number from the object's shape.
     std::vector<glm::dvec3> directions{};
-    int max_planes = 40;      ///< with the sides of the box, if `directions` is empty; at least 6
+    int max_planes = 40;      ///< used if `directions` is empty; includes the six sides of the box, so at least 6
     double tolerance = 1e-3;  ///< target distance of the planes from the object, as a fraction of its diagonal
     /// Maximum number of evaluations, of eight points each. When they run out, the volume is larger than necessary, but
     /// it still contains the solid.

@@ -15,8 +15,8 @@ namespace evaluation {
 struct Assembly;
 }
 
-/// An executable program: each value has a register, each operation its code. Immutable; any thread may run it, each
-/// with its own Workspace.
+/// An executable program: each value has a register, and each operation is bound to the function that runs it.
+/// Immutable; any thread may run it, each with its own Workspace.
 class Evaluator {
   public:
     explicit Evaluator(Program program);
@@ -49,7 +49,7 @@ class Evaluator {
     Phase label(const glm::vec3& p, Workspace&) const;
 
     /// The gradient of one component at p, exact up to rounding (by dual numbers); zero if the phase is absent. It may
-    /// be shorter than 1, because a warp divides distances by an upper bound of how much its map stretches space.
+    /// be shorter than 1, because a warp divides distances by an upper bound on how much its map stretches space.
     glm::vec3 gradient(const glm::vec3& p, Phase) const;
 
     const Program& program() const { return program_; }

@@ -30,7 +30,7 @@ struct PreciseSample {
 /// number type, and this is one more number type. The constants of the program (radii, matrices, weights, voxels) are
 /// the same floats, exactly converted. So both precisions evaluate one function; they differ by the rounding errors of
 /// floats. Sines, exponentials and angles are those of the standard library instead of polynomials for floats, and are
-/// exact to a double.
+/// accurate to about the last bit of a double.
 ///
 /// *Limits.* Meshes, balls, volumes and labels search for the data near a point with the point rounded to floats, and
 /// evaluate what they find in double precision. Their values may jump by a rounding error of floats where the search
@@ -49,7 +49,7 @@ class PreciseEvaluator {
     /// A radius around a point within which the phase does not change: s(p), less allowances for lipschitz_excess() and
     /// for the error of values, which is the larger of value_error() and `error`. At least 0, and infinite if there is
     /// only one phase. Pass PreciseTracer::value_error() as `error` if the object is bounded: it is larger for objects
-    /// with cones and a few other nodes, whose constants do not fit each other exactly.
+    /// with cones and a few other nodes, whose rounded constants are not exactly consistent with each other.
     double safe_distance(const glm::dvec3& p, double error = 0) const;
     /// The component of a phase; infinite if the object does not have the phase.
     double component(const glm::dvec3& p, Phase) const;
@@ -68,8 +68,8 @@ class PreciseEvaluator {
     /// `farthest`: 2⁻⁴⁴ of that distance, or 2⁻²² of it for an object that searches in floats. An estimate with a large
     /// margin for programs of usual length, not a proof.
     double value_error(double farthest) const;
-    /// By how much components may exceed the slope 1, because the constants of nodes (unit vectors, matrices, factors)
-    /// are rounded to floats.
+    /// By how much the slopes of components may exceed 1, because the constants of nodes (unit vectors, matrices,
+    /// factors) are rounded to floats.
     double lipschitz_excess() const;
 
     const evaluation::PreciseProgram& program() const { return *program_; }

@@ -46,8 +46,9 @@ class Keys {
 /// The times of all keys within a value, unsorted and possibly repeated.
 std::vector<double> times_of_keys(Value value);
 
-/// JSON Schemas as text: of keys with any values, and of a value that may be keyed.
+/// The JSON Schema, as text, of {"keys": …} with values of any type.
 std::string schema_of_keys();
+/// The schema of a value that may be written plainly or as keys.
 std::string schema_of_keyed(const std::string& schema);
 
 }  // namespace phasetree

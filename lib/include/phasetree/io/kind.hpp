@@ -47,7 +47,8 @@ struct RgbParameter : Parameter {};
 struct DirectionParameter : Parameter {};
 
 /// Thrown by a kind's own code if a parameter is within its limits but conflicts with others, or refers to something
-/// unusable. The reader reports the parameter's position in the file, or that it is required if it is missing.
+/// unusable. The reader reports the parameter's position in the file or, if the parameter is missing, that it is
+/// required.
 class ParameterError : public std::runtime_error {
   public:
     /// Where to report the error: at the parameter's value, or at its key if the parameter should not be there at all.

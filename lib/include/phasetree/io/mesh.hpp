@@ -46,9 +46,9 @@ struct MeshFile {
 /// too many triangles; the message never contains text from the file.
 ///
 /// * OBJ: v, optionally with colours after the coordinates, vt, vn and f.
-/// * PLY: from "vertex", x y z, nx ny nz, red green blue, and s t, u v or texture_u texture_v; from "face", the list
-///   vertex_indices or vertex_index, and the list texcoord with two numbers per corner. Integer colours are divided by
-///   the maximum of their type.
+/// * PLY. Element "vertex": x y z; nx ny nz; red green blue; texture coordinates as s t, u v or texture_u texture_v.
+///   Element "face": the list vertex_indices or vertex_index; the list texcoord, with two numbers per corner. Integer
+///   colours are divided by the maximum of their type.
 MeshFile read_mesh_file(const std::filesystem::path& path, std::string_view content, std::size_t max_triangles);
 
 /// Read only the triangles, at most TriangleMesh::max_triangles, from a file. Throws SceneError.

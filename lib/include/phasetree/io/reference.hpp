@@ -86,10 +86,11 @@ std::string reference_markdown(const Chapter&);
 /// Format the list of the chapters' pages and their kinds as a Markdown table.
 std::string reference_index(std::span<const Chapter>);
 
-/// JSON Schemas (draft 7) as JSON text: of a kind's parameters, of {"kind": {…}} for one of several kinds, and of a
-/// reference to one of the schema's definitions.
+/// The JSON Schema (draft 7), as JSON text, of a kind's parameters.
 std::string schema_of(const KindPage&);
+/// The schema of {"kind": {…}} for any one of several kinds.
 std::string schema_of_one(std::span<const KindPage>);
+/// A reference to one of the schema's definitions.
 std::string schema_reference(std::string_view definition);
 /// The schema of a value that may be written in two ways.
 std::string schema_of_either(const std::string& one, const std::string& other);

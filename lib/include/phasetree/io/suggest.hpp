@@ -31,8 +31,8 @@ requires std::convertible_to<std::ranges::range_reference_t<const Strings>, std:
     return closest(word, std::span<const std::string_view>(views));
 }
 
-/// The end of a message about an unknown name without a similar valid one. For the kind "key" and the names a and b it
-/// is "; the keys are "a", "b"". Empty if there are no valid names, or more than twelve.
+/// The ending of a message about an unknown name, for use if no valid name is similar. For the kind "key" and the names
+/// a and b it is "; the keys are "a", "b"". Empty if there are no valid names, or more than twelve.
 std::string valid_names(std::string_view kind, std::span<const std::string_view> names);
 
 /// The same for any range of strings that outlives the call.
@@ -43,7 +43,7 @@ std::string valid_names(std::string_view kind, const Strings& names) {
 }
 
 /// Whether a key is another spelling of a name: British (colour, centre) instead of American (color, center), or vice
-/// versa. Readers accept both; the documentation has only the name.
+/// versa. Readers accept both; the documentation uses only the spelling of `name`.
 bool is_other_spelling(std::string_view key, std::string_view name);
 
 /// Whether a name has another spelling.

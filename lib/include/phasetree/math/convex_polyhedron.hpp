@@ -50,7 +50,7 @@ class ConvexPolyhedron {
 
   private:
     std::vector<Face> faces_;
-    double size_ = 1;  ///< of the box; points closer than a few roundings of it count as one
+    double size_ = 1;  ///< of the box; points closer than a few units in its last place are merged
 };
 
 }  // namespace phasetree

@@ -14,7 +14,8 @@ T power_of_two(const T& k) {
     float factor = 2;
     for (int digit = 0; digit < 7; ++digit) {
         const T half = floor(rest * 0.5f);
-        // The digit is 0 or 1. From 2³² on, the 1 is lost to rounding, but the factor is still exact.
+        // The digit is 0 or 1. From 2³² on, the − 1 and the + 1 are lost to rounding, but the product is still exactly
+        // the factor or 1.
         result = result * ((rest - half * 2.f) * (factor - 1.f) + 1.f);
         rest = half;
         factor *= factor;

@@ -8,9 +8,9 @@
 namespace phasetree {
 
 /// Evaluate an equation whose constants are found by a search: equation(search(p), p). `search` receives plain numbers.
-/// Use it for data of which only a little matters at any point, where a loop over all of it would be too slow. Other
-/// number types overload this function. A number type that cannot search calls otherwise(p), which gives the same
-/// result by a loop over everything.
+/// Use it for large data of which only a small part matters at any one point, where a loop over all of it would be too
+/// slow. Other number types overload this function. A number type that cannot search calls otherwise(p), which gives
+/// the same result by a loop over everything.
 template <class Search, class Equation, class Otherwise>
 float found_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
     return equation(search(p), p);

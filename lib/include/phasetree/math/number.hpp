@@ -80,9 +80,9 @@ T smooth_max(const T& a, const T& b, float r) {
     return -smooth_min(-a, -b, r);
 }
 
-/// A field f that is guarded against its discontinuities (lib/README.md): max(b, min(f, D − b)) for a bound {f ≤ 0} ⊂
-/// {b ≤ 0}. It has the sign of f, equals b where b ≥ D/2, and is 1-Lipschitz if f is 1-Lipschitz where b < D/2,
-/// whatever f does elsewhere.
+/// A field f that is guarded against its discontinuities (lib/README.md): max(b, min(f, D − b)) for a bound b with {f ≤
+/// 0} ⊂ {b ≤ 0}, where D is `far`. It has the sign of f, equals b where b ≥ D/2, and is 1-Lipschitz if f is 1-Lipschitz
+/// where b < D/2, whatever f does elsewhere.
 template <class T>
 T guarded(const T& bound, const T& f, float far) {
     return max(bound, min(f, far - bound));
@@ -157,9 +157,9 @@ template <class Yes, class No>
 }
 
 /// Return f. Number types that bound values in a box (Enclosure) may instead return a second expression that equals f
-/// under a condition, if the condition is true throughout the box. They call other(certainly), which returns a pair:
-/// whether the condition is true throughout the box, and the expression. certainly(c) returns whether the comparison c
-/// is true throughout the box.
+/// under a condition, if the condition is true throughout the box. They call `other` with a function certainly(c),
+/// which returns whether the comparison c holds throughout the box. `other` returns a pair: whether the condition holds
+/// throughout the box, and the expression to use instead of f in that case.
 template <class T, class Other>
 T also_known_as(const T& f, const Other&) {
     return f;

@@ -6,7 +6,7 @@
 
 namespace phasetree {
 
-/// An upper bound of the largest eigenvalue of a symmetric, positive semidefinite n × n matrix G, stored row-major. The
+/// An upper bound on the largest eigenvalue of a symmetric, positive semidefinite n × n matrix G, stored row-major. The
 /// eigenvalue is at most trace(Gᵏ)^(1/k). With k = 2¹², this is too large by a factor of at most n^(1/k).
 inline double largest_eigenvalue(std::vector<double> g, std::size_t n) {
     std::vector<double> square(n * n);

@@ -67,7 +67,7 @@ struct MeasureOptions {
 enum class MeasureEnd {
     tolerance,  ///< all volumes are as precise as requested
     precision,  ///< smaller boxes would not help, because of the rounding errors of 32-bit coordinates
-    seconds,    ///< the time is over
+    seconds,    ///< the time ran out
     boxes,      ///< MeasureOptions::max_boxes
     cancelled   ///< MeasureOptions::cancelled returned true
 };
@@ -81,7 +81,8 @@ struct MeasureResult {
     /// The phases with densities as one body; nullopt if no densities are given.
     std::optional<Body> all;
     MeasureEnd end = MeasureEnd::tolerance;
-    /// The number of boxes that were examined for this result. Divisions that a finer one has replaced do not count.
+    /// The number of boxes that were examined for this result. Boxes of coarser passes, whose results a finer pass has
+    /// replaced, do not count.
     std::size_t boxes = 0;
 };
 
@@ -99,7 +100,7 @@ struct MeasureResult {
 /// between the two, the rounding error of any component, is taken to be at most half a resolution (see
 /// InterfaceTracer). That allowance is the one assumption, and is the same for tracing (lib/README.md, "Allowances for
 /// rounding errors"). It limits how narrow intervals can get: to about two resolutions times a phase's area. Sums of
-/// boxes are computed in double, and the interval includes a bound of their rounding errors: each term takes part in at
+/// boxes are computed in double, and the interval includes a bound on their rounding errors: each term takes part in at
 /// most m additions, so a sum errs by at most m·2⁻⁵³ times the sum of the terms' magnitudes.
 ///
 /// Uses all threads of TBB's arena. The result does not depend on their number, unless measuring ends by time or is

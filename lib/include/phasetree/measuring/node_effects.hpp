@@ -33,35 +33,36 @@ struct LabelChange {
 /// What leaving out one node changes, while all others stay.
 struct NodeEffect {
     AnyNode node;    ///< that is left out
-    AnyNode parent;  ///< from which it is left out; the node itself if its operand `kept` replaces it
+    AnyNode parent;  ///< from which the node is left out; the node itself if its operand `kept` replaces it
     std::optional<AnyNode> kept{};
     Phased without{};                      ///< the object without the node; empty if it was not examined
     Verdict is_dead = Verdict::undecided;  ///< whether all labels stay the same
-    std::optional<LabelChange> change{};   ///< if it is refuted that the node is dead
+    std::optional<LabelChange> change{};   ///< if the node is not dead: a point where the labels differ
     bool is_replaced() const { return kept && address_of(node) == address_of(parent); }
 };
 
 struct NodeEffectsOptions {
-    std::size_t max_boxes = std::size_t{1} << 14;              ///< for each node
-    double seconds = std::numeric_limits<double>::infinity();  ///< then other nodes stay undecided. Positive
-    std::function<bool()> cancelled{};      ///< polled from any thread; return true to get what is known so far
-    std::function<void(float)> progress{};  ///< receives the share of the nodes that are done
+    std::size_t max_boxes = std::size_t{1} << 14;  ///< for each node
+    double seconds =
+        std::numeric_limits<double>::infinity();  ///< time limit, positive; nodes not decided by then stay undecided
+    std::function<bool()> cancelled{};            ///< polled from any thread; return true to get what is known so far
+    std::function<void(float)> progress{};        ///< receives the fraction of the nodes that are done
 };
 
 /// Find out for each node of an object whether it is *dead*: whether the object has the same label at every point
 /// without it. There are three ways to leave out a node:
 ///
 /// * Items of lists, such as the operands of a union, are removed.
-/// * An operand beside the one that has the same kind, such as what a difference subtracts, is removed together with
-///   its operation.
+/// * If an operation has one operand of its own kind and others, such as a difference the field that it cuts and the
+///   fields that it subtracts, one of the others is removed together with the operation, which leaves the first.
 /// * An operation with a single operand, such as a translation, is replaced by this operand.
 ///
-/// Both trees are divided into the same boxes. A box is done if what pruning leaves of both is equal, or if it is
-/// certainly in the same phase of both. So a dead node is proved dead everywhere, and a node that changes a label is
-/// refuted by a point at which both labels are certain, up to the rounding errors that measure() allows for.
+/// Both trees are divided into the same boxes. A box is done if both trees prune to the same program in it, or if it
+/// certainly lies in the same phase in both. So a dead node is proved dead everywhere, and a node that changes a label
+/// is refuted by a point at which both labels are certain, up to the rounding errors that measure() allows for.
 ///
-/// A node of which several places of the tree are made (a shared subtree) is left out of all of them. Of two equal
-/// nodes, each is dead as long as the other one stays. Nodes below a dead one are not examined.
+/// A shared subtree, which occurs in several places of the tree, is left out of all of them. If two nodes are equal,
+/// each is dead as long as the other one stays. Nodes below a dead one are not examined.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
 /// cancelled. Throws ModelError if the object is empty or unbounded.

@@ -14,20 +14,21 @@
 
 namespace phasetree {
 
-/// The phase is somewhere.
+/// The phase is not empty.
+
 struct IsPresent {
     Phase phase;
 };
-/// The phase is somewhere, and in one piece: any two of its points are joined by a path in the phase.
+/// The phase is not empty, and in one piece: any two of its points are joined by a path in the phase.
 struct IsConnected {
     Phase phase;
 };
 /// Every path from any of the phases in `inside` to the space around the object crosses one of the phases in `walls`.
-/// All of these phases are somewhere.
+/// None of these phases is empty.
 struct IsClosed {
     PhaseSet walls, inside;
 };
-/// Both phases are somewhere, they do not touch, and no point of the first is closer than `at_least` to a point of the
+/// Neither phase is empty, they do not touch, and no point of the first is closer than `at_least` to a point of the
 /// second.
 struct AreApart {
     Phase first, second;
@@ -37,7 +38,7 @@ struct AreApart {
 struct AreTouching {
     Phase first, second;
 };
-/// The phase is somewhere, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
+/// The phase is not empty, and nowhere thinner than `at_least`: every point of it is at most `reach` away from the
 /// centre of a ball of this diameter that lies in the phase.
 ///
 /// A reach of half the diameter, the smallest that makes sense, would require each point to be in such a ball. No
@@ -49,7 +50,7 @@ struct IsThick {
     double at_least = 0;  ///< in the scene's unit of length. Positive
     double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
 };
-/// All of the phases are somewhere, and their volume together is in this interval.
+/// None of the phases is empty, and their volume together is in this interval.
 struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();
@@ -93,27 +94,27 @@ struct ProveOptions {
 ///
 /// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
 /// statement is decided from the boxes that are certainly in a phase, those that certainly do not meet it, and the
-/// rest, which may or may not. Boxes become smaller until all statements are decided, or end at the resolution.
+/// rest, which may or may not. Boxes are made smaller until all statements are decided or the resolution is reached.
 ///
 /// *What is certain.* A statement that is proved or refuted is true or false of the sets of points whose smallest
-/// component is that of a phase, up to the rounding errors that measure() allows for. "Somewhere" and "a piece" mean
-/// sets with an interior. Witnesses are points that certainly are in their phases:
+/// component is that of a phase, up to the rounding errors that measure() allows for. "Not empty" and "a piece" refer
+/// to sets with an interior. Witnesses are points that certainly are in their phases:
 ///
 /// * present, proved: a point in the phase
 /// * connected, refuted: two points of the phase in different pieces
 /// * closed, refuted: a path from a phase inside to the space around the object; each point, and each segment between
 ///   two of them, is outside the walls
 /// * apart, refuted: a point of each phase, closer to each other than required, or, if they touch, a point of each
-/// * touching, proved: a point of each phase, joined by a path that meets no third one; so are points of phases that
-/// touch
+/// * touching, proved: a point of each phase, joined by a path that meets no third phase; the same holds for the
+///   witnesses of "apart" if the phases touch
 /// * thick, refuted: a point of the phase that is not within reach of a ball
 ///
-/// A phase that certainly is nowhere refutes a statement without a witness.
+/// A phase that is certainly empty refutes a statement without a witness.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
-/// cancelled. HasVolume may use a quarter of the time before boxes are divided for the other statements, and afterwards
-/// what is left, which is at least a quarter. Throws ModelError if the object is empty or unbounded, or if an argument
-/// is out of its range.
+/// cancelled. The time is divided as follows: at most a quarter for HasVolume, then the division into boxes for the
+/// other statements, then the rest, at least a quarter, for HasVolume again. Throws ModelError if the object is empty
+/// or unbounded, or if an argument is out of its range.
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
 
 }  // namespace phasetree

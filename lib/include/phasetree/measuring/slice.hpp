@@ -77,8 +77,9 @@ struct Slice {
 /// tolerance.
 ///
 /// Uses all threads of TBB's arena; the result does not depend on their number. Throws ModelError if the object is
-/// empty or unbounded, if an argument is out of its range, if the tolerance is finer than coordinates or 16384 squares
-/// along the object allow, or if more than max_squares squares are in doubt. Throws SlicingCancelled.
+/// empty or unbounded, if an argument is out of its range, or if more than max_squares squares are in doubt. The same
+/// applies to a tolerance below the precision of coordinates, or one for which more than 16384 squares lie along the
+/// object. Throws SlicingCancelled.
 Slice slice(const Phased& object, const SlicePlane& plane, const SliceOptions& options = {});
 
 }  // namespace phasetree

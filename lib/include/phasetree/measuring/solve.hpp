@@ -49,9 +49,9 @@ struct SolveOptions {
 /// Why solving ended.
 enum class SolveEnd {
     width,      ///< the bracket is as narrow as requested
-    undecided,  ///< for none of the numbers tried next could a measurement decide the side of the target
+    undecided,  ///< no further number could be placed on one side of the target: each measured interval contains it
     same_side,  ///< there is no bracket, because both of its ends are certainly on the same side of the target
-    seconds,    ///< the time is over
+    seconds,    ///< the time ran out
     cancelled   ///< SolveOptions::cancelled returned true
 };
 
@@ -80,11 +80,11 @@ struct SolveResult {
 /// object     called from the calling thread. Its exceptions are passed on.
 /// low, high  the first bracket; low < high, both finite.
 ///
-/// A number becomes an end of the bracket only if the certain interval of its quantity proves on which side of the
-/// target it is. So the quantity is certainly below the target at one end and above it at the other. If it is a
-/// continuous function of the number, it has the value somewhere in between, once or several times; one place is found.
-/// If it jumps across the target, the bracket closes in on a jump. Intervals are narrowed only as far as the decision
-/// needs. If the middle of the bracket is too close to the target for that, numbers beside it are tried.
+/// A number becomes an end of the bracket only if the certain interval of its quantity lies entirely on one side of the
+/// target. So the quantity is certainly below the target at one end and above it at the other. If it is a continuous
+/// function of the number, it has the value somewhere in between, once or several times; one such number is found. If
+/// it jumps across the target, the bracket closes in on a jump. Intervals are narrowed only as far as the decision
+/// needs. If the middle of the bracket is too close to the target for that, nearby numbers are tried.
 ///
 /// The result does not depend on the number of threads, unless solving ends by time or is cancelled. Throws ModelError
 /// for arguments out of range, and for objects that measure() rejects, except empty ones, whose volumes are 0.

@@ -80,8 +80,8 @@ class BoundsQuery {
         return through([&](const glm::dvec3& d) { return d * m; }, [&](const glm::dvec3& d) { return glm::dot(d, v); },
                        ask);
     }
-    /// Returns the answer of an intersection. It is also evaluated along the node's own axes, because along other
-    /// directions each child alone may be large or unbounded although their intersection is small.
+    /// Returns the answer of an intersection. `ask` is called a second time along the node's own axes, because along
+    /// other directions each child alone may be large or unbounded although their intersection is small.
     template <class Ask>
     Bounds cut(const Ask& ask) {
         const Bounds here = ask();

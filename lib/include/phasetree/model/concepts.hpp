@@ -89,7 +89,7 @@ concept ConvexPrimitive = requires {
 };
 
 /// A convex solid with rounded edges whose distance is exact inside and outside. Consider all points within `reach` of
-/// p and, for each, the nearest point of the surface. rolling_radius(p, reach) is a lower bound of the radius of
+/// p and, for each, the nearest point of the surface. rolling_radius(p, reach) is a lower bound on the radius of
 /// curvature there: at each of these surface points, a ball of this radius inside the solid touches the surface. It is
 /// infinite for a half-space.
 template <class N>

@@ -20,8 +20,8 @@ namespace phasetree {
 /// start of the search, a crossing is reported there. The search begins at the ray's own start if that is in the
 /// searched box, otherwise where the ray enters the box: the object's bounds for InterfaceTracer, the cell's box for
 /// InterfaceCells. This crossing has zero length: p_in and p_out are that point, which is in `to`, and `from` is the
-/// carried phase. There is one exception: in a cell of a mesh alone, a ray that enters in a wrong phase and meets no
-/// face keeps that phase.
+/// carried phase. There is one exception: in a cell whose program is a single mesh, a ray that enters carrying a wrong
+/// phase and meets no face keeps that phase.
 struct Crossing {
     float t_in = 0;      ///< distance from the ray's origin to p_in
     float t_out = 0;     ///< distance from the ray's origin to p_out

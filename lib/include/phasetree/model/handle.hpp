@@ -35,7 +35,7 @@ std::shared_ptr<const PhasedNode> make_phased_node(const std::type_info& type, v
 
 /// A distance field: one 1-Lipschitz value in the scene's unit of length, negative inside.
 ///
-/// This is a handle of an immutable tree: cheap to copy, and safe to read from any thread. It is made from a node,
+/// This is a handle to an immutable tree: cheap to copy, and safe to read from any thread. It is made from a node,
 /// `Field ball = Sphere{.radius = 2};`, which throws ModelError if a parameter of the node is outside its limits. A
 /// default-constructed handle is empty and must not be evaluated.
 class Field {

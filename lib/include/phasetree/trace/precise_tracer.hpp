@@ -24,23 +24,25 @@
 // 3. *Enclosed stretches.* A ray that makes no headway runs along an interface. Interval arithmetic with derivatives
 //    bounds φ of c over whole stretches of it. Stretches on which φ of c stays below η − δ are in c, and are passed; δ
 //    is explained below.
-// 4. *Bracketing.* Once a sample is not in c, bisection and interpolation bracket where the label of that sample
-//    begins, between it and the last sample labelled c. Phases that are shallower than η there, as on the face that
-//    two solids have in common, are passed over. If a deeper phase lies before, that phase is bracketed instead.
+// 4. *Bracketing.* Let h be the first sample that is not in c, and k its label. Bisection and interpolation bracket the
+//    point where label k begins, between h and the last sample labelled c. Other phases found on the way are passed
+//    over if they are shallower than η, as on a face shared by two solids. If one is deeper, it is bracketed instead of
+//    k.
 //
 // WHAT IS GUARANTEED, AND WHAT IS NOT
 //
-// * Between two crossings, φ of the phase between them exceeds η nowhere over a length of r or more. So no crossing is
-//   lost if the phases on both sides are deeper than η over a length of at least r, and none is found twice. Thinner
-//   phases may be missed, but crossings still chain.
+// * Between two crossings, there is no stretch of length r or more on which φ of the phase between them exceeds η. So
+//   no crossing is lost if the phases on both sides are deeper than η over a length of at least r, and none is found
+//   twice. Thinner phases may be missed, but crossings still chain.
 // * By default, r is 2⁻³⁰ (9·10⁻¹⁰) of the object's diagonal, and η is 2⁻⁴⁴ (6·10⁻¹⁴) of the farthest coordinate of its
 //   bounds. A ray within η of a face crosses it anywhere along the face, or not at all.
 // * For objects that search in floats (meshes, balls, volumes, labels; see PreciseEvaluator), η is 2⁻²² of the farthest
 //   coordinate, and r is at least 2·10⁻⁶ of the diagonal. These objects are as exact as with floats.
-// * The constants of some nodes do not fit each other exactly, because each is rounded to a float; others are enclosed
-//   in floats (cones, sines, polygons, networks). Their enclosures differ from doubles, usually by less than 10⁻⁷. The
-//   difference is measured at some points of the object when a tracer is made. η is at least four times the largest
-//   difference found, and δ is twice it; δ is 0 for all other objects. r is at least 2 η.
+// * The constants of some nodes are not exactly consistent with each other, because each is rounded to a float. The
+//   values of other nodes (cones, sines, polygons, networks) are enclosed with float arithmetic. In both cases an
+//   enclosure may miss the value in double precision, usually by less than 10⁻⁷. The difference is measured at some
+//   points of the object when a tracer is made. η is at least four times the largest difference found, and δ is twice
+//   it; δ is 0 for all other objects. r is at least 2 η.
 // * Where stretches cannot be enclosed (outlines, patterns and images have no known derivatives), a ray along an
 //   interface takes steps of r. After 65,536 steps shorter than 1,024 r, the shortest step doubles with every 256
 //   further ones, so that every ray ends. Phases thicker than r may be missed there, and only there.
@@ -69,7 +71,7 @@ struct PreciseRay {
     double t_max = std::numeric_limits<double>::infinity();  ///< crossings beyond are not reported
     /// The phase that the ray is in, as known from the crossing at which it starts; by default, the phase at the start.
     /// If the phase at the start of the search (the origin, or where the ray enters the object's bounds) differs from
-    /// it by more than rounding explains, a crossing of zero length is reported there.
+    /// it by more than rounding error can account for, a crossing of zero length is reported there.
     std::optional<Phase> carried{};
 };
 

@@ -30,9 +30,9 @@ class InterfaceTracer {
     ///
     /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are certain
     /// to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
-    ///   - at most 2.75 resolutions of the ray are in the phase, and of these at most one resolution is deeper inside
-    ///     than a sixteenth of a resolution;
-    ///   - the ray grazes the phase: it is nowhere deeper inside than a sixteenth of a resolution.
+    ///   - at most 2.75 r of the ray lies in the phase, and at most r of that is deeper inside than r/16, where r is
+    ///     the resolution;
+    ///   - the ray grazes the phase: it is nowhere deeper inside than r/16.
     ///
     /// 0 selects 2·10⁻⁶ of the object's diagonal, or 10⁻⁶ of its farthest coordinate if that is more. All values are
     /// clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the diagonal or of the farthest
@@ -50,7 +50,8 @@ class InterfaceTracer {
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
     ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
-    ///               by more than rounding explains, there is a crossing where the search starts (see Crossing).
+    ///               by more than rounding error can account for, there is a crossing where the search starts (see
+    ///               Crossing).
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.
     std::optional<Crossing> first_crossing(const glm::vec3& origin, const glm::vec3& direction, float t_min,

@@ -1,4 +1,4 @@
-// Determines a formula's terms, the bound of their slope by which all are divided, and the box that contains its solid.
+// Determines a formula's terms, the bound on their slope by which all are divided, and the box that contains its solid.
 #include "phasetree/nodes/fields/formula.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace phasetree::nodes {
 /// The cost of an operation of interval arithmetic in a Preparation's budget.
 inline constexpr std::uint64_t work_of_a_step = 20;
 
-/// An upper bound of a term's slope in a box, using at most this many boxes. If there is none, throws TextError with
+/// An upper bound on a term's slope in a box, using at most this many boxes. If there is none, throws TextError with
 /// the position in the text. `has_bounds` says whether the author specified the box; it only affects the message.
 /// `budget` throws when it is used up.
 double slope_in(const TermSteps& term, const BoxOfDoubles& whole, int max_boxes, bool has_bounds,

@@ -57,7 +57,7 @@ double TermInBox::slope_of(const FormulaStep& s) const {
     return Interval::most;
 }
 
-// An upper bound of the slope of the length of a vector of n values. The length is at most as steep as the largest
+// An upper bound on the slope of the length of a vector of n values. The length is at most as steep as the largest
 // stretch of the matrix J of the values' gradients. The square of that stretch is the largest eigenvalue of J Jᵀ. By
 // Gershgorin's theorem, this is at most the largest sum of magnitudes in a row.
 double TermInBox::slope_of_length(const std::array<Index, 3>& of, std::size_t n) const {

@@ -16,10 +16,10 @@
  * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
- * Errors. Every call returns a PhasetreeError. If that is not PHASETREE_ERROR_NONE, nothing has changed, the
- * outputs are untouched, and phasetreeGetErrorMessage() says which argument is wrong and why. No C++ exception leaves
- * the library. No argument makes it abort, except invalid memory: an array that is too short, a string that is not
- * null-terminated, or an invalid pointer.
+ * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL. If the
+ * error is not PHASETREE_ERROR_NONE, nothing has changed, the outputs are untouched, and phasetreeGetErrorMessage()
+ * says which argument is wrong and why. No C++ exception leaves the library. No argument makes it abort, except invalid
+ * memory: an array that is too short, a string that is not null-terminated, or an invalid pointer.
  *
  * Handles. PhasetreeTree and PhasetreeGeometry are opaque and reference counted. A function named New returns a handle
  * with one reference, owned by the caller. Retain adds a reference, Release drops one, and dropping the last one frees

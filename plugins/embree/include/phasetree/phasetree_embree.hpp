@@ -195,13 +195,13 @@ class Geometry {
         check(phasetreeGetGeometryUserData(get(), &pointer));
         return pointer;
     }
-    void set_phase_user_data(unsigned phase, const PhaseUserData& mine) {
-        check(phasetreeSetGeometryPhaseUserData(get(), phase, mine.integer, mine.pointer));
+    void set_phase_user_data(unsigned phase, const PhaseUserData& data) {
+        check(phasetreeSetGeometryPhaseUserData(get(), phase, data.integer, data.pointer));
     }
     PhaseUserData phase_user_data(unsigned phase) const {
-        PhaseUserData mine;
-        check(phasetreeGetGeometryPhaseUserData(get(), phase, &mine.integer, &mine.pointer));
-        return mine;
+        PhaseUserData data;
+        check(phasetreeGetGeometryPhaseUserData(get(), phase, &data.integer, &data.pointer));
+        return data;
     }
     /// Mesh the interfaces.
     Mesh mesh(const PhasetreeMeshOptions& options = default_mesh_options()) const {

@@ -5,7 +5,7 @@
 namespace phasetree {
 
 /// Maps p to the corresponding point in the lattice cell around `centre`. The map jumps at the faces of lattice cells,
-/// so its slope is unbounded; the recorder is given the number `jump` instead. In boxes that touch no such face,
+/// so its slope is unbounded; the program records `jump` as its slope instead. In boxes that touch no such face,
 /// pruning divides the slope by `jump` again (src/pruning/jumps.cpp).
 struct FoldMap {
     glm::vec3 centre{0};

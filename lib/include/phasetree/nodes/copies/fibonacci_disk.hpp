@@ -31,7 +31,8 @@ struct FibonacciDisk : Copies<FibonacciDisk<Child>, Child> {
           Parameter{"radius", "m", "Radius of the disk of the copies' origins.", limits::positive});
         v(&FibonacciDisk::turned, Parameter{"turned",
                                             "",
-                                            "1 turns each copy so that its x axis points away from the centre.",
+                                            "1: each copy is rotated so that its x axis points away from the centre; "
+                                            "0: all copies have the same orientation.",
                                             {.low = 0, .high = 1},
                                             true});
     }

@@ -1,6 +1,7 @@
 // The base of nodes that place copies of one child in many places. The child is stored once in memory. In the program
 // each copy has its own instructions, so that pruning can remove copies that do not matter. Copies of a field are
-// united; of an object, each copy replaces those before it, as in `under`. Copies may therefore overlap without a seam.
+// united. Copies of an object are combined as by `under`: each replaces those before it. Copies may therefore overlap
+// without a seam.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -108,7 +109,8 @@ struct Copies {
                 all = unite(all, at.image(q(of, level / at.scale)));
                 continue;
             }
-            // Many copies are small individually, so their boxes suffice.
+            // With many copies, each is small, so its axis-aligned box is tight enough and need not be bounded by
+            // directions.
             const auto copy = [&] {
                 return n <= 64 || at.is_moved_only() ? q(of, level / at.scale)
                                                      : q.placed(q.own_box(of, level / at.scale));

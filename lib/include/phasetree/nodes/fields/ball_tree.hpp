@@ -57,8 +57,8 @@ struct Tree {
         std::size_t most;  ///< maximum number of balls
     };
     /// Append the ShortList of these balls, which has at least one ball. They are taken from `around`, the list of an
-    /// enclosing box, or from the tree if `around` is empty. Returns false if there are too many, which never happens
-    /// with a list.
+    /// enclosing box, or from the tree if `around` is empty. Returns false if there are too many, which cannot happen
+    /// if `around` is given.
     static bool balls_in(const float* tree, const Wanted&, std::span<const float> around, std::vector<float>& floats);
 
     /// The side of a cube with a ball's share of the box around all balls: its volume is that of the box divided by the

@@ -15,10 +15,10 @@ namespace phasetree {
 /// many times too large if no two skeletons are steep at the same place. blob_slope() (src/preparation/blob.cpp) bounds
 /// Σ wᵢ |gᵢ′| over all of space by subdivision.
 ///
-/// *Outside.* The paper (Galin et al., Section 9.2) uses the distance to the support, min (dᵢ − Rᵢ), as a bound of
-/// points far away. A larger bound is also valid: where b ≥ T, at least one wᵢ gᵢ is its share wᵢ T/Σw or more, hence
-/// some gᵢ ≥ T/Σw, hence dᵢ ≤ rᵢ with gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ)) has the sign of T − b, and slope
-/// 1 far away. min (dᵢ − rᵢ) is larger than the paper's bound because rᵢ < Rᵢ.
+/// *Outside.* The paper (Galin et al., Section 9.2) uses the distance to the support, min (dᵢ − Rᵢ), as a bound on the
+/// distance far away. A larger bound is also valid: if b ≥ T, the weighted mean Σ wᵢ gᵢ/Σw is at least T/Σw. So some gᵢ
+/// ≥ T/Σw, that is, dᵢ ≤ rᵢ where gᵢ(rᵢ) = T/Σw. So max((T − b)/λ, min (dᵢ − rᵢ)) has the sign of T − b, and slope 1
+/// far away. min (dᵢ − rᵢ) is larger than the paper's bound because rᵢ < Rᵢ.
 struct Blob {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"blob", "7.5, 9.2",

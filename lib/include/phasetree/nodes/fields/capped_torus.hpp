@@ -8,15 +8,15 @@
 namespace phasetree {
 
 /// All points within r of an arc of radius R. Let φ be half of the arc's angle, and fold y to |y|. Consider a point at
-/// distance ρ from the axis, in the direction θ. It is within the arc's angle if sin φ · x − cos φ · |y| ≥ 0; the left
-/// side is ρ sin(φ − θ). Its nearest point of the arc is then at the same θ, as in the equation of a torus. Any other
-/// point is nearest to the arc's end R(cos φ, sin φ, 0), because the distance to a point of a circle grows with the
-/// angle between the two.
+/// distance ρ from the axis, in the direction θ. It is within the arc's angle if sin φ · x − cos φ · |y| ≥ 0; the
+/// left-hand side equals ρ sin(φ − θ). Its nearest point of the arc is then at the same θ, as in the equation of a
+/// torus. Any other point is nearest to the arc's end R(cos φ, sin φ, 0), because the distance to a point of a circle
+/// grows with the angle between the two.
 struct CappedTorus {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"capped_torus", "", "|p − nearest point of the arc| − r",
-                                   "Part of a ring about the z axis, with round ends, centred on the x axis; exact "
-                                   "where the tube is not wider than the ring."};
+                                   "Part of a ring about the z axis, with round ends, centred on the x axis; exact if "
+                                   "the tube's radius is at most the ring's."};
     float major = 1;
     float minor = 0.25f;
     float angle = 180;

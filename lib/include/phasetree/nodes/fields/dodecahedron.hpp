@@ -5,14 +5,15 @@
 
 namespace phasetree {
 
-/// Mirrors fold the solid to one chamber (mirrors.hpp) with one face. The face's centre is on the axis of order five,
-/// the middle of an edge on the y axis, and that edge runs along x.
+/// Mirrors fold the solid to one chamber (mirrors.hpp) with one face. In the chamber, the face's centre lies on the
+/// five-fold axis, and the middle of one of its edges lies on the y axis; that edge is parallel to x.
 struct Dodecahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{"dodecahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
-                                   "A regular dodecahedron about the origin. The middle of an edge lies on each half "
-                                   "axis: on x the edge runs along z, on y along x, on z along y. Exact."};
+    static constexpr NodeInfo info{
+        "dodecahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
+        "A regular dodecahedron about the origin. Each coordinate axis passes through the middles of two opposite "
+        "edges: on x these edges are parallel to z, on y to x, on z to y. Exact."};
     float radius = 1;
 
     template <class V>

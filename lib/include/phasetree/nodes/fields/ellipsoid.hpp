@@ -6,7 +6,7 @@
 
 namespace phasetree {
 
-/// A lower bound of the distance that is 1-Lipschitz and zero only on the surface. It is the maximum of three fields:
+/// A lower bound on the distance that is 1-Lipschitz and zero only on the surface. It is the maximum of three fields:
 ///
 /// * m(|p/r| − 1), where m is the smallest radius. |p/r| is a norm, so |p/r| − |q/r| ≤ |(p − q)/r| ≤ |p − q|/m.
 /// * the distance to the box with half extents r.

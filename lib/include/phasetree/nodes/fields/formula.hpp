@@ -125,7 +125,7 @@ void run(const float* data, const Vec3<T>& p, T* value) {
 ///
 /// Its minima, maxima, absolute values, negations and added constants become ordinary instructions, unless they are
 /// inside other functions. The remaining sums, products and roots become primitives: terms. All are divided by λ, a
-/// bound of the slope that is found by enclosure.
+/// bound on the slope, computed with interval arithmetic.
 ///
 /// The formula's author may give a box. B is then the box around the part of the solid inside it, and λ bounds the
 /// slope only in B. Points outside are projected onto B, and the distance to B takes over where it is larger, as with

@@ -11,11 +11,11 @@ namespace phasetree {
 /// *Octaves.* Each has half the size and half the weight of the previous one, so each adds the same slope. The weights
 /// sum to 1, so the range is [−1, 1].
 ///
-/// *Positions* are clamped to a cube with sides of 2¹⁷ sizes, which never increases distances. Beyond the cube the
+/// *Positions* are clamped to a cube with sides of 2¹⁷ · size, which never increases distances. Beyond the cube the
 /// noise is constant along its normals. The lattice's hash (math/lattice_hash.hpp) therefore only receives numbers that
 /// it computes exactly.
 ///
-/// distance() is the noise divided by the bound of its slope, and therefore 1-Lipschitz like every primitive.
+/// distance() is the noise divided by the bound on its slope, and therefore 1-Lipschitz like every primitive.
 struct FractalNoise {
     static constexpr bool is_long = true;  ///< a LongPrimitive
     static constexpr unsigned half_instructions = 120;

@@ -43,7 +43,8 @@ struct HeightMap {
         if (grid.width > 4096 || grid.height > 4096)
             throw ModelError("height_map: the image is larger than 4096 × 4096 pixels");
         const auto columns = static_cast<std::size_t>(grid.width), rows = static_cast<std::size_t>(grid.height);
-        if (grid.values.size() != columns * rows) throw ModelError("height_map: the image lacks some of its pixels");
+        if (grid.values.size() != columns * rows)
+            throw ModelError("height_map: the image is incomplete: some pixels are missing");
         const float step_x = static_cast<float>(grid.width) / size_x, step_y = static_cast<float>(grid.height) / size_y;
         table.assign(7, 0.f);
         float low = Bounds::infinity, high = -Bounds::infinity;

@@ -6,13 +6,14 @@
 namespace phasetree {
 
 /// Mirrors fold the solid to one chamber (mirrors.hpp) with one face. The face's centre is on the axis of order three,
-/// the middle of an edge on the y axis, and that edge runs along z.
+/// and the middle of one of its edges lies on the y axis; that edge is parallel to z.
 struct Icosahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{"icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
-                                   "A regular icosahedron about the origin. The middle of an edge lies on each half "
-                                   "axis: on x the edge runs along y, on y along z, on z along x. Exact."};
+    static constexpr NodeInfo info{
+        "icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
+        "A regular icosahedron about the origin. Each coordinate axis passes through the middles of two opposite "
+        "edges: on x these edges are parallel to y, on y to z, on z to x. Exact."};
     float radius = 1;
 
     template <class V>

@@ -21,9 +21,9 @@ struct JoinedVertices {
 /// last place of the mesh's largest coordinate. This covers both noise around zero (1e-20 instead of 0) and differences
 /// in the last bit. A closed mesh is left unchanged, however fine it is.
 ///
-/// Vertices are joined only where the choice is unambiguous. All of them must be this close to each other; a longer
-/// chain of close vertices is not joined. If the mesh is not closed afterwards, two corners of one triangle are not
-/// joined either, because that would remove the triangle, and neither are vertices that would be left without
+/// Vertices are joined only where the choice is unambiguous. A group is joined only if all its vertices are pairwise
+/// this close, not merely linked by a chain of close vertices. Unless joining closes the mesh, two corners of one
+/// triangle are not joined either, because that would remove the triangle; nor are vertices that would be left without
 /// triangles. The joined point is the vertex nearest to the origin.
 ///
 /// Vertices must be finite, and triangle indices must be valid. The result does not depend on the order of vertices and

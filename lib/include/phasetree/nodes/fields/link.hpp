@@ -10,9 +10,9 @@ namespace phasetree {
 /// are the torus equation once y is shortened by the length of the rods.
 struct Link {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"link", "", "y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r",
-                                   "A link of a chain in the xy plane, long along y; exact where the rod is not wider "
-                                   "than the ring."};
+    static constexpr NodeInfo info{
+        "link", "", "y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r",
+        "A link of a chain in the xy plane, long along y; exact if the rod's radius is at most the ring's."};
     float length = 1;
     float major = 0.5f;
     float minor = 0.15f;

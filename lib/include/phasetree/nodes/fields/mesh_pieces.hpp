@@ -38,9 +38,9 @@ T along(const float* direction, const Vec3<T>& q) {
     return q.x * direction[0] + q.y * direction[1] + q.z * direction[2];
 }
 
-/// Layout: a corner; the unit normal; for each side, the unit vector in the plane that points inward; for the side
-/// opposite to the corner, the (negative) height of the corner over it; and the slack, by which its region extends
-/// beyond its sides.
+/// Layout: a corner; the unit normal; for each side, the unit vector in the plane that points inward; the corner's
+/// signed height over the opposite side, which is negative; and the slack by which the face's region extends beyond the
+/// face's sides.
 ///
 /// The slack is the rounding error, so that a point straight above a side belongs to the face. The vector from the side
 /// to such a point may be mostly rounding error; as a gradient, it would differ from the normals of all adjacent faces.
@@ -94,8 +94,8 @@ void for_each_kind(F&& f) {
 }
 inline constexpr std::size_t piece_floats[piece_kinds] = {Face::floats, Edge::floats, Vertex::floats};
 
-/// The box around a mesh and its kind, as floats: the centre of the box, its half extents, and half of the wall's
-/// thickness, which is 0 for a solid.
+/// The box around a mesh, and whether the mesh is a solid or a wall, as floats: the centre of the box, its half
+/// extents, and half of the wall's thickness, which is 0 for a solid.
 inline constexpr std::size_t half_thickness = 6, box_floats = 7;
 
 /// The signed distance, from the result of the nearest piece. Outside the box of a solid the distance is positive

@@ -7,9 +7,9 @@
 
 namespace phasetree::detail {
 
-/// The mirrors of a regular polygon with n sides, at the angles kπ/n. |y| leaves the angles [0, nπ/n]. If [0, mπ/n] is
-/// left, the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such reflections, [0, π/n] is
-/// left.
+/// The mirrors of a regular polygon with n sides, at the angles kπ/n. Taking |y| restricts the angle to [0, nπ/n]. If
+/// it is restricted to [0, mπ/n], the mirror at kπ/n, k = ⌈m/2⌉, maps [kπ/n, mπ/n] into [0, kπ/n]. After ⌈log₂ n⌉ such
+/// reflections, the angle is in [0, π/n].
 struct PolygonMirrors {
     static constexpr int max_folds = 6;  ///< enough for 64 sides
     float folds = 0;

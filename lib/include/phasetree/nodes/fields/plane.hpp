@@ -29,7 +29,7 @@ struct Plane {
         return dot(p, normal) - offset;
     }
     double rolling_radius(const glm::dvec3&, double) const { return Bounds::infinity; }
-    /// The box is infinite except for the one side bounded by an axis-aligned plane.
+    /// If the plane is axis-aligned, it bounds one side of the box. All other sides are infinite.
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();
         for (int i = 0; i < 3; ++i) {

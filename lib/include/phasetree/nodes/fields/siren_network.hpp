@@ -23,7 +23,7 @@ struct SirenNetwork {
 
     /// Null if the sizes of the layers match; otherwise a message that says what is wrong.
     const char* mistake() const;
-    /// Π ‖Wᵢ‖₂, rounded up: a bound of the slope, because the sine's slope is at most 1. (Galin et al., Section 9.4,
+    /// Π ‖Wᵢ‖₂, rounded up: a bound on the slope, because the sine's slope is at most 1. (Galin et al., Section 9.4,
     /// print wᵢ for the norm.)
     double spectral_bound() const;
     /// The maximum length of the gradient at this many points of the ball, plus ten percent. *Not a bound*: between the

@@ -27,7 +27,7 @@ struct Slab {
     T distance(const Vec3<T>& p) const {
         return abs(dot(p, normal) - offset) - thickness * 0.5f;
     }
-    /// The box is infinite except for the two sides bounded by an axis-aligned slab.
+    /// If the slab is axis-aligned, it bounds two sides of the box. All other sides are infinite.
     Bounds bounds(BoundsQuery&, float level) const {
         Bounds b = Bounds::everything();
         const float half = thickness * 0.5f + level;

@@ -77,7 +77,8 @@ struct Volume {
     }
 
   private:
-    // Where blocks are low up to the border of the grid, so is the field beyond it.
+    // Where blocks at the border of the grid contain values ≤ level, the field beyond the border may be ≤ level as
+    // well.
     Bounds beyond_border(Bounds low, const Bounds& outer, float level) const {
         const Bounds inner = file.content->extent();
         for (int i = 0; i < 3; ++i) {

@@ -107,7 +107,7 @@ struct VoronoiCells {
 
     Bounds bounds(BoundsQuery&, float) const { return Bounds::everything(); }
 
-    /// A lower bound of the distance, in cubes, to the bisector of any site that is not visited.
+    /// A lower bound on the distance, in cubes, to the bisector of any site that is not visited.
     float seen() const {
         const VoronoiSites sites{jitter, seed};
         return 0.5f * (sites.unseen() - sites.nearest()) * 0.999f;

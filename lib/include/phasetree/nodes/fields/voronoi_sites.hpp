@@ -24,9 +24,9 @@ struct VoronoiSites {
 
     static constexpr int neighbours = 125;
 
-    /// A lower bound of the distance, in cubes, to all sites that are not visited.
+    /// A lower bound on the distance, in cubes, to all sites that are not visited.
     float unseen() const { return 0.5f * (5 - jitter); }
-    /// An upper bound of the distance, in cubes, to the nearest site.
+    /// An upper bound on the distance, in cubes, to the nearest site.
     float nearest() const { return 0.8660255f * (1 + jitter); }
 
     /// A point's cube, and its position in the cube. The pattern is constant beyond 2¹⁶ cubes, so that the hash stays
@@ -84,8 +84,8 @@ struct VoronoiSites {
         std::array<double, 3> position;  ///< in cubes
         double distance;                 ///< from the centre of the search
     };
-    /// Selects the sites with a hash in [low, high) that are at most `most` from a point, and at most `beyond` farther
-    /// than the nearest site with such a hash. Lengths are in cubes.
+    /// Selects the sites with a hash in [low, high) whose distance from a point is at most `most`, and at most `beyond`
+    /// more than that of the nearest site with such a hash. Lengths are in cubes.
     struct Search {
         std::array<double, 3> centre{};
         double most = 0, beyond = 0;

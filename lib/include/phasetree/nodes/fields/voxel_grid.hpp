@@ -29,10 +29,10 @@ struct VoxelLattice {
 /// every interpolation reads a single block. Blocks whose values are all equal are stored as one value. The table is
 /// the data of a program's instruction, so all code that reads it receives floats:
 ///
-///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
-///     for each block, x fastest: its index among the stored blocks, or −1; its minimum and maximum, which are
-///         the value if it is a single one
-///     the values of the stored blocks, x fastest, each starting at the voxels before its first
+///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing for each block, x
+///     fastest: its index among the stored blocks, or −1; its minimum and maximum, which are
+///         equal if all its values are
+///     the values of the stored blocks, x fastest, each with one layer of voxels before it
 ///
 /// Beyond its border voxels the grid continues with their values.
 struct VoxelGrid {
@@ -47,10 +47,10 @@ struct VoxelGrid {
     /// The values in the table are the original ones divided by this number.
     double divided_by = 1;
 
-    /// Make a grid from the values of its blocks, which are requested in order. `fill` receives the voxel before the
-    /// first one of a block along each axis, and a buffer for 10³ values starting there. For voxels outside the grid it
-    /// must return those at the border. Throws ModelError if there are too many values or one is not finite; the
-    /// message starts with `who`.
+    /// Make a grid from the values of its blocks, which are requested in order. `fill` receives the indices of a
+    /// block's lowest voxel, minus 1 along each axis, and a buffer for the 10³ values from there on. For voxels outside
+    /// the grid it must return those at the border. Throws ModelError if there are too many values or one is not
+    /// finite; the message starts with `who`.
     using Fill = std::function<void(const std::array<int, 3>& before, std::span<float, kept_values>)>;
     static VoxelGrid make(std::string_view who, const VoxelLattice&, const Fill& fill);
     /// The same from f(x, y, z), the value at a voxel.
@@ -82,10 +82,10 @@ struct VoxelGrid {
     /// Move all voxels so that the centre of the first one is at this point.
     void move_first_to(const glm::dvec3&);
 
-    /// Consider the blocks that contain a value of at most `level`. Returns a box around all points whose value depends
-    /// on a voxel of these blocks; empty if there are none.
+    /// Returns a box around all points whose value depends on a voxel of a block that contains a value of at most
+    /// `level`; empty if there are none.
     Bounds blocks_below(float level) const;
-    /// From half a voxel before the first voxels' centres to half a voxel after the last ones'.
+    /// The box of all voxels: half a voxel beyond the outermost centres on every side.
     Bounds extent() const;
 
     std::size_t bytes() const { return table.size() * sizeof(float); }

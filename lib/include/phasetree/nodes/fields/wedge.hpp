@@ -41,7 +41,7 @@ struct Wedge {
         const T past_left = max(abs(p.z) - b, zero), past_below = max(abs(p.x) - a, zero);
         const T nearest = min(above * above + along * along,
                               min(left * left + past_left * past_left, below * below + past_below * past_below));
-        // Outside, the side that p is in front of is the nearest one. Near a corner another side ties with it within
+        // Outside, the side that p is in front of is the nearest one. Near a corner, another side is equally near up to
         // rounding, and the gradient is that of the side chosen.
         const auto before = [&](const T& height, const T& past, const T& otherwise) {
             return select(less(zero, height), select(less(zero, past), otherwise, height * height), otherwise);
@@ -55,7 +55,7 @@ struct Wedge {
         return detail::hull_support(d, {{-h.x, 0, -h.z}, {h.x, 0, -h.z}, {-h.x, 0, h.z}}) + std::abs(d.y) * h.y +
                glm::length(d) * static_cast<double>(level);
     }
-    /// For a negative level, {f ≤ level} is a smaller triangle, and within the box shrunk by as much.
+    /// For a negative level, {f ≤ level} is a smaller wedge, which lies in the box shrunk by −level.
     Bounds bounds(BoundsQuery&, float level) const { return Bounds::centred(size * 0.5f + level); }
 };
 

@@ -76,7 +76,7 @@ struct CloseGaps {
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
         auto a = d.phases(of, p);
-        if (!a.has(0)) return a;  // there is no gap
+        if (!a.has(0)) return a;  // no vacuum: the object fills space, so there is no gap
         const auto gaps = distances_to_gaps(a);
         for (std::size_t k = 0; k < gaps.size(); ++k) {
             const int phase = of_phases[k].index;

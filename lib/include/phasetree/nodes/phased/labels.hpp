@@ -17,9 +17,9 @@ namespace phasetree {
 /// distance t from a flat interface mₖ is N(t/σ), where N is the cumulative normal distribution, so gₖ = σ N⁻¹(mₖ) is
 /// the depth of a point in phase k. N⁻¹ is increasing, so gₖ is largest where mₖ is. gₖ is clamped to ±2.5 σ.
 ///
-/// Blurring can remove a voxel from its phase: its own g is then less than the largest of the others, by e. There, its
-/// own g is raised and the others are lowered until it exceeds them by e, clamped to 0.02 … 0.3 voxels. A wall or a
-/// thread one voxel thick is thus preserved, about half a voxel thick.
+/// Blurring can remove a voxel from its phase: its own g is then less than the largest of the others, by some e > 0.
+/// There, its own g is raised and the others are lowered until its own exceeds them by e clamped to [0.02, 0.3] voxels.
+/// A wall or a thread one voxel thick is thus preserved, about half a voxel thick.
 ///
 /// Dₖ is the triquadratic B-spline through the −gₖ at the voxels' centres, divided by the steepest slope of all of them
 /// (VoxelGrid::steepest_spline): a smooth, 1-Lipschitz field. As in voronoi,
@@ -82,10 +82,10 @@ struct Labels {
                     "\"layer_###.png\". Images are grey, with integers of up to 32 bits, and seen from above, like "
                     "those of height_map. The object is centred at the origin."});
         v(&Labels::of_phases, Parameter{"phases", "", "The phases of the object."});
-        v(&Labels::values, Parameter{"values", "", "The number of each phase; by default 1, 2, 3 …",
+        v(&Labels::values, Parameter{"values", "", "The voxel value of each phase; by default 1, 2, 3 …",
                                      Limits{.low = -16777216, .high = 16777216}, true});
         v(&Labels::empty,
-          Parameter{"empty", "", "The numbers of the vacuum, unless they belong to a phase; by default 0.",
+          Parameter{"empty", "", "Voxel values that are vacuum, unless they are listed for a phase; by default 0.",
                     Limits{.low = -16777216, .high = 16777216}, true});
         v(&Labels::spacing,
           Parameter{"spacing", "m",

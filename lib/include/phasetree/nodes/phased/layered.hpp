@@ -21,7 +21,7 @@ struct Layered {
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
         auto a = d.phases(of, p);
-        if (!a.has(0)) return a;  // nothing is outside
+        if (!a.has(0)) return a;  // no vacuum: the object fills space, so there is nothing to coat
         const auto outside = a[0];
         const auto layer = max(-outside - thickness, outside);
         a.set(phase.index, a.has(phase.index) ? min(a[phase.index], layer) : layer);

@@ -30,7 +30,7 @@ struct LayeredSequence {
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
         auto a = d.phases(of, p);
-        if (!a.has(0)) return a;  // nothing is outside
+        if (!a.has(0)) return a;  // no vacuum: the object fills space, so there is nothing to coat
         const auto start = a[0];
         auto inner = start;
         float total = 0;

@@ -3,8 +3,9 @@
 //
 //     Bₖ = {s < 0},  s = −smin(−aₖ, −g);    Bᵢ = Aᵢ;    vacuum: A₀ ∪ (Aₖ − Bₖ).
 //
-// A form over and a form under the other phases would be the same: because s ≥ max(aₖ, g), Bₖ is a part of Aₖ, which no
-// other phase overlaps. So max(aᵢ, −s) = aᵢ, because −s ≤ −aₖ ≤ aᵢ, and max(s, −min aᵢ) = s, because −aᵢ ≤ aₖ ≤ s.
+// Unlike smooth_unite_shape, this operator needs no variants over and under the other phases, because both would be
+// equal: s ≥ max(aₖ, g), so Bₖ is a part of Aₖ, which no other phase overlaps. So max(aᵢ, −s) = aᵢ, because −s ≤ −aₖ ≤
+// aᵢ, and max(s, −min aᵢ) = s, because −aᵢ ≤ aₖ ≤ s.
 //
 // Aₖ − Bₖ is max(aₖ, −s), or equally max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 requires g > −r, because the edge is rounded
 // nowhere else. The additional term prevents a zero of φ₀ where Aₖ meets itself far from the shape's surface, and gives

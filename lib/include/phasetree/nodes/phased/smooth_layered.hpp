@@ -30,7 +30,7 @@ struct SmoothLayered {
     template <class D>
     Phases<typename D::Scalar> evaluate(D& d, const typename D::Point& p) const {
         auto a = d.phases(of, p);
-        if (!a.has(0) || a.materials() == 0) return a;  // nothing is outside, or nothing inside
+        if (!a.has(0) || a.materials() == 0) return a;  // no vacuum outside, or no material inside
         std::optional<typename D::Scalar> blended;
         for_each_phase(a.materials(), [&](int i) { blended = blended ? smooth_min(*blended, a[i], radius) : a[i]; });
         const auto reached = *blended - thickness;

@@ -52,7 +52,8 @@ struct Polygon {
     static T distance(const float* data, const Vec3<T>& p) {
         return OutlineInBox::distance(data, p);
     }
-    using Specialised = OutlineInBox::Specialised;  // listed only in Bezier::Parts, because each type is listed once
+    using Specialised = OutlineInBox::Specialised;  // not in Polygon::Parts, because Bezier::Parts lists it and each
+                                                    // type is listed once
     static constexpr unsigned search_half_instructions = 2000;
     static float spacing(const float* data) { return OutlineInBox::spacing(data); }
     static bool specialise(const float* data, const PointRange& range, std::span<const float> of,

@@ -52,8 +52,7 @@ struct Text {
         v(&Text::size,
           Parameter{"size", "m", "Em size of the font; capitals are about 0.7 em high.", limits::positive, true});
         v(&Text::align,
-          Parameter{"align", "",
-                    "Alignment: which point of each line is at x = 0. 0 is its beginning, 0.5 its middle, 1 its end.",
+          Parameter{"align", "", "Alignment of each line: 0 puts its beginning at x = 0, 0.5 its middle, 1 its end.",
                     limits::fraction, true});
         v(&Text::spacing,
           Parameter{

@@ -22,7 +22,7 @@
 
 namespace phasetree::detail {
 
-/// g(f()) from above. f is called only if it matters and the number type can tell.
+/// g(f()) from above. f is called only if its value can matter; number types that cannot decide this always call it.
 template <class T, class F>
 T guarded_by(const T& b, float margin, const F& f) {
     return max(b, min(f(), 2 * margin - b));
@@ -34,7 +34,7 @@ float guarded_by(float b, float margin, const F& f) {
 }
 
 /// The object within a volume, with phase k everywhere outside. k may be the vacuum, and the object need not have it.
-/// a() returns the object; `there` are its phases.
+/// a() returns the object, and `there` are the phases that it has.
 template <class T, class A>
 Phases<T> object_guarded_by(const T& b, float margin, PhaseSet there, int k, const A& a) {
     const Phases<T> inner = a();

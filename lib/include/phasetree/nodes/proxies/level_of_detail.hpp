@@ -103,9 +103,9 @@ struct LevelOfDetail {
     void check(const std::vector<float>& list, const char* name) const {
         const std::string subject = std::string("level_of_detail: \"") + name + "\" ";
         if (list.empty()) return;
-        if (list.size() + 1 != of.size()) throw ModelError(subject + "must have one entry less than there are levels");
+        if (list.size() + 1 != of.size()) throw ModelError(subject + "must have one entry fewer than there are levels");
         for (std::size_t i = 1; i < list.size(); ++i)
-            if (!(list[i] > list[i - 1])) throw ModelError(subject + "must rise");
+            if (!(list[i] > list[i - 1])) throw ModelError(subject + "must increase");
     }
 };
 

@@ -27,8 +27,8 @@ struct Proxy {
         v(&Proxy::error, Parameter{"error", "m", "Maximum distance e between the two surfaces.", limits::non_negative});
         v(&Proxy::margin, detail::guard_margin);
         v(&Proxy::inside, Parameter{"inside", "",
-                                    "For an object: the phase that fills the proxy more than e inside. Without it, the "
-                                    "proxy is used outside only.",
+                                    "For an object: the phase that fills the proxy more than e inside. By default, the "
+                                    "proxy is used only outside.",
                                     limits::any, true});
     }
     void prepare() const {

@@ -25,7 +25,7 @@ struct Bend {
     struct Map {
         float k, side;        ///< curvature, and +1 or −1 for the direction of the bend
         float radius;         ///< 1/k
-        float near, highest;  ///< r₀, and the value at which it clamps z
+        float near, highest;  ///< r₀, and the largest z that the map returns, (1 − r₀)/k
         template <class T>
         Vec3<T> operator()(const Vec3<T>& p) const {
             if (k == 0.f) return p;

@@ -144,12 +144,14 @@ struct WarpedPhased : Warped<Warp, Phased> {
     template <class V>
     static void parameters(V&& v) {
         Whole::parameters(v);
-        v(&WarpedPhased::over,
-          Parameter{"over", "", "For an object: warp only these phases, and let them replace the others.", limits::any,
-                    true});
-        v(&WarpedPhased::under,
-          Parameter{"under", "", "For an object: warp only these phases, and let the others replace them.", limits::any,
-                    true});
+        v(&WarpedPhased::over, Parameter{"over", "",
+                                         "For an object: warp only these phases, and let them replace the others. By "
+                                         "default, all phases are warped.",
+                                         limits::any, true});
+        v(&WarpedPhased::under, Parameter{"under", "",
+                                          "For an object: warp only these phases, and let the others replace them. By "
+                                          "default, all phases are warped.",
+                                          limits::any, true});
     }
     void prepare() {
         Whole::prepare();
@@ -169,7 +171,8 @@ struct WarpedPhased : Warped<Warp, Phased> {
     PhaseSet phases() const {
         const PhaseSet there = phasetree::phases(this->of);
         const std::uint64_t materials = there.bits & ~std::uint64_t{1};
-        // An object without vacuum gets some: where a phase was before it was warped, or where it moves to.
+        // If only some of the materials are warped, the result has a vacuum even if the object has none, because the
+        // warped phases may vacate space.
         const bool is_split = (materials & chosen().bits) != 0 && (materials & ~chosen().bits) != 0;
         return is_split ? there | PhaseSet::of(vacuum) : there;
     }

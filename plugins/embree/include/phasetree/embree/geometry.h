@@ -42,8 +42,8 @@ typedef struct PhasetreeGeometryOptions {
     /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
      * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or 10⁻⁶ of their largest coordinate if
      * that is more. All values are clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the
-     * diagonal or of the largest coordinate, whichever is more. phasetreeGetGeometryStatistics returns the value in
-     * use, phasetreeGetGeometryWarning the reason. */
+     * diagonal or of the largest coordinate, whichever is more. phasetreeGetGeometryStatistics returns the resolution
+     * in use. If it is not the one requested, phasetreeGetGeometryWarning says why. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
      * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
@@ -59,10 +59,10 @@ typedef struct PhasetreeGeometryOptions {
      * shown. To hide one phase, leave it out. */
     PhasetreePhaseSet shownPhases;
     /* Phases that rays never enter because their materials are opaque. Interfaces between two of them are not searched
-     * for, so the geometry builds and traces as fast as its outer surface alone. A ray that starts inside an opaque
-     * phase finds only some of its interfaces, so filters must not let rays pass into these phases.
-     * phasetreeFindClosestInterface ignores interfaces between two of them. Opaque phases must be shown, and may not
-     * include the vacuum.
+     * for. A geometry that has only opaque phases therefore builds and traces as fast as a geometry that has just its
+     * outer surface. A ray that starts inside an opaque phase finds only some of its interfaces, so filters must not
+     * let rays pass into these phases. phasetreeFindClosestInterface ignores interfaces between two of them. Opaque
+     * phases must be shown, and may not include the vacuum.
      */
     PhasetreePhaseSet opaquePhases;
     /* Polled from any thread while cells are built; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL.
@@ -116,14 +116,14 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  *     u, v         The index of the phase left, and of the phase entered.
  *     primID       The cell.
  *     geomID, instID, instPrimID   As usual.
- * The ray is in the phase at its start, at tnear, unless its context says otherwise (PhasetreeRayContext). Directions
- * may have any length. Rays whose origin or direction is not finite hit nothing.
+ * A ray starts in the phase found at tnear, unless its context carries a different one (PhasetreeRayContext).
+ * Directions may have any length. Rays whose origin or direction is not finite hit nothing.
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
  * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, each crossing leaves
  * the phase that the previous one entered. Otherwise, crossings that are not shown may lie between them.
- * geometryUserPtr is the pointer of phasetreeSetGeometryUserData. In Embree 4, user geometries cannot see a filter
- * function that is passed in the arguments of a query; pass it as PhasetreeRayContext.filter instead.
+ * geometryUserPtr is the pointer of phasetreeSetGeometryUserData. Embree 4 does not pass a filter function in the
+ * arguments of a query to user geometries; pass it as PhasetreeRayContext.filter instead.
  *
  * OWNERSHIP. Embree does not notify anyone when it destroys a geometry. Therefore *the handle must live as long as any
  * scene that contains the RTCGeometry is committed or traced*; release it after the scene. If it is freed earlier, the

@@ -71,8 +71,8 @@ typedef struct PhasetreeMedium {
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
      * phase at the ray's start, as with an ordinary context. If the ray starts in a phase other than the one it
-     * carries, and rounding does not explain the difference, a crossing is reported where the search begins: at the
-     * ray's start if that is in a cell, otherwise where the ray enters the next cell. Owned by the application; not
+     * carries, and rounding error cannot account for the difference, a crossing is reported where the search begins: at
+     * the ray's start if that is in a cell, otherwise where the ray enters the next cell. Owned by the application; not
      * modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;

@@ -116,9 +116,9 @@ typedef struct PhasetreePointQuery {
     unsigned int geometryCount;
     float tolerance; /* see phasetreeFindClosestInterface */
     /* Out: the closest interface so far, in world space, and the geometry it belongs to. Set closest.found to false
-     * before the query. closest.emptyRadius refers to the geometry found and says nothing about the others. No
-     * interface of any listed geometry is closer than distance·(1 − tolerance), or than the query's radius if nothing
-     * was found, except where a search stopped early (see phasetreeFindClosestInterface). */
+     * before the query. closest.emptyRadius is that of the geometry found. Over all listed geometries, no interface is
+     * closer than distance·(1 − tolerance) or, if nothing was found, than the query's radius. This does not hold where
+     * a search stopped early (see phasetreeFindClosestInterface). */
     PhasetreeClosest closest;
     unsigned int geomID, instID;
 } PhasetreePointQuery;

@@ -34,7 +34,7 @@ PHASETREE_API PhasetreeError phasetreeGetSafeDistances(PhasetreeTree tree, const
 typedef struct PhasetreePreciseRay {
     double origin[3];
     double direction[3];  /* of any length but zero */
-    double tMax;          /* crossings beyond are not found; INFINITY for no limit */
+    double tMax;          /* crossings beyond tMax are not found; INFINITY for no limit */
     unsigned int carried; /* the phase that the ray is in; PHASETREE_UNKNOWN_PHASE for the one at its origin */
 } PhasetreePreciseRay;
 
