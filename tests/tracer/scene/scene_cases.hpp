@@ -159,8 +159,10 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.grain && m.grain->through ? *m.grain->through : glm::vec3(-1));
                 told.push_back(m.grain ? m.grain->aspect : 1);
             }
-            if constexpr (requires { m.amount; }) {
-                tell(told, m.amount);
+            if constexpr (requires { m.amount; }) tell(told, m.amount);
+            if constexpr (requires { m.crossings; }) told.push_back(m.crossings);
+            if constexpr (requires { m.transmission; }) tell(told, m.transmission);
+            if constexpr (requires { m.of; }) {
                 tell(told, m.of->first);
                 tell(told, m.of->second);
             }
