@@ -33,9 +33,9 @@ struct Solids {
     std::vector<std::string> warnings;  ///< sentences
 };
 
-/// Makes the solids. Triangles of several clear materials on one surface become one solid. Left out, with a warning,
-/// are objects of materials without volume, unless `panes_too`, and objects that enclose nothing.
-Solids solids_of(const gltf::GltfFile& file, bool panes_too);
+/// Makes the solids. Triangles of several clear materials on one surface become one solid. Objects that enclose nothing
+/// are left out, with a warning.
+Solids solids_of(const gltf::GltfFile& file);
 
 /// A position or a direction of glTF, where y is up, in the space of the scene, where z is up.
 template <class T>
