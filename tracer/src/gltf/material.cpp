@@ -65,8 +65,8 @@ class Materials::Maker {
         if (!glowing && !is_layered) normals = normal_map();
         read_color(pbr, by_vertices);
         read_opacity(pbr, by_vertices);
-        const bool transmits_diffusely = share_of(extension("KHR_materials_diffuse_transmission"),
-                                                  "diffuseTransmissionFactor") > 0;
+        const bool transmits_diffusely =
+            share_of(extension("KHR_materials_diffuse_transmission"), "diffuseTransmissionFactor") > 0;
         if (glowing && (made_.is_pane || transmits_diffusely)) {
             note_loss("emits light and is translucent; it is rendered as opaque");
             made_.is_pane = false;
@@ -89,9 +89,9 @@ class Materials::Maker {
         else if (greatest_of(metallic_) < 1 - nearly_all)
             made_.material = translucent(coated(normals), normals);
         else
-            made_.material = Mix{std::make_shared<const Mixture>(
-                                     Mixture{translucent(coated(normals), normals), metal(normals)}),
-                                 metallic_};
+            made_.material =
+                Mix{std::make_shared<const Mixture>(Mixture{translucent(coated(normals), normals), metal(normals)}),
+                    metallic_};
     }
 
   private:
@@ -144,15 +144,14 @@ class Materials::Maker {
         if (const float share = share_of(diffuse, "diffuseTransmissionFactor"); share > 0) {
             note_loss("transmits light diffusely and loses its gloss");
             const Number part = factor(*diffuse, "diffuseTransmissionTexture", share, 0, ImageMeaning::alpha);
-            const Texture color =
-                color_factor(*diffuse, "diffuseTransmissionColorTexture",
-                             diffuse->vec3("diffuseTransmissionColorFactor", glm::vec3(1)));
+            const Texture color = color_factor(*diffuse, "diffuseTransmissionColorTexture",
+                                               diffuse->vec3("diffuseTransmissionColorFactor", glm::vec3(1)));
             opaque = with_diffuse_transmission({color_, 0.0f, normals}, color_, color, part);
         }
         if (!made_.is_pane) return opaque;
         const auto transmission = extension("KHR_materials_transmission");
-        const Number part = factor(*transmission, "transmissionTexture",
-                                   share_of(transmission, "transmissionFactor"), 0, ImageMeaning::numbers);
+        const Number part = factor(*transmission, "transmissionTexture", share_of(transmission, "transmissionFactor"),
+                                   0, ImageMeaning::numbers);
         return with_pane(std::move(opaque), {index(), color_, 1.0f, alpha_, normals}, part);
     }
 
@@ -197,7 +196,9 @@ class Materials::Maker {
     }
 
     void read_roughness(const Item& pbr) {
-        const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
+        // Metal, which glTF's materials are by default, transmits nothing; a pane without the factor is not meant to
+        // be.
+        const float metallic = std::clamp(pbr.number("metallicFactor", made_.is_pane ? 0.0f : 1.0f), 0.0f, 1.0f);
         metallic_ = metallic;
         mean_roughness_ = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
         // Surfaces of the same roughness share their tables, which take a tenth of a second to make. A difference of

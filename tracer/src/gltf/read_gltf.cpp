@@ -67,8 +67,7 @@ class Reader {
     Reader(std::string_view content, const ReadOptions& options, const ReadFile& read_file)
         : document_(content, read_file),
           accessors_(document_, options.limits.triangles),
-          materials_(document_, options.limits.pixels, options.panes,
-                     options.clear == ReadClear::as_solids),
+          materials_(document_, options.limits.pixels, options.panes, options.clear == ReadClear::as_solids),
           has_materials_(options.materials == ReadMaterials::all),
           clear_(options.clear),
           limits_(options.limits) {}

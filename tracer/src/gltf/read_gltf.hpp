@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gltf/clear_material.hpp"
-#include "gltf/thin_material.hpp"
 #include "gltf/document.hpp"
+#include "gltf/thin_material.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "shading/material.hpp"
 #include "shading/opacity.hpp"

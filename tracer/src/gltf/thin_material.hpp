@@ -1,5 +1,5 @@
-// Thin materials of a glTF file: panes (KHR_materials_transmission without KHR_materials_volume) and sheets that transmit
-// light diffusely (KHR_materials_diffuse_transmission).
+// Thin materials of a glTF file: panes (KHR_materials_transmission without KHR_materials_volume) and sheets that
+// transmit light diffusely (KHR_materials_diffuse_transmission).
 //
 // glTF's pane reflects at one face and multiplies transmitted light by its base colour. A `thin_glass` of that colour
 // also has the reflections of the other face and between both.

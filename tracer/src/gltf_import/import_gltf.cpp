@@ -37,13 +37,14 @@ class Importer {
         : gltf_(gltf),
           scene_(scene),
           choices_(choices),
-          file_(read_gltf_file(gltf, {.clear = gltf::ReadClear::as_solids,
-                                      .panes = choices.panes_too ? gltf::ReadPanes::as_clear
-                                                                 : gltf::ReadPanes::as_thin_glass})) {
+          file_(read_gltf_file(
+              gltf, {.clear = gltf::ReadClear::as_solids,
+                     .panes = choices.panes_too ? gltf::ReadPanes::as_clear : gltf::ReadPanes::as_thin_glass})) {
         for (const std::string& sentence : file_.not_shown) warn(sentence);
         if (file_.has_panes)
-            warn("clear materials without volume (KHR_materials_volume) become panes of \"thin_glass\"; use --solid if "
-                 "their objects are closed and solid");
+            warn(
+                "clear materials without volume (KHR_materials_volume) become panes of \"thin_glass\"; use --solid if "
+                "their objects are closed and solid");
         Solids made = solids_of(file_);
         for (std::string& warning : made.warnings) warn(std::move(warning));
         solids_ = std::move(made.solids);

@@ -151,8 +151,7 @@ Principled PrincipledParameters::made() const {
 
 ThinGlass ThinGlassParameters::made() const {
     if (color_distance && !thickness)
-        throw ParameterError("color_distance", "\"color_distance\" requires \"thickness\"",
-                             ParameterError::Place::key);
+        throw ParameterError("color_distance", "\"color_distance\" requires \"thickness\"", ParameterError::Place::key);
     return {ior, color, thickness ? *thickness / color_distance.value_or(1.0f) : 1.0f, roughness, perturbation()};
 }
 
@@ -161,8 +160,8 @@ TwoSided TwoSidedParameters::made() const {
         if (emission_of(*material))
             throw ParameterError(key, "a two-sided material cannot contain a material that emits light");
         if (is_thin(*material) || has_two_sides(*material))
-            throw ParameterError(key, fmt::format("a two-sided material is opaque and cannot contain \"{}\"",
-                                                  kind_name(*material)));
+            throw ParameterError(
+                key, fmt::format("a two-sided material is opaque and cannot contain \"{}\"", kind_name(*material)));
     }
     return {std::make_shared<const Mixture>(Mixture{front, back})};
 }

@@ -367,9 +367,9 @@ struct MixParameters {
     Mix made() const;
 };
 
-using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters,
-                               PrincipledParameters, GlowingParameters, ThinGlassParameters, ThinDiffuseParameters,
-                               TwoSidedParameters, MixParameters>;
+using MaterialKinds =
+    TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters, PrincipledParameters,
+             GlowingParameters, ThinGlassParameters, ThinDiffuseParameters, TwoSidedParameters, MixParameters>;
 
 // A material missing from the list fails to compile here.
 template <class... Kinds, class... Materials>

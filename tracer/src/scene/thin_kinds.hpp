@@ -8,11 +8,11 @@
 namespace phasetree::tracer {
 
 struct ThinGlassParameters : PerturbationParameters {
-    static constexpr KindInfo info{
-        "thin_glass",
-        "Window pane, foil: glass so thin that light goes straight through. All reflections between its two faces count. "
-        "Only meshes can have it; a pane is a single layer of triangles, not a closed box.",
-        "R = 2 r/(1 + r)"};
+    static constexpr KindInfo info{"thin_glass",
+                                   "Window pane, foil: glass so thin that light goes straight through. All reflections "
+                                   "between its two faces count. "
+                                   "Only meshes can have it; a pane is a single layer of triangles, not a closed box.",
+                                   "R = 2 r/(1 + r)"};
 
     float ior = ThinGlass{}.ior;
     Texture color = ThinGlass{}.color;
@@ -23,8 +23,9 @@ struct ThinGlassParameters : PerturbationParameters {
     template <class V>
     static void parameters(V&& v) {
         using P = ThinGlassParameters;
-        v(&P::ior, Parameter{"ior", "", "Refractive index relative to vacuum. What counts is its ratio to that around it.",
-                             Limits{.low = 0.1f, .high = 10}, true});
+        v(&P::ior,
+          Parameter{"ior", "", "Refractive index relative to vacuum. What counts is its ratio to that around it.",
+                    Limits{.low = 0.1f, .high = 10}, true});
         v(&P::color, Parameter{"color", "",
                                "Colour of white light that crosses the glass once, perpendicularly and without "
                                "reflections; default white. Slanted light crosses more glass.",
@@ -47,10 +48,10 @@ struct ThinGlassParameters : PerturbationParameters {
 };
 
 struct ThinDiffuseParameters : PerturbationParameters {
-    static constexpr KindInfo info{
-        "thin_diffuse",
-        "Leaf, paper, lampshade: a sheet that reflects light diffusely, and transmits some of it diffusely to the other "
-        "side. It is the same from both sides. Only meshes can have it."};
+    static constexpr KindInfo info{"thin_diffuse",
+                                   "Leaf, paper, lampshade: a sheet that reflects light diffusely, and transmits some "
+                                   "of it diffusely to the other "
+                                   "side. It is the same from both sides. Only meshes can have it."};
 
     Texture color{};
     Texture transmission{};

@@ -4,7 +4,8 @@
 //   clear | opaque    the surface of the opaque one, relative to the index of the clear one: metal and varnish reflect
 //                     less in water than in air
 //   clear | thin      that of a thin mesh in the clear material, which is also behind it
-//   clear | mixture   that of one of the two materials of the mixture, which is chosen at each point; likewise of a mesh
+//   clear | mixture   that of one of the two materials of the mixture, which is chosen at each point; likewise of a
+//   mesh
 //                     with different materials on its sides
 //   opaque | any      black: light does not travel in opaque materials, so no path comes from one
 //
@@ -35,10 +36,10 @@ class Interface {
     /// surfaces only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// The interface with the material that a mixture, or a mesh with two sides, has at a point; otherwise the interface
-    /// itself. Where the amount is between 0 and 1, a hash of the position decides, so the result is the same for every
-    /// caller. A surface has the optics chosen at the point where it is met, because normals and grain are those of one
-    /// of the two materials.
+    /// The interface with the material that a mixture, or a mesh with two sides, has at a point; otherwise the
+    /// interface itself. Where the amount is between 0 and 1, a hash of the position decides, so the result is the same
+    /// for every caller. A surface has the optics chosen at the point where it is met, because normals and grain are
+    /// those of one of the two materials.
     const Interface& chosen_at(const TexturePoint& point) const;
 
     /// Whether one of a mixture's materials at a point has a BSDF that is not specular. Always false without a mixture.

@@ -137,7 +137,7 @@ struct ThinGlass {
 
 /// A leaf, paper, a lampshade, on a mesh: bsdf/thin_diffuse.hpp.
 struct ThinDiffuse {
-    Texture color = ConstantTexture{};                            ///< reflectance
+    Texture color = ConstantTexture{};                        ///< reflectance
     Texture transmission = ConstantTexture{glm::vec3(0.5f)};  ///< transmittance
     std::optional<NormalPerturbation> perturbation{};
 };

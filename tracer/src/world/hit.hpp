@@ -89,8 +89,8 @@ struct Blocked {
     std::optional<Surface> emissive{};  ///< set if it is emissive
 };
 
-/// The occluder between a point and a light: none, something opaque, or an interface of two clear phases or a thin pane,
-/// beyond which the light may still be visible (path.hpp). Such a surface is always transparent.
+/// The occluder between a point and a light: none, something opaque, or an interface of two clear phases or a thin
+/// pane, beyond which the light may still be visible (path.hpp). Such a surface is always transparent.
 using Visibility = std::variant<Escaped, Blocked, Surface>;
 
 }  // namespace phasetree::tracer

@@ -30,7 +30,8 @@ RoughThinGlassBsdf::Scattered RoughThinGlassBsdf::scattered(const glm::vec3& wo,
     const float again = lost * losses_.at(wi).x / average * cosine_hemisphere_pdf(wi.z);
     const float pdf_once = (1.0f - lost) * ggx_.visible_normal_pdf(wo, m) / (4.0f * cos_o);
     const float pdf_again = lost * losses_.pdf(wi.z);
-    const float once_reflected = of_single.choice_of_reflection(), again_reflected = of_multiple_.choice_of_reflection();
+    const float once_reflected = of_single.choice_of_reflection(),
+                again_reflected = of_multiple_.choice_of_reflection();
     if (is_transmitted)
         return {of_single.transmitted * once + of_multiple_.transmitted * again,
                 (1.0f - once_reflected) * pdf_once + (1.0f - again_reflected) * pdf_again};

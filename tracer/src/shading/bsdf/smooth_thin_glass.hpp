@@ -24,8 +24,7 @@ class SmoothThinGlassBsdf {
         if (!(wo.z > 0.0f)) return std::nullopt;
         const ThinPane::Shares shares = pane_.at(wo.z);
         const float choice = shares.choice_of_reflection();
-        if (u_lobe < choice)
-            return BsdfSample{{-wo.x, -wo.y, wo.z}, shares.reflected / choice, choice, true, false};
+        if (u_lobe < choice) return BsdfSample{{-wo.x, -wo.y, wo.z}, shares.reflected / choice, choice, true, false};
         if (!(choice < 1.0f)) return std::nullopt;
         return BsdfSample{-wo, shares.transmitted / (1.0f - choice), 1.0f - choice, true, true};
     }
