@@ -121,7 +121,8 @@ std::vector<Chapter> scene_chapters() {
                         "Radiance has no fixed unit: what counts is the radiance of each light relative to the others "
                         "and to the exposure.",
                         pages_of(LightKinds())});
-    chapters.push_back({"Meshes", "Meshes stand beside the object. They are opaque.", pages_of(MeshKinds())});
+    chapters.push_back({"Meshes", "Meshes stand beside the object. They have no interior, so none is \"clear\".",
+                        pages_of(MeshKinds())});
     chapters.push_back({"Cameras",
                         "`\"camera\"` is `{\"kind\": {parameters}}`. The parameters of a thin lens may stand alone.",
                         pages_of(CameraKinds())});
