@@ -103,7 +103,11 @@ TEST_CASE("a point light shines straight through a pane, without noise") {
 TEST_CASE("a pane lights and mirrors like a thin slab of clear glass, with and without water around") {
     // Shadow rays, sampled directions and paths to the camera pass the pane; a rectangle and the sky shine on the
     // floor.
+    // The slab is so thin that it hardly displaces light, and its cells know its thickness to about 2 %. So it is
+    // nearly clear; the closed forms above are tested with more absorption.
     constexpr double thickness = 1e-3;
+    constexpr std::array<double, 3> share{0.99, 0.97, 1.0};
+    const std::string pale = R"({"thin_glass": {"color": [0.99, 0.97, 1]}})";
     const std::string lights =
         R"("lights": [{"constant": {"radiance": [0.2, 0.2, 0.2]}}, {"rectangle": {"centre": [0.3, 0.2, 2], "target": [0.3, 0.2, 0], "width": 1.2, "height": 0.8, "radiance": [8, 8, 8]}}])";
     const auto box = [](const std::string& phase, double z, double height, double width) {
@@ -116,32 +120,34 @@ TEST_CASE("a pane lights and mirrors like a thin slab of clear glass, with and w
         CAPTURE(in_water);
         const std::string phases =
             black_bead + R"(, "water": {"clear": {"ior": 1.33}}, "glass": {"clear": {"ior": 1.5, "absorption": [)" +
-            std::to_string(-std::log(once[0]) / thickness) + ", " + std::to_string(-std::log(once[1]) / thickness) +
+            std::to_string(-std::log(share[0]) / thickness) + ", " + std::to_string(-std::log(share[1]) / thickness) +
             ", 0]}}";
         const std::string water = in_water ? box("water", 0.75, 1.5, 12) + ", " : std::string();
         const auto seen = [&](bool is_modelled, double floor, const Line& line) {
             const std::string glass = is_modelled ? box("glass", 1, thickness, 12) + ", " : std::string();
             const std::string ground = sheet(0.001, R"({"diffuse": {"color": [)" + std::to_string(floor) + ", " +
                                                         std::to_string(floor) + ", " + std::to_string(floor) + "]}}");
-            const Scene scene = with_meshes(ground + (is_modelled ? "" : ", " + sheet(1, coloured, 12)), lights,
+            const Scene scene = with_meshes(ground + (is_modelled ? "" : ", " + sheet(1, pale, 12)), lights,
                                             R"({"over": [)" + glass + water + bead + "]}", phases);
             const World world(scene);
             return radiance_along(world, scene, line.origin, line.direction, 60000);
         };
         for (const double degrees : {20.0, 60.0}) {
             const Line line = towards({0.1f, 0.2f, in_water ? 1.5f : 1.0f}, degrees);
-            const auto modelled = seen(true, 0.5, line), thin = seen(false, 0.5, line), wrong = seen(false, 0.52, line);
+            const auto modelled = seen(true, 0.5, line), thin = seen(false, 0.5, line);
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto p_value = [&](const Moments& a) {
-                    return normal_two_sided((a.mean() - modelled[c].mean()) /
-                                            std::hypot(a.standard_error(), modelled[c].standard_error()));
+                const auto p_value = [&](double factor) {
+                    return normal_two_sided((factor * thin[c].mean() - modelled[c].mean()) /
+                                            std::hypot(thin[c].standard_error(), modelled[c].standard_error()));
                 };
                 CAPTURE(degrees);
                 CAPTURE(c);
                 CAPTURE(thin[c].mean() / modelled[c].mean());
                 CAPTURE(thin[c].standard_error() / thin[c].mean());
-                CHECK(p_value(thin[c]) > significance);
-                (void)wrong;
+                CHECK(p_value(1) > significance);
+                // There is less noise where more of the light is mirrored.
+                if (!in_water && degrees == 60.0) CHECK(p_value(1.01) < significance);
+                CHECK(p_value(1.06) < significance);
             }
         }
     }
@@ -161,7 +167,7 @@ TEST_CASE("a sheet of paper transmits and reflects by Lambert's law, from both s
     const double significance = sidak(1e-4, 12);
     for (const bool from_below : {false, true}) {
         const Line line = towards(glm::vec3(at), 30, from_below);
-        const auto sky = radiance_along(in_white, white, line.origin, line.direction, 60000);
+        const auto sky = radiance_along(in_white, white, line.origin, line.direction, 150000);
         const auto lamp = radiance_along(in_lamp, lit, line.origin, line.direction, 100);
         for (std::size_t c = 0; c < 3; ++c) {
             CAPTURE(c);
