@@ -143,8 +143,9 @@ TEST_CASE("what is no solid is left out, by its name") {
     CHECK(has(o.err, "warning: in.glb: mesh: \"Sheet\" is a sheet that encloses nothing"));
     CHECK(has(o.err, "\"Tray\" is not closed: 4 edges have triangles on one side only; its holes are closed"));
     CHECK(has(o.err,
-              "the material \"pane\" is a thin pane without volume (KHR_materials_volume), which phasetree "
-              "cannot render; left out: \"Window\""));
+              "clear materials without volume (KHR_materials_volume) become panes of \"thin_glass\"; use --solid if "
+              "their objects are closed and solid"));
+    CHECK(shell.scene()["meshes"][0]["gltf"]["panes"] == true);
     CHECK(shell.phases_at({{5.5f, 0.5f, 0.5f}, {10.5f, 0.5f, 0.5f}}) == "glass vacuum");
     (void)shell.import_well(g, {"--solid"});
     CHECK(shell.phases_at({{5.5f, 0.5f, 0.5f}, {10.5f, 0.5f, 0.5f}}) == "glass pane");

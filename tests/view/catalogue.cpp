@@ -96,7 +96,9 @@ std::string scene_with(const CatalogueKind& kind, const std::string& instance) {
     };
     if (type == "field") return scene(diffuse, R"({"set": {"phase": "a", "of": )" + instance + "}}");
     if (type == "object") return scene(diffuse, instance);
-    if (type == "material") return scene(instance, "");
+    if (type == "material")
+        return kind.name.starts_with("thin_") || kind.name == "two_sided" ? scene(diffuse, "", mesh(instance))
+                                                                          : scene(instance, "");
     if (type == "light") return scene(diffuse, "", "\"lights\": [" + instance + R"(, {"constant": {}}])");
     if (type == "mesh") return scene(diffuse, "", "\"meshes\": [" + instance + "]");
     if (type == "camera") return scene(diffuse, "", "\"camera\": " + instance);

@@ -61,6 +61,13 @@ constexpr std::pair<std::string_view, std::string_view> pairs[] = {
     {"emissive", "glowing"},
     {"emitter", "glowing"},
     {"blend", "mix"},
+    {"thindielectric", "thin_glass"},
+    {"thin_dielectric", "thin_glass"},
+    {"pane", "thin_glass"},
+    {"diffuse_transmission", "thin_diffuse"},
+    {"difftrans", "thin_diffuse"},
+    {"translucent", "thin_diffuse"},
+    {"twosided", "two_sided"},
     // lights, meshes, cameras
     {"area", "rectangle"},
     {"quad", "rectangle"},

@@ -169,4 +169,50 @@ TEST_CASE("warnings name what layers lose") {
           Sentences{"\"a\" has an image of its anisotropy, which is ignored"});
 }
 
+TEST_CASE("what transmits light without a volume is a pane, and what transmits it diffusely is a sheet") {
+    const TexturePoint place({0, 0, 0});
+    const ThinGlass pane = std::get<ThinGlass>(
+        part_with(R"("KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.4})")
+            .material);
+    CHECK(pane.ior == 1.4f);
+    CHECK(is_near(color_at(pane.color, place), {0.5f, 0.25f, 0.75f}));
+    CHECK_FALSE(is_near(1.01f * color_at(pane.color, place), {0.5f, 0.25f, 0.75f}));
+    CHECK(constant(pane.roughness) == 0.25f);
+    // Without a metallic factor it is not metal.
+    CHECK(std::holds_alternative<ThinGlass>(
+        part_with(R"("KHR_materials_transmission": {"transmissionFactor": 1})", R"("name": "window")").material));
+    CHECK(std::holds_alternative<ThinGlass>(
+        part_with(
+            R"("KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 0})")
+            .material));
+    const Mix half = std::get<Mix>(part_with(R"("KHR_materials_transmission": {"transmissionFactor": 0.4})").material);
+    CHECK(constant(half.amount) == 0.4f);
+    CHECK(std::holds_alternative<Coated>(half.of->first));
+    CHECK(std::holds_alternative<ThinGlass>(half.of->second));
+    // The texture's red channel is 0 or 1.
+    const Mix print = std::get<Mix>(
+        part_with(R"("KHR_materials_transmission": {"transmissionFactor": 0.8, "transmissionTexture": {"index": 0}})")
+            .material);
+    CHECK(least_of(print.amount) == 0.0f);
+    CHECK(greatest_of(print.amount) == doctest::Approx(0.8f));
+    // Metal is opaque, whatever the factor.
+    const std::string metal = R"("pbrMetallicRoughness": {"metallicFactor": 1})";
+    CHECK(std::holds_alternative<Conductor>(
+        part_with(R"("KHR_materials_transmission": {"transmissionFactor": 1})", metal).material));
+
+    const ThinDiffuse leaf = std::get<ThinDiffuse>(
+        part_with(
+            R"("KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.25, "diffuseTransmissionColorFactor": [0.4, 0.8, 0.2]})")
+            .material);
+    CHECK(is_near(color_at(leaf.color, place), {0.375f, 0.1875f, 0.5625f}));
+    CHECK(is_near(color_at(leaf.transmission, place), {0.1f, 0.2f, 0.05f}));
+    CHECK_FALSE(is_near(1.01f * color_at(leaf.transmission, place), {0.1f, 0.2f, 0.05f}));
+    const Mix spotted = std::get<Mix>(
+        part_with(
+            R"("KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1, "diffuseTransmissionTexture": {"index": 0}})")
+            .material);
+    CHECK(std::holds_alternative<Diffuse>(spotted.of->first));
+    CHECK(std::holds_alternative<ThinDiffuse>(spotted.of->second));
+}
+
 }  // namespace test_gltf_layers

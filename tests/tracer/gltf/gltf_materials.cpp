@@ -82,8 +82,9 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     };
     const std::string plain = R"("pbrMetallicRoughness": {"metallicFactor": 0})";
     const auto clear = [&](const std::string& name, const std::string& how) {
-        return "{\"name\": \"" + name + "\", " + plain + R"(, "extensions": {"KHR_materials_transmission": {)" + how +
-               "}}}";
+        return "{\"name\": \"" + name + "\", " + plain +
+               R"(, "extensions": {"KHR_materials_volume": {"thicknessFactor": 0.1}, "KHR_materials_transmission": {)" +
+               how + "}}}";
     };
     // A quarter of the image is white.
     const gltf::GltfFile some =
@@ -319,7 +320,7 @@ TEST_CASE("what shines in a few places is dark, what shines in most is a lamp; a
     const std::string odd =
         Corner().file(one_node + R"("meshes": [{"primitives": [{)" + all_attributes + R"(, "material": 0}, {)" +
                       all_attributes + R"(, "material": 1}, {)" + all_attributes + R"(, "mode": 0}]}], "materials": [
-            {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}},
+            {"extensions": {"KHR_materials_volume": {}, "KHR_materials_transmission": {"transmissionFactor": 1}}},
             {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{}])");
     CHECK(read(odd).not_shown.at(1) ==
           "\"material 1\" has an image in an unsupported format, which is ignored; use PNG or JPEG");
@@ -327,10 +328,12 @@ TEST_CASE("what shines in a few places is dark, what shines in most is a lamp; a
     REQUIRE(all.parts.size() == 1);
     CHECK(all.parts[0].mesh.triangles.size() == 2);
     CHECK(all.not_shown == std::vector<std::string>{"has points or lines, which are ignored"});
-    CHECK(said(Corner().file(
-                   one_node + meshes(all_attributes + R"(, "material": 0)") +
-                   R"(, "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}])"))
-              .find("all its materials are clear") == 0);
+    CHECK(
+        said(
+            Corner().file(
+                one_node + meshes(all_attributes + R"(, "material": 0)") +
+                R"(, "materials": [{"extensions": {"KHR_materials_volume": {}, "KHR_materials_transmission": {"transmissionFactor": 1}}}])"))
+            .find("all its materials are clear") == 0);
 }
 
 }  // namespace test_gltf_materials

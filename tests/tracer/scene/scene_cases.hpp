@@ -159,8 +159,10 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.grain && m.grain->through ? *m.grain->through : glm::vec3(-1));
                 told.push_back(m.grain ? m.grain->aspect : 1);
             }
-            if constexpr (requires { m.amount; }) {
-                tell(told, m.amount);
+            if constexpr (requires { m.amount; }) tell(told, m.amount);
+            if constexpr (requires { m.crossings; }) told.push_back(m.crossings);
+            if constexpr (requires { m.transmission; }) tell(told, m.transmission);
+            if constexpr (requires { m.of; }) {
                 tell(told, m.of->first);
                 tell(told, m.of->second);
             }
@@ -321,6 +323,12 @@ inline std::vector<Case> cases_of_materials() {
                          {"emission_spectrum", R"("emission_radiance": 1)"},
                          {"group", R"("emission_radiance": 1)"}}));
     material("glowing", "");
+    const std::string tinted = R"("color": [0.1, 0.2, 0.3], "thickness": 0.5)";
+    material("thin_glass", "", bumped("", {{"thickness", tinted}, {"color_distance", tinted}}));
+    const std::string sheet = R"("color": [0.1, 0.2, 0.3], "transmission": [0.3, 0.2, 0.1])";
+    material("thin_diffuse", sheet, bumped(sheet, {}));
+    material("two_sided",
+             R"("front": {"diffuse": {"color": [0.1, 0.2, 0.3]}}, "back": {"diffuse": {"color": [1, 1, 1]}})");
     material("mix", R"("first": {"diffuse": {"color": [0.1, 0.2, 0.3]}}, "second": {"diffuse": {"color": [1, 1, 1]}})");
     return all;
 }

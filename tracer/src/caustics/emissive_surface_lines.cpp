@@ -29,7 +29,7 @@ FreeLine followed(Ray ray, float far, Heading heading, const World& world, const
         if (const auto lamp = lamp_before(distance)) return {std::nullopt, free + *lamp};
         free += distance;
         if (!surface || free > far) return {std::nullopt, free};
-        if (!surface->far_side) return {*surface, free};
+        if (!surface->is_transparent()) return {*surface, free};
         ray = surface->transmitted(direction);
     }
     return {std::nullopt, free};

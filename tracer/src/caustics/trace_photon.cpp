@@ -66,15 +66,13 @@ class PhotonFlight {
             // where they meet the rough one.
             const bool is_gathered = !bsdf.is_delta() || surface->is_partly_rough;
             if (is_photon_chain(interfaces_) && is_gathered && start_sees_light()) {
-                auto& photons = surface->far_side ? traced.on_interfaces : traced.on_surfaces;
+                auto& photons = has_photons_of_interfaces(*surface) ? traced.on_interfaces : traced.on_surfaces;
                 photons.push_back(photon_at(surface->near_side.origin));
                 // The photon was stopped here with the probability `opacity`, and so is the path that gathers it. Only
                 // one of these factors belongs to the result.
                 photons.back().power /= surface->opacity;
             }
-            if (!continues_photons(bsdf, *surface)) return;
-            ++interfaces_;
-            if (!is_photon_chain(interfaces_) || !scatter(*surface, bsdf)) return;
+            if (!continues_photons(bsdf, *surface) || !scatter(*surface, bsdf)) return;
         }
     }
 
@@ -121,15 +119,32 @@ class PhotonFlight {
             traced.in_media.push_back({photon_at(ray_.origin + depth * ray_.direction), depth});
     }
 
-    // Whether nothing occludes the light from the photon's start. The ray is traced only for photons that are stored,
-    // and only once.
+    // Whether nothing opaque occludes the light from the photon's start. The ray is traced only for photons that are
+    // stored, and only once. Thin panes in between attenuate the photon.
     bool start_sees_light() {
         if (!start_sees_light_) {
-            const Ray back{emitted_.ray.origin, -emitted_.ray.direction, emitted_.ray.phase, {}, emitted_.ray.in};
-            const Visibility light = world_.geometry().visibility(back, emitted_.emission.distance, counters_);
-            start_sees_light_ = std::holds_alternative<Escaped>(light);
+            const glm::vec3 attenuation = passed_before_start();
+            start_sees_light_ = attenuation != glm::vec3(0.0f);
+            power_ *= attenuation;
         }
         return *start_sees_light_;
+    }
+    glm::vec3 passed_before_start() {
+        Ray back{emitted_.ray.origin, -emitted_.ray.direction, emitted_.ray.phase, {}, emitted_.ray.in};
+        glm::vec3 passed(1.0f);
+        float left = emitted_.emission.distance;
+        for (int panes = 0; panes < longest_chain; ++panes) {
+            const Visibility met = world_.geometry().visibility(back, left, counters_);
+            if (std::holds_alternative<Escaped>(met)) return passed;
+            const Surface* const surface = std::get_if<Surface>(&met);
+            if (!surface) break;
+            const Bsdf bsdf = surface->bsdf(wavelengths_);
+            if (!bsdf.pane()) break;
+            passed *= straight_through(*bsdf.pane(), *surface, back.direction);
+            left = std::max(left - surface->distance, 0.0f);
+            back = surface->transmitted(back.direction);
+        }
+        return glm::vec3(0.0f);
     }
 
     // Samples the photon's next direction at an interface. Returns false if it ends there.
@@ -140,16 +155,25 @@ class PhotonFlight {
         // A smooth interface has no continuous pdf of directions, so it needs only the number that chooses the lobe.
         const auto next = bsdf.sample(wo, u_lobe, bsdf.is_delta() ? glm::vec2(0.0f) : sampler_.next2());
         if (!next) return false;
+        if (bsdf.pane() && next->transmitted) {
+            // Straight on, as if there were no interface.
+            ray_ = surface.transmitted(ray_.direction);
+            power_ *= next->weight;
+            return power_ != glm::vec3(0.0f);
+        }
+        ++interfaces_;
+        if (!is_photon_chain(interfaces_)) return false;
         // No shadow ray passes a mirror. If the photon met no rough surface before the mirror at which a shadow ray
         // could start, shadow rays find none of its light.
         if (!next->delta)
             multiply_quotients(surface, bsdf, ray_, wo, *next);
-        else if (!surface.far_side && !quotients_.by_shadow_rays)
+        else if ((!surface.far_side || bsdf.pane()) && !quotients_.by_shadow_rays)
             quotients_.by_shadow_rays = 0.0f;
         const Phase from = ray_.phase;
         const glm::vec3 direction_before = ray_.direction;
         ray_ = continued(surface, frame, *next);
-        if (surface.normal != surface.geometric_normal && !correct_for_shading_normal(surface, direction_before))
+        if (surface.normal != surface.geometric_normal &&
+            !correct_for_shading_normal(surface, direction_before, next->transmitted))
             return false;
         // The BSDF is sampled as if the photon were a path from the camera, so its weight is for radiance that arrives
         // from `after` and leaves into `before`: a refraction scales it by (before/after)². Power is not scaled.
@@ -167,14 +191,15 @@ class PhotonFlight {
     // Transport Simulation, 5.3.2)
     //     |ωo·n_s| |ωi·n_g| / (|ωo·n_g| |ωi·n_s|)
     // with ωo towards where the photon comes from. Returns false if the photon would continue into the surface; its
-    // light is left to paths. Only opaque surfaces have a separate shading normal, so the photon was reflected.
-    bool correct_for_shading_normal(const Surface& surface, const glm::vec3& direction_before) {
+    // light is left to paths; so is that of a photon which a thin surface transmits to the side from which it came.
+    bool correct_for_shading_normal(const Surface& surface, const glm::vec3& direction_before, bool is_transmitted) {
         const glm::vec3 &shading = surface.normal, &geometric = surface.geometric_normal;
-        const float cosine_out = glm::dot(ray_.direction, geometric);
+        const float side = is_transmitted ? -1.0f : 1.0f;
+        const float cosine_out = side * glm::dot(ray_.direction, geometric);
         if (!(cosine_out > 0.0f)) return false;
         power_ *= -glm::dot(direction_before, shading) * cosine_out /
                   (std::max(-glm::dot(direction_before, geometric), least_divisor) *
-                   std::max(glm::dot(ray_.direction, shading), least_divisor));
+                   std::max(side * glm::dot(ray_.direction, shading), least_divisor));
         return true;
     }
 

@@ -163,8 +163,8 @@ void add_import(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
     command->add_flag("--solid", options->choices.include_panes,
-                      "Also import closed objects whose clear material has no volume (default: they count as thin "
-                      "panes and are left out)");
+                      "Make closed objects of clear materials without volume phases, too; otherwise they are meshes of "
+                      "thin_glass");
     command->add_flag(
         "!--keep-gaps", options->choices.closes_gaps,
         "Keep thin gaps beside liquids; otherwise the node close_gaps fills those that cover a tenth of a "

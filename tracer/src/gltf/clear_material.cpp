@@ -84,8 +84,6 @@ class ClearReader {
     void read_volume() {
         const auto volume = item_.extension("KHR_materials_volume");
         if (!volume) return;
-        // Some programs write the extension only for its absorption.
-        made_.has_volume = volume->number("thicknessFactor", 1) > 0 || volume->has("attenuationDistance");
         made_.attenuation_color = clamped(volume->vec3("attenuationColor", glm::vec3(1)));
         const float distance = volume->number("attenuationDistance", 0);
         if (distance > 0) made_.attenuation_distance = distance;

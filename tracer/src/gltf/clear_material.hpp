@@ -16,7 +16,6 @@ namespace phasetree::tracer::gltf {
 
 /// A clear material, in the numbers of glTF. Images are replaced by their mean.
 struct ClearMaterial {
-    bool has_volume = false;  ///< KHR_materials_volume; without it, a surface is a thin pane with nothing inside
     float ior = 1.5f;
     float dispersion = 0;  ///< 20 divided by the Abbe number
     float roughness = 0;   ///< α of GGX is its square

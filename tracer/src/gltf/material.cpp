@@ -41,14 +41,15 @@ constexpr float nearly_all = 0.99f;
 // Makes one material.
 class Materials::Maker {
   public:
-    Maker(Images& images, const Item& item, bool wants_clear, NamedMaterial& made)
-        : images_(images), item_(item), wants_clear_(wants_clear), made_(made) {}
+    Maker(Images& images, const Item& item, ReadPanes panes, bool wants_clear, NamedMaterial& made)
+        : images_(images), item_(item), panes_(panes), wants_clear_(wants_clear), made_(made) {}
 
     void make(bool by_vertices) {
         const auto given = item_.item("pbrMetallicRoughness");
         static const Json none = Json::object();
         const Item pbr = given.value_or(Item(none, "the default material"));
-        if (is_clear()) {
+        made_.is_pane = panes_ == ReadPanes::as_thin_glass && is_pane();
+        if (!made_.is_pane && is_clear()) {
             made_.is_clear = true;
             if (wants_clear_) made_.clear = clear_material(item_, images_, made_.not_shown);
             return;
@@ -64,9 +65,17 @@ class Materials::Maker {
         if (!glowing && !is_layered) normals = normal_map();
         read_color(pbr, by_vertices);
         read_opacity(pbr, by_vertices);
+        const bool transmits_diffusely =
+            share_of(extension("KHR_materials_diffuse_transmission"), "diffuseTransmissionFactor") > 0;
+        if (glowing && (made_.is_pane || transmits_diffusely)) {
+            note_loss("emits light and is translucent; it is rendered as opaque");
+            made_.is_pane = false;
+        }
         if (is_layered) {
             read_roughness(pbr);
+            const bool emits = glowing.has_value();
             made_.material = layers(normals, std::move(glowing));
+            if (!emits) made_.material = translucent(std::move(made_.material), normals);
             return;
         }
         if (glowing) {
@@ -78,9 +87,11 @@ class Materials::Maker {
         if (least_of(metallic_) > nearly_all)
             made_.material = metal(normals);
         else if (greatest_of(metallic_) < 1 - nearly_all)
-            made_.material = coated(normals);
+            made_.material = translucent(coated(normals), normals);
         else
-            made_.material = Mix{std::make_shared<const Mixture>(Mixture{coated(normals), metal(normals)}), metallic_};
+            made_.material =
+                Mix{std::make_shared<const Mixture>(Mixture{translucent(coated(normals), normals), metal(normals)}),
+                    metallic_};
     }
 
   private:
@@ -119,6 +130,29 @@ class Materials::Maker {
     static bool is_invertible(const glm::mat3& m) {
         constexpr float smallest = 1e-12f;
         return std::abs(glm::determinant(m)) > smallest;
+    }
+
+    static float share_of(const std::optional<Item>& owner, std::string_view factor) {
+        return owner ? fraction_of(*owner, factor, 0) : 0.0f;
+    }
+    bool is_pane() const {
+        return share_of(extension("KHR_materials_transmission"), "transmissionFactor") > 0 && !has_volume(item_);
+    }
+    // A material that is not metal, with what its extensions let through.
+    Material translucent(Material opaque, const std::optional<NormalMap>& normals) {
+        const auto diffuse = extension("KHR_materials_diffuse_transmission");
+        if (const float share = share_of(diffuse, "diffuseTransmissionFactor"); share > 0) {
+            note_loss("transmits light diffusely and loses its gloss");
+            const Number part = factor(*diffuse, "diffuseTransmissionTexture", share, 0, ImageMeaning::alpha);
+            const Texture color = color_factor(*diffuse, "diffuseTransmissionColorTexture",
+                                               diffuse->vec3("diffuseTransmissionColorFactor", glm::vec3(1)));
+            opaque = with_diffuse_transmission({color_, 0.0f, normals}, color_, color, part);
+        }
+        if (!made_.is_pane) return opaque;
+        const auto transmission = extension("KHR_materials_transmission");
+        const Number part = factor(*transmission, "transmissionTexture", share_of(transmission, "transmissionFactor"),
+                                   0, ImageMeaning::numbers);
+        return with_pane(std::move(opaque), {index(), color_, 1.0f, alpha_, normals}, part);
     }
 
     bool is_clear() {
@@ -162,7 +196,9 @@ class Materials::Maker {
     }
 
     void read_roughness(const Item& pbr) {
-        const float metallic = std::clamp(pbr.number("metallicFactor", 1), 0.0f, 1.0f);
+        // Metal, which glTF's materials are by default, transmits nothing; a pane without the factor is not meant to
+        // be.
+        const float metallic = std::clamp(pbr.number("metallicFactor", made_.is_pane ? 0.0f : 1.0f), 0.0f, 1.0f);
         metallic_ = metallic;
         mean_roughness_ = std::clamp(pbr.number("roughnessFactor", 1), 0.0f, 1.0f);
         // Surfaces of the same roughness share their tables, which take a tenth of a second to make. A difference of
@@ -384,6 +420,7 @@ class Materials::Maker {
 
     Images& images_;
     const Item& item_;
+    ReadPanes panes_;
     bool wants_clear_;
     NamedMaterial& made_;
     TintedMeshImage color_;
@@ -397,7 +434,7 @@ NamedMaterial Materials::make(const std::optional<std::size_t>& index, bool by_v
     NamedMaterial made;
     const Item item = index ? document_.element("materials", *index, from) : Item(none, "the default material");
     made.name = index ? name_of_material(item, *index) : "without material";
-    Maker(images_, item, wants_clear_, made).make(by_vertices);
+    Maker(images_, item, panes_, wants_clear_, made).make(by_vertices);
     return made;
 }
 

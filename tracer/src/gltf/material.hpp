@@ -12,8 +12,9 @@
 //     image makes most of it dark, such as the lamps of a machine, it does not emit.
 //   * Where the alpha of its colour counts, meshes have holes, or let the fraction 1 − alpha of the light through
 //   (shading/opacity.hpp).
-// Clear materials (a KHR_materials_transmission of a half and more) have no counterpart: meshes do not refract. They
-// become phases of a tree instead (clear_material.hpp).
+//   * What transmits light without a volume is, or is mixed with, thin_glass or thin_diffuse (thin_material.hpp).
+// Clear materials (a KHR_materials_transmission of a half and more, with a volume) have no counterpart: meshes do not
+// refract. They become phases of a tree instead (clear_material.hpp).
 #pragma once
 
 #include <cstddef>
@@ -25,6 +26,7 @@
 #include "gltf/clear_material.hpp"
 #include "gltf/document.hpp"
 #include "gltf/images.hpp"
+#include "gltf/thin_material.hpp"
 #include "shading/material.hpp"
 #include "shading/opacity.hpp"
 
@@ -33,6 +35,7 @@ namespace phasetree::tracer::gltf {
 struct NamedMaterial {
     std::string name;
     bool is_clear = false;                 ///< if so, only the name, `clear` and not_shown are set
+    bool is_pane = false;                  ///< in part at least
     std::optional<ClearMaterial> clear{};  ///< of a clear material, if these are requested
     Material material{};
     std::optional<Opacity> opacity{};          ///< nullopt is opaque everywhere
@@ -47,8 +50,8 @@ class Materials {
   public:
     /// Refers to the document. `most_pixels` is the maximum number of pixels of all images together. `wants_clear`:
     /// whether to read clear materials; otherwise they are only recognised.
-    Materials(const Document& document, std::size_t most_pixels, bool wants_clear = false)
-        : document_(document), images_(document, most_pixels), wants_clear_(wants_clear) {}
+    Materials(const Document& document, std::size_t most_pixels, ReadPanes panes, bool wants_clear = false)
+        : document_(document), images_(document, most_pixels), panes_(panes), wants_clear_(wants_clear) {}
 
     /// The material with this index, or glTF's default material if there is none. `by_vertices`: whether the mesh has
     /// vertex colours. If so, there is an opacity wherever alpha counts, even if only the vertices' alpha differs from
@@ -60,6 +63,7 @@ class Materials {
 
     const Document& document_;
     Images images_;
+    ReadPanes panes_;
     bool wants_clear_;
 };
 

@@ -67,7 +67,7 @@ class Reader {
     Reader(std::string_view content, const ReadOptions& options, const ReadFile& read_file)
         : document_(content, read_file),
           accessors_(document_, options.limits.triangles),
-          materials_(document_, options.limits.pixels, options.clear == ReadClear::as_solids),
+          materials_(document_, options.limits.pixels, options.panes, options.clear == ReadClear::as_solids),
           has_materials_(options.materials == ReadMaterials::all),
           clear_(options.clear),
           limits_(options.limits) {}
@@ -271,6 +271,7 @@ class Reader {
             begin_clear(key.material, std::move(made));
             return false;
         }
+        file_.has_panes = file_.has_panes || made.is_pane;
         const bool has_tangents = needs_tangents(made.material);
         parts_[key] = {
             .part = {.name = std::move(made.name),
@@ -288,7 +289,7 @@ class Reader {
         clear_materials_[number] = file_.clear_materials.size();
         if (clear_ == ReadClear::warn)
             say(
-                fmt::format("\"{}\" is clear and therefore ignored, because meshes must be opaque; use \"phasetree "
+                fmt::format("\"{}\" is clear and therefore ignored, because meshes have no interior; use \"phasetree "
                             "import\" to make it a phase",
                             made.name));
         if (clear_ == ReadClear::as_solids)

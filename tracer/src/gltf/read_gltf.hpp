@@ -10,6 +10,7 @@
 
 #include "gltf/clear_material.hpp"
 #include "gltf/document.hpp"
+#include "gltf/thin_material.hpp"
 #include "phasetree/io/mesh.hpp"
 #include "shading/material.hpp"
 #include "shading/opacity.hpp"
@@ -31,7 +32,8 @@ struct Part {
     AtCorners<glm::vec4> tangents{};
 };
 
-/// What happens to clear materials. Meshes are opaque, so triangles of clear materials are left out of the parts.
+/// What happens to clear materials. Meshes have no interior, so triangles of clear materials are left out of the
+/// parts. See ReadPanes about those without a volume.
 enum class ReadClear {
     warn,      ///< report each clear material
     skip,      ///< leave them out without a report, as well as lights, because the scene has them elsewhere
@@ -87,6 +89,7 @@ enum class ReadMaterials { all, none };
 struct GltfFile {
     std::vector<Part> parts;             ///< in the order of the materials, after those without a material
     std::vector<std::string> not_shown;  ///< sentences about content of the file that the parts lack
+    bool has_panes = false;              ///< whether a part is, or is mixed with, thin_glass
     // With ReadClear::as_solids:
     std::vector<ClearSolid> solids{};  ///< in the order of the file
     std::vector<NamedClearMaterial> clear_materials{};
@@ -98,6 +101,7 @@ struct GltfFile {
 struct ReadOptions {
     ReadMaterials materials = ReadMaterials::all;
     ReadClear clear = ReadClear::warn;
+    ReadPanes panes = ReadPanes::as_thin_glass;
     Limits limits{};
 };
 

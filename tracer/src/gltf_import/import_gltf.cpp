@@ -37,9 +37,15 @@ class Importer {
         : gltf_(gltf),
           scene_(scene),
           choices_(choices),
-          file_(read_gltf_file(gltf, {.clear = gltf::ReadClear::as_solids})) {
+          file_(read_gltf_file(
+              gltf, {.clear = gltf::ReadClear::as_solids,
+                     .panes = choices.include_panes ? gltf::ReadPanes::as_clear : gltf::ReadPanes::as_thin_glass})) {
         for (const std::string& sentence : file_.not_shown) warn(sentence);
-        Solids made = solids_of(file_, choices.include_panes);
+        if (file_.has_panes)
+            warn(
+                "clear materials without volume (KHR_materials_volume) become panes of \"thin_glass\"; use --solid if "
+                "their objects are closed and solid");
+        Solids made = solids_of(file_);
         for (std::string& warning : made.warnings) warn(std::move(warning));
         solids_ = std::move(made.solids);
         if (solids_.empty() && file_.parts.empty())
@@ -191,7 +197,10 @@ class Importer {
 
     SceneJson mesh() const {
         SceneJson gltf{{"file", named_from_scene()}};
-        if (!solids_.empty() || !file_.lights.empty()) gltf["imported"] = true;
+        if (!solids_.empty() || !file_.lights.empty()) {
+            gltf["imported"] = true;
+            if (file_.has_panes) gltf["panes"] = true;
+        }
         return {{"gltf", std::move(gltf)}};
     }
 

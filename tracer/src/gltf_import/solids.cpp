@@ -1,12 +1,10 @@
 #include "gltf_import/solids.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -64,19 +62,15 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 
 class Maker {
   public:
-    Maker(const gltf::GltfFile& file, bool include_panes) : file_(file), include_panes_(include_panes) {}
+    explicit Maker(const gltf::GltfFile& file) : file_(file) {}
 
     Solids make() {
         std::vector<const gltf::ClearSolid*> of_one_mesh;
         for (const gltf::ClearSolid& read : file_.solids) {
             if (!of_one_mesh.empty() && of_one_mesh.front()->placed_mesh != read.placed_mesh) add_all(of_one_mesh);
-            if (include_panes_ || file_.clear_materials[read.material].material.has_volume)
-                of_one_mesh.push_back(&read);
-            else
-                panes_[read.material].push_back(read.name);
+            of_one_mesh.push_back(&read);
         }
         add_all(of_one_mesh);
-        warn_of_panes();
         return std::move(made_);
     }
 
@@ -132,36 +126,20 @@ class Maker {
         return unique;
     }
 
-    void warn_of_panes() {
-        constexpr std::size_t most = 3;
-        for (const auto& [material, names] : panes_) {
-            std::string list;
-            for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-                list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
-            if (names.size() > most) list += fmt::format(" and {} more", names.size() - most);
-            warn(
-                "the material \"{}\" is a thin pane without volume (KHR_materials_volume), which phasetree cannot "
-                "render; left out: {}. Give the material a thickness, or use --solid if these objects are closed",
-                file_.clear_materials[material].name, list);
-        }
-    }
-
     template <class... T>
     void warn(fmt::format_string<T...> format, T&&... values) {
         made_.warnings.push_back(fmt::format(format, std::forward<T>(values)...));
     }
 
     const gltf::GltfFile& file_;
-    bool include_panes_;
     Solids made_;
     std::set<std::string> names_;
-    std::map<std::size_t, std::vector<std::string>> panes_;  // names of objects left out, by their material
 };
 
 }  // namespace
 
-Solids solids_of(const gltf::GltfFile& file, bool include_panes) {
-    return Maker(file, include_panes).make();
+Solids solids_of(const gltf::GltfFile& file) {
+    return Maker(file).make();
 }
 
 }  // namespace phasetree::tracer::gltf_import

@@ -34,8 +34,8 @@ struct Solids {
 };
 
 /// Makes the solids. Triangles of several clear materials on one surface become one solid. Objects that enclose nothing
-/// are left out with a warning, and so are objects whose material has no volume, unless `include_panes`.
-Solids solids_of(const gltf::GltfFile& file, bool include_panes);
+/// are left out, with a warning.
+Solids solids_of(const gltf::GltfFile& file);
 
 /// A position or a direction of glTF, where y is up, in the space of the scene, where z is up.
 template <class T>

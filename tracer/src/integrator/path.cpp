@@ -168,7 +168,7 @@ class PathIntegrator {
         path_.throughput *= next->weight;
         path_.ray = continued(surface, vertex.frame(), *next);
         recorder_.chose(odds);
-        if (surface.far_side) path_.entered = next->transmitted ? surface.normal : -surface.normal;
+        if (surface.far_side && surface.entered) path_.entered = next->transmitted ? surface.normal : -surface.normal;
         guiding_.leave(surface, bsdf, *next, path_.ray.direction, path_.throughput);
         continue_chain(vertex, *next);
         return true;
@@ -200,9 +200,11 @@ class PathIntegrator {
         const Bsdf& bsdf = vertex.bsdf().bsdf();
         if (!next.delta) {
             path_.chain = vertex.chain_from(next, path_.ray.direction);
-        } else if (is_link(bsdf, surface)) {
+        } else if (bsdf.pane() && next.transmitted) {
+            // Straight on, where shadow rays and photons continue as if there were no interface.
+        } else if (is_link(bsdf, surface) && !bsdf.pane()) {
             ++path_.chain.length;
-        } else if (is_mirror(bsdf) && glm::dot(path_.ray.direction, surface.geometric_normal) > 0.0f) {
+        } else if ((is_mirror(bsdf) || bsdf.pane()) && glm::dot(path_.ray.direction, surface.geometric_normal) > 0.0f) {
             ++path_.chain.length;
             path_.chain.has_mirror = true;
         } else {

@@ -31,6 +31,10 @@ struct PathHelp {
 /// lost is that of paths that reach max_depth within the chain, which no weight accounts for. light_proposal.hpp
 /// determines the directions in which shadow rays start.
 ///
+/// Thin panes. Light goes straight through a smooth pane, so that is no interface of a chain for any technique: a
+/// shadow ray passes it without choosing at random, multiplied by the pane's transmittance, even towards a point light.
+/// What a pane reflects is like a mirror's reflection: no shadow ray follows it, and sampled directions and photons do.
+///
 /// Scattering media. A path may be scattered in a medium. Such a point is treated like a surface point: it does
 /// next-event estimation and samples a direction, with the phase function instead of the BSDF. E then includes the
 /// transmittance along the chain, by absorption and scattering together, for every technique.

@@ -23,7 +23,7 @@ struct PathChain {
     /// chain starts; 0 if photons are gathered at that start. Meaningless where no photons count.
     int interfaces_before = 0;
     int length = 0;           ///< number of smooth clear interfaces and mirrors
-    bool has_mirror = false;  ///< if so, shadow rays do not follow it
+    bool has_mirror = false;  ///< a mirror, or a pane that reflects; if so, shadow rays do not follow it
 
     /// The number of interfaces between the point that gathers photons and the lamp.
     int interfaces() const { return interfaces_before + length; }

@@ -68,8 +68,8 @@ void PathRecorder::add_surface(const Surface& surface, const Bsdf& bsdf, const s
     RecordedSurface met{.position = surface.near_side.origin,
                         .normal = surface.normal,
                         .distance = distance_,
-                        // A smooth interface reflects and refracts all of the light.
-                        .albedo = is_of_chain ? glm::vec3(1.0f) : weight * (bent * bent),
+                        // A smooth interface reflects and refracts all of the light, unless it is a coloured pane.
+                        .albedo = is_of_chain && !bsdf.pane() ? glm::vec3(1.0f) : weight * (bent * bent),
                         .object = surface.object,
                         .instance = surface.place.copy,
                         .phase_left = surface.near_side.phase,

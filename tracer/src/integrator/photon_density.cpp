@@ -9,9 +9,10 @@
 namespace phasetree::tracer {
 
 float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3& wi) {
-    if (surface.far_side) return std::abs(wi.z);
-    if (surface.normal == surface.geometric_normal) return wi.z;
-    return wi.z > 0.0f ? glm::dot(frame.to_world(wi), surface.geometric_normal) : 0.0f;
+    if (surface.normal == surface.geometric_normal) return surface.far_side ? std::abs(wi.z) : wi.z;
+    const float cosine = glm::dot(frame.to_world(wi), surface.geometric_normal);
+    if (surface.far_side) return wi.z * cosine > 0.0f ? std::abs(cosine) : 0.0f;
+    return wi.z > 0.0f ? cosine : 0.0f;
 }
 
 float per_line_density_across(const Photons& photons, const Scene& scene, Phase phase) {
@@ -34,7 +35,9 @@ float per_line_density_at(const Photons& photons, const Scene& scene, const Surf
 float per_line_density_beyond(float before, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
                               const glm::vec3& wi) {
     // A bump may send the path into the surface again, where no photon comes from.
-    if (!surface.far_side && !(photon_cosine(surface, bsdf.frame(), wi) > 0.0f)) return 0.0f;
+    if (!(surface.far_side && surface.normal == surface.geometric_normal) &&
+        !(photon_cosine(surface, bsdf.frame(), wi) > 0.0f))
+        return 0.0f;
     const Surface::Side& left_to = wi.z < 0 ? *surface.far_side : surface.near_side;
     return before * rough_factor(bsdf.bsdf().reverse_pdf(bsdf.wo(), wi), clear_at(scene, left_to.phase).ior, wi.z,
                                  clear_at(scene, surface.near_side.phase).ior, bsdf.wo().z);

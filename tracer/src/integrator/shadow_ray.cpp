@@ -92,7 +92,10 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         if (phase_function(medium) && !chain_survives(throughput, context.sampler)) return arrival;
         if (surface->optics.get().disperses()) ray_wavelengths.disperse();
         const Bsdf bsdf = surface->bsdf(ray_wavelengths.now());
-        if (bsdf.passes_through()) {
+        const ThinPane* const pane = bsdf.pane();
+        if (pane || bsdf.passes_through()) {
+            if (pane) throughput *= straight_through(*pane, *surface, ray.direction);
+            if (throughput == glm::vec3(0.0f)) return arrival;
             to_sampled = std::max(to_sampled - distance, 0.0f);
             ray = surface->transmitted(ray.direction);
             continue;

@@ -41,9 +41,9 @@ std::optional<Scattering> SurfaceVertex::scattering(const glm::vec3& direction) 
 std::optional<PhotonScattering> SurfaceVertex::scattering_of(const Photon& photon) const {
     const glm::vec3 wi = frame_.to_local(photon.direction);
     // A photon on another surface nearby may come from the wrong side.
-    const bool is_from_near = photon.phase == surface_.near_side.phase;
-    if (!is_from_near && !(surface_.far_side && photon.phase == surface_.far_side->phase)) return std::nullopt;
-    if (is_from_near != (wi.z > 0.0f)) return std::nullopt;
+    const bool is_from_near = wi.z > 0.0f;
+    if (!is_from_near && !surface_.far_side) return std::nullopt;
+    if (photon.phase != (is_from_near ? surface_.near_side : *surface_.far_side).phase) return std::nullopt;
     const float by_photons = per_line_density_at(photons_, scene_, surface_, bsdf_, wi) * photon.line_density;
     if (!(by_photons > 0.0f)) return std::nullopt;
     // Photons are counted per area of the surface, which already includes the surface's cosine.

@@ -12,6 +12,7 @@
 #include "integrator/path_state.hpp"
 #include "integrator/photon_density.hpp"
 #include "integrator/vertex.hpp"
+#include "world/chain.hpp"
 #include "world/hit.hpp"
 
 namespace phasetree::tracer {
@@ -42,10 +43,10 @@ class SurfaceVertex {
         const auto gather = [&](const Photon& photon) {
             if (const auto scattering = scattering_of(photon)) use(photon, *scattering);
         };
-        if (!surface_.far_side)
-            context.photons.map->near(position(), surface_.geometric_normal, gather);
+        if (has_photons_of_interfaces(surface_))
+            context.photons.map->near_at_interface(position(), surface_.geometric_normal, gather);
         else
-            context.photons.map->near_at_interface(position(), surface_.normal, gather);
+            context.photons.map->near(position(), surface_.geometric_normal, gather);
     }
 
     /// The chain of a path that leaves the surface by a lobe that is not delta. `direction` is that of the sample in

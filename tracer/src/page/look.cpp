@@ -109,6 +109,8 @@ Look look_of(const std::string& name, const Material& material, const Bounds& bo
                 // A page shows only one material: the dominant one at the centre of the object.
                 const bool is_second = number_at(m.amount, TexturePoint(bounds.centre())) >= 0.5f;
                 look = look_of(name, is_second ? m.of->second : m.of->first, bounds);
+            } else if constexpr (std::is_same_v<Kind, TwoSided>) {
+                look = look_of(name, m.of->first, bounds);
             } else if constexpr (requires { m.light; }) {
                 show_light(m.radiance * light_of(mean(m.light, bounds), m.spectrum, nullptr), look);
             } else {

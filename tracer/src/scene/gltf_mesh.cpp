@@ -73,9 +73,10 @@ gltf::GltfFile read_gltf_file(const std::filesystem::path& file, const gltf::Rea
 
 MeshGroup GltfParameters::made() const {
     check();
-    gltf::GltfFile read =
-        read_gltf_file(file, {.materials = material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all,
-                              .clear = imported ? gltf::ReadClear::skip : gltf::ReadClear::warn});
+    gltf::GltfFile read = read_gltf_file(
+        file, {.materials = material ? gltf::ReadMaterials::none : gltf::ReadMaterials::all,
+               .clear = imported ? gltf::ReadClear::skip : gltf::ReadClear::warn,
+               .panes = imported && !panes ? gltf::ReadPanes::as_clear : gltf::ReadPanes::as_thin_glass});
     MeshGroup group;
     for (gltf::Part& part : read.parts) {
         Mesh mesh{.vertices = std::move(part.mesh.vertices),

@@ -151,6 +151,23 @@ Principled PrincipledParameters::made() const {
     return made;
 }
 
+ThinGlass ThinGlassParameters::made() const {
+    if (color_distance && !thickness)
+        throw ParameterError("color_distance", "\"color_distance\" requires \"thickness\"", ParameterError::Place::key);
+    return {ior, color, thickness ? *thickness / color_distance.value_or(1.0f) : 1.0f, roughness, perturbation()};
+}
+
+TwoSided TwoSidedParameters::made() const {
+    for (const auto& [key, material] : {std::pair("front", &front), {"back", &back}}) {
+        if (emission_of(*material))
+            throw ParameterError(key, "a two-sided material cannot contain a material that emits light");
+        if (is_thin(*material) || has_two_sides(*material))
+            throw ParameterError(
+                key, fmt::format("a two-sided material is opaque and cannot contain \"{}\"", kind_name(*material)));
+    }
+    return {std::make_shared<const Mixture>(Mixture{front, back})};
+}
+
 Mix MixParameters::made() const {
     for (const auto& [key, material] : {std::pair("first", &first), {"second", &second}})
         if (emission_of(*material)) throw ParameterError(key, "a mix cannot contain a material that emits light");

@@ -10,61 +10,15 @@
 #include "phasetree/io/kind.hpp"
 #include "phasetree/model/concepts.hpp"
 #include "scene/parameter_types.hpp"
+#include "scene/surface_parameters.hpp"
+#include "scene/thin_kinds.hpp"
 #include "scene/voxels.hpp"
 #include "shading/material.hpp"
-#include "shading/thin_film.hpp"
 
 namespace phasetree::tracer {
 
-inline constexpr Parameter roughness_parameter{
-    "roughness", "", "Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt.", limits::fraction, true};
-
 std::vector<std::string_view> names_of_media();
 std::vector<std::string_view> names_of_glasses();
-
-// Thin-film parameters of clear, conducting and coated materials.
-struct FilmParameters {
-    std::optional<Number> film_thickness{};
-    float film_ior = SurfaceFilm{}.ior;
-
-    template <class P, class V>
-    static void film_parameters(V&& v) {
-        v(&P::film_thickness,
-          Parameter{"film_thickness", "nm",
-                    "Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by "
-                    "default there is none. Where two clear materials with films meet, the thicker one is used.",
-                    Limits{.low = 0, .high = ThinFilm::thickest}, true});
-        v(&P::film_ior, Parameter{"film_ior", "", "Refractive index of the film.", Limits{.low = 1, .high = 4}, true});
-    }
-    std::optional<SurfaceFilm> film() const {
-        if (!film_thickness) return std::nullopt;
-        return SurfaceFilm{*film_thickness, film_ior};
-    }
-};
-
-// Parameters of opaque materials that perturb the surface normals.
-struct PerturbationParameters {
-    std::optional<Texture> bump_texture{};
-    std::optional<float> bump_height{};
-    std::optional<NormalMap> normal_map{};
-
-    template <class P, class V>
-    static void perturbation_parameters(V&& v) {
-        v(&P::bump_texture,
-          Parameter{"bump", "",
-                    "Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. "
-                    "A discontinuity of the texture counts as a slope of 45° to 55°.",
-                    limits::any, true});
-        v(&P::bump_height,
-          Parameter{"bump_height", "m", "With a bump map: height of white above black; may be negative.",
-                    Limits{.low = -farthest, .high = farthest}, true});
-        v(&P::normal_map,
-          Parameter{"normal_map", "", "Instead of a bump map: a normal map, on a mesh that has texture coordinates.",
-                    limits::any, true});
-    }
-    /// Throws ParameterError for inconsistent parameters.
-    std::optional<NormalPerturbation> perturbation() const;
-};
 
 struct ClearParameters : FilmParameters {
     static constexpr KindInfo info{
@@ -410,8 +364,9 @@ struct MixParameters {
     Mix made() const;
 };
 
-using MaterialKinds = TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters,
-                               PrincipledParameters, GlowingParameters, MixParameters>;
+using MaterialKinds =
+    TypeList<ClearParameters, DiffuseParameters, ConductorParameters, CoatedParameters, PrincipledParameters,
+             GlowingParameters, ThinGlassParameters, ThinDiffuseParameters, TwoSidedParameters, MixParameters>;
 
 // A material missing from the list fails to compile here.
 template <class... Kinds, class... Materials>

@@ -110,9 +110,9 @@ struct GltfParameters {
         "materials, images, normal maps, opacity and vertex colours. The y axis of glTF becomes z. Skins are deformed "
         "by their joints, and morph targets are applied with the weights of their node or mesh; animations are "
         "ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of "
-        "texture coordinates per material, with any transforms. Clear materials are ignored, because meshes are "
-        "opaque; KHR_materials_transmission identifies them, and `phasetree import` makes them phases. Other supported "
-        "extensions: KHR_texture_transform, "
+        "texture coordinates per material, with any transforms. Materials with KHR_materials_transmission become "
+        "\"thin_glass\" if they have no volume; those with a KHR_materials_volume are ignored, because meshes have no "
+        "interior, and `phasetree import` makes them phases. Other supported extensions: KHR_texture_transform, "
         "KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and "
         "KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if "
         "phasetree was built with their libraries. A file that requires another extension is rejected if the picture "
@@ -126,6 +126,7 @@ struct GltfParameters {
     float rotate_z_degrees = 0.0f;
     glm::vec3 translate{0.0f};
     bool imported = false;
+    bool panes = false;
 
     template <class V>
     static void parameters(V&& v) {
@@ -137,10 +138,15 @@ struct GltfParameters {
               limits::any, true});
         v(&P::file, Parameter{"file", "", "The file."});
         placement_parameters<P>(v);
-        v(&P::imported, Parameter{"imported", "",
-                                  "Set by `phasetree import`: this scene has the file's clear materials as phases and "
-                                  "its lights in \"lights\", so no warning reports that the mesh ignores them.",
-                                  limits::any, true});
+        v(&P::imported,
+          Parameter{"imported", "",
+                    "Set by `phasetree import`: this scene has the file's clear materials as phases and its lights in "
+                    "\"lights\", so no warning reports that the mesh ignores them.",
+                    limits::any, true});
+        v(&P::panes, Parameter{"panes", "",
+                               "With \"imported\": whether clear materials without a volume are not phases, but "
+                               "\"thin_glass\" in this mesh.",
+                               limits::any, true});
     }
     /// Checks the parameters without reading the file. Throws ParameterError.
     void check() const;

@@ -222,7 +222,8 @@ tracer::Material MaterialType::read(const Document& document, Value value, std::
     if (is_clear(material))
         throw document.error(
             value[0].key_offset(),
-            "meshes and mixes cannot be clear, because they have no interior; use a phase of the tree instead");
+            "meshes and mixes cannot be clear, because they have no interior; use a phase of the tree instead, or "
+            "\"thin_glass\" for a window pane");
     return material;
 }
 

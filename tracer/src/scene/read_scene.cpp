@@ -72,6 +72,10 @@ Material read_phase_material(const Document& document, Value phase) {
     if (has_texture<VertexColorTexture>(material))
         throw document.error(phase,
                              "the texture \"vertex_color\" works only on meshes, because phases have no vertices");
+    if (is_thin(material) || has_two_sides(material))
+        throw document.error(phase,
+                             "a phase cannot be thin or two-sided, because light inside it would have no end; give the "
+                             "material to a mesh, or use \"clear\" for glass with a thickness");
     if (normal_map_of(material))
         throw document.error(
             phase, "a \"normal_map\" works only on meshes, because phases have no texture coordinates; use a \"bump\"");

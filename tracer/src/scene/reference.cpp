@@ -122,7 +122,8 @@ std::vector<Chapter> scene_chapters() {
                         "and to the exposure.",
                         pages_of(LightKinds())});
     chapters.push_back(
-        {"Meshes", "Meshes are in the scene in addition to the object. They are opaque.", pages_of(MeshKinds())});
+        {"Meshes", "Meshes are in the scene in addition to the object. They have no interior, so none is \"clear\".",
+         pages_of(MeshKinds())});
     chapters.push_back({"Cameras",
                         "`\"camera\"` is `{\"kind\": {parameters}}`. The parameters of a thin lens may stand alone.",
                         pages_of(CameraKinds())});

@@ -18,9 +18,12 @@
 #include "shading/bsdf/rough_conductor.hpp"
 #include "shading/bsdf/rough_dielectric.hpp"
 #include "shading/bsdf/rough_diffuse.hpp"
+#include "shading/bsdf/rough_thin_glass.hpp"
 #include "shading/bsdf/sample.hpp"
 #include "shading/bsdf/smooth_conductor.hpp"
 #include "shading/bsdf/smooth_dielectric.hpp"
+#include "shading/bsdf/smooth_thin_glass.hpp"
+#include "shading/bsdf/thin_diffuse.hpp"
 
 namespace phasetree::tracer {
 
@@ -29,7 +32,8 @@ using BsdfOf = std::variant<Kinds...>;
 
 /// Every kind of BSDF.
 using AnyBsdf = BsdfOf<DiffuseBsdf, RoughDiffuseBsdf, SmoothDielectricBsdf, RoughDielectricBsdf, SmoothConductorBsdf,
-                       RoughConductorBsdf, CoatedDiffuseBsdf, PrincipledBsdf>;
+                       RoughConductorBsdf, CoatedDiffuseBsdf, PrincipledBsdf, SmoothThinGlassBsdf, RoughThinGlassBsdf,
+                       ThinDiffuseBsdf>;
 
 class Bsdf {
   public:
@@ -64,12 +68,17 @@ class Bsdf {
     bool is_diffuse() const {
         if (const auto* principled = std::get_if<PrincipledBsdf>(&kind_)) return principled->is_diffuse();
         return std::holds_alternative<DiffuseBsdf>(kind_) || std::holds_alternative<RoughDiffuseBsdf>(kind_) ||
-               std::holds_alternative<CoatedDiffuseBsdf>(kind_);
+               std::holds_alternative<CoatedDiffuseBsdf>(kind_) || std::holds_alternative<ThinDiffuseBsdf>(kind_);
     }
     /// Whether it is a metal.
     bool is_metal() const {
         if (const auto* principled = std::get_if<PrincipledBsdf>(&kind_)) return principled->is_metal();
         return std::holds_alternative<SmoothConductorBsdf>(kind_) || std::holds_alternative<RoughConductorBsdf>(kind_);
+    }
+    /// The pane, if it is a smooth one, which transmits light straight on; else null.
+    const ThinPane* pane() const {
+        const auto* const smooth = std::get_if<SmoothThinGlassBsdf>(&kind_);
+        return smooth ? &smooth->pane() : nullptr;
     }
     bool passes_through() const {
         return std::visit([](const auto& bsdf) { return bsdf.passes_through(); }, kind_);

@@ -1,6 +1,7 @@
 #include "shading/interface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "sampling/hash.hpp"
@@ -99,6 +100,23 @@ Interface::Optics optics_of(const Clear& from, const Principled& to, SharedSurfa
     return optics;
 }
 
+Interface::Optics optics_of(const Clear& from, const ThinGlass& to, SharedSurfaces& shared) {
+    return Interface::ThinGlassOptics{to.ior / from.ior, std::make_shared<const Texture>(to.color), to.crossings,
+                                      to.roughness, shared.losses(rough_part(range_of(to.roughness)))};
+}
+
+Interface::Optics optics_of(const Clear&, const ThinDiffuse& to, SharedSurfaces&) {
+    return Interface::ThinDiffuseOptics{std::make_shared<const Texture>(to.color),
+                                        std::make_shared<const Texture>(to.transmission)};
+}
+
+Interface::Optics optics_of(const Clear& from, const TwoSided& to, SharedSurfaces& shared) {
+    const auto seen_from = [&](const Material& material) {
+        return std::make_shared<const Interface>(Interface::between(from, material, shared));
+    };
+    return Interface::TwoSidedOptics{seen_from(to.of->first), seen_from(to.of->second)};
+}
+
 Interface::Optics optics_of(const Clear& from, const Mix& to, SharedSurfaces& shared) {
     const auto seen_from = [&](const Material& material) {
         return std::make_shared<const Interface>(Interface::between(from, material, shared));
@@ -185,17 +203,40 @@ Bsdf bsdf_of(const Interface::GlowingOptics& optics, const TexturePoint& p, cons
     return DiffuseBsdf(color_at(*optics.color, p, wavelengths));
 }
 
+Bsdf bsdf_of(const Interface::ThinGlassOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
+    glm::vec3 color = color_at(*optics.color, p, wavelengths);
+    if (optics.crossings != 1.0f)
+        for (int i = 0; i < 3; ++i) color[i] = std::pow(color[i], optics.crossings);
+    const ThinPane pane(optics.eta, color);
+    const float roughness = number_at(optics.roughness, p);
+    // Between equal indices the pane is a filter, and no microfacet would refract light.
+    if (optics.eta == 1.0f || is_smooth(roughness)) return SmoothThinGlassBsdf(pane);
+    const float alpha = std::min(roughness, 1.0f);
+    return RoughThinGlassBsdf(pane, alpha, optics.losses->at(alpha));
+}
+
+Bsdf bsdf_of(const Interface::ThinDiffuseOptics& optics, const TexturePoint& p, const Wavelengths* wavelengths) {
+    return ThinDiffuseBsdf(color_at(*optics.color, p, wavelengths), color_at(*optics.transmission, p, wavelengths));
+}
+
 }  // namespace
 
 const Interface& Interface::chosen_at(const TexturePoint& point) const {
     const Interface* chosen = this;
-    for (std::uint32_t level = 0; const auto* mixed = std::get_if<MixedOptics>(&chosen->optics_); ++level)
-        chosen =
-            threshold_at(point, level) < number_at(mixed->amount, point) ? mixed->second.get() : mixed->first.get();
-    return *chosen;
+    for (std::uint32_t level = 0;;) {
+        if (const auto* mixed = std::get_if<MixedOptics>(&chosen->optics_))
+            chosen = threshold_at(point, level++) < number_at(mixed->amount, point) ? mixed->second.get()
+                                                                                    : mixed->first.get();
+        else if (const auto* sides = std::get_if<TwoSidedOptics>(&chosen->optics_))
+            chosen = point.is_back ? sides->back.get() : sides->front.get();
+        else
+            return *chosen;
+    }
 }
 
 bool Interface::mixes_rough(const TexturePoint& point) const {
+    if (const auto* sides = std::get_if<TwoSidedOptics>(&optics_))
+        return (point.is_back ? sides->back : sides->front)->mixes_rough(point);
     const MixedOptics* mixed = std::get_if<MixedOptics>(&optics_);
     if (!mixed) return false;
     const auto is_rough = [&](const Interface& one) {
@@ -245,7 +286,7 @@ Bsdf Interface::at(const TexturePoint& point, const Wavelengths* wavelengths) co
         return dispersive_bsdf(*std::get<ClearOptics>(optics_).dispersive, wavelengths->hero());
     return std::visit(
         [&]<class Kind>(const Kind& optics) -> Bsdf {
-            if constexpr (std::is_same_v<Kind, MixedOptics>)
+            if constexpr (std::is_same_v<Kind, MixedOptics> || std::is_same_v<Kind, TwoSidedOptics>)
                 return chosen_at(point).at(point, wavelengths);
             else
                 return bsdf_of(optics, point, wavelengths);

@@ -3,7 +3,10 @@
 //   clear | clear     refraction and reflection with η_to/η_from, without a gap between the two
 //   clear | opaque    the surface of the opaque one, relative to the index of the clear one: metal and varnish reflect
 //                     less in water than in air
-//   clear | mixture   that of one of the two materials of the mixture, which is chosen at each point
+//   clear | thin      that of a thin mesh in the clear material, which is also behind it
+//   clear | mixture   that of one of the two materials of the mixture, which is chosen at each point; likewise of a
+//   mesh
+//                     with different materials on its sides
 //   opaque | any      black: light does not travel in opaque materials, so no path comes from one
 //
 // An interface of two clear materials has one roughness, the greater of the two: a ground surface stays ground where it
@@ -33,10 +36,10 @@ class Interface {
     /// surfaces only once.
     static Interface between(const Material& from, const Material& to, SharedSurfaces& shared);
 
-    /// The interface with the material that a mixture has at a point; the interface itself without a mixture. Where the
-    /// amount is between 0 and 1, a hash of the position decides, so the result is the same for every caller. A surface
-    /// has the optics chosen at the point where it is met, because normals and grain are those of one of the two
-    /// materials.
+    /// The interface with the material that a mixture, or a mesh with two sides, has at a point; otherwise the
+    /// interface itself. Where the amount is between 0 and 1, a hash of the position decides, so the result is the same
+    /// for every caller. A surface has the optics chosen at the point where it is met, because normals and grain are
+    /// those of one of the two materials.
     const Interface& chosen_at(const TexturePoint& point) const;
 
     /// Whether one of a mixture's materials at a point has a BSDF that is not specular. Always false without a mixture.
@@ -51,6 +54,11 @@ class Interface {
     const NormalPerturbation* perturbation() const { return perturbation_ ? &*perturbation_ : nullptr; }
     /// The grain of its surface, or null. If there is one, local x of a BSDF is along it.
     const Grain* grain() const;
+    /// Whether light leaves the surface on the other side in the medium from which it came: thin materials. False for
+    /// mixtures; ask the chosen interface.
+    bool is_thin() const { return std::holds_alternative<ThinGlassOptics>(optics_) || is_thin_diffuse(); }
+    /// Whether it transmits light diffusely, so that shadow rays and photons end there.
+    bool is_thin_diffuse() const { return std::holds_alternative<ThinDiffuseOptics>(optics_); }
     /// Whether its refraction depends on the wavelength.
     bool disperses() const;
 
@@ -102,12 +110,25 @@ class Interface {
         std::shared_ptr<const PrincipledSurface> surface;
         std::optional<GlowingOptics> emission{};
     };
+    struct ThinGlassOptics {
+        float eta;  ///< of the pane over the medium around it
+        std::shared_ptr<const Texture> color;
+        float crossings;
+        Number roughness;
+        std::shared_ptr<const LossTables> losses;  ///< null if it is smooth everywhere
+    };
+    struct ThinDiffuseOptics {
+        std::shared_ptr<const Texture> color, transmission;
+    };
+    struct TwoSidedOptics {
+        std::shared_ptr<const Interface> front, back;
+    };
     struct MixedOptics {
         std::shared_ptr<const Interface> first, second;
         Number amount;  ///< of the second
     };
     using Optics = std::variant<ClearOptics, MetalOptics, DiffuseOptics, CoatedOptics, PrincipledOptics, GlowingOptics,
-                                MixedOptics>;
+                                ThinGlassOptics, ThinDiffuseOptics, TwoSidedOptics, MixedOptics>;
 
   private:
     explicit Interface(Optics optics, std::optional<NormalPerturbation> perturbation = std::nullopt)

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "media/medium.hpp"
@@ -123,7 +124,30 @@ struct Principled {
     }
 };
 
+/// A pane without thickness, on a mesh: thin_pane.hpp. The same medium is on both sides.
+struct ThinGlass {
+    float ior = 1.5f;  ///< relative to vacuum
+    /// The share of the light that crosses the pane once at normal incidence, without reflections, where `crossings`
+    /// is 1; in general, that to this power.
+    Texture color = ConstantTexture{glm::vec3(1.0f)};
+    float crossings = 1.0f;
+    Number roughness = 0.0f;
+    std::optional<NormalPerturbation> perturbation{};
+};
+
+/// A leaf, paper, a lampshade, on a mesh: bsdf/thin_diffuse.hpp.
+struct ThinDiffuse {
+    Texture color = ConstantTexture{};                        ///< reflectance
+    Texture transmission = ConstantTexture{glm::vec3(0.5f)};  ///< transmittance
+    std::optional<NormalPerturbation> perturbation{};
+};
+
 struct Mixture;
+
+/// An opaque mesh with different materials on its sides, neither of which is clear, thin or emissive.
+struct TwoSided {
+    std::shared_ptr<const Mixture> of{};  ///< first on the front, second on the back
+};
 
 /// One of two materials at each point, neither clear nor emissive: paint and the metal under it, iron and rust. Where
 /// `amount` is between 0 and 1, both are mixed as finely as positions can be resolved.
@@ -133,8 +157,10 @@ struct Mix {
 };
 
 /// Every kind of material.
-using Material = std::variant<Clear, Diffuse, Conductor, Coated, Principled, Glowing, Mix>;
+using Material =
+    std::variant<Clear, Diffuse, Conductor, Coated, Principled, Glowing, ThinGlass, ThinDiffuse, TwoSided, Mix>;
 
+/// Two materials of one surface.
 struct Mixture {
     Material first, second;
 };
@@ -145,9 +171,10 @@ bool has_texture(const Material& material) {
     return std::visit(
         [](const auto& kind) {
             bool has = false;
-            if constexpr (requires { kind.amount; })
-                has = has_kind<Wanted>(kind.amount) || has_texture<Wanted>(kind.of->first) ||
-                      has_texture<Wanted>(kind.of->second);
+            if constexpr (requires { kind.of; })
+                has = has_texture<Wanted>(kind.of->first) || has_texture<Wanted>(kind.of->second);
+            if constexpr (requires { kind.amount; }) has = has || has_kind<Wanted>(kind.amount);
+            if constexpr (requires { kind.transmission; }) has = has || has_kind<Wanted>(kind.transmission);
             if constexpr (requires { kind.perturbation; }) {
                 const Bump* bump = kind.perturbation ? std::get_if<Bump>(&*kind.perturbation) : nullptr;
                 has = has || (bump && has_kind<Wanted>(bump->texture));
@@ -196,13 +223,44 @@ inline bool needs_tangents(const Material& material) {
         material);
 }
 
+/// Whether it is thin, or a mixture or one of two sides is: such materials are for meshes alone.
+inline bool is_thin(const Material& material) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (requires { kind.of; })
+                return is_thin(kind.of->first) || is_thin(kind.of->second);
+            else
+                return std::is_same_v<Kind, ThinGlass> || std::is_same_v<Kind, ThinDiffuse>;
+        },
+        material);
+}
+
+/// Whether rays pass it, in places or everywhere: a pane, or a mixture with one.
+inline bool has_pane(const Material& material) {
+    const Mix* const mix = std::get_if<Mix>(&material);
+    return mix ? has_pane(mix->of->first) || has_pane(mix->of->second) : std::holds_alternative<ThinGlass>(material);
+}
+
+/// Whether it differs between the sides of a mesh.
+inline bool has_two_sides(const Material& material) {
+    const Mix* const mix = std::get_if<Mix>(&material);
+    return mix ? has_two_sides(mix->of->first) || has_two_sides(mix->of->second)
+               : std::holds_alternative<TwoSided>(material);
+}
+
 /// Whether part of it is metal, with nothing on it.
 inline bool has_metal(const Material& material) {
     if (const Principled* const layers = std::get_if<Principled>(&material))
         return greatest_of(layers->metalness) >= 1.0f && !(least_of(layers->coat_weight) > 0.0f) &&
                !(least_of(layers->fuzz_weight) > 0.0f);
-    const Mix* const mix = std::get_if<Mix>(&material);
-    return mix ? has_metal(mix->of->first) || has_metal(mix->of->second) : std::holds_alternative<Conductor>(material);
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (requires { kind.of; })
+                return has_metal(kind.of->first) || has_metal(kind.of->second);
+            else
+                return std::is_same_v<Kind, Conductor>;
+        },
+        material);
 }
 
 inline Material vacuum() {

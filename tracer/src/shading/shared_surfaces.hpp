@@ -34,6 +34,8 @@ class SharedSurfaces {
     std::shared_ptr<const CoatingAlbedo> coating(float ior_from, float ior_coat, const ValueRange& roughness,
                                                  const std::optional<FilmOfSurface>& film);
     std::shared_ptr<const DielectricLayer> layer(const DielectricLayer::Kind& kind);
+    /// The losses of lossless microfacets with a range of α; null without one.
+    std::shared_ptr<const LossTables> losses(const std::optional<ValueRange>& roughness, float aspect = 1.0f);
     /// The losses of fuzz with a range of α.
     std::shared_ptr<const LossTables> fuzz(const ValueRange& alpha);
     std::shared_ptr<const FilmColours> film_colours();
@@ -69,8 +71,6 @@ class SharedSurfaces {
     };
     template <class Key, class Surface>
     using Made = std::vector<std::pair<Key, std::shared_ptr<const Surface>>>;
-
-    std::shared_ptr<const LossTables> losses(const std::optional<ValueRange>& roughness, float aspect);
 
     struct MetalLosses {
         ValueRange roughness;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "lights/light_receiver.hpp"
@@ -29,7 +30,9 @@ inline const Clear& clear_at(const Scene& scene, Phase phase) {
     return std::get<Clear>(scene.materials[phase.index]);
 }
 
-/// Whether a surface is a link of a chain: smooth, and clear on both sides. Mirrors are not: shadow rays end there.
+/// Whether a surface is a link of a chain: smooth, and clear on both sides. Mirrors are not: shadow rays end there. A
+/// thin pane is one, too, but light goes straight through it, so that counts as no interface; and its reflection counts
+/// as that of a mirror.
 inline bool is_link(const Bsdf& bsdf, const Surface& surface) {
     return bsdf.is_delta() && surface.far_side;
 }
@@ -39,9 +42,20 @@ inline bool is_mirror(const Bsdf& bsdf) {
     return bsdf.is_delta() && bsdf.is_metal();
 }
 
+/// The share of the light along a direction that goes straight through a surface that is a smooth pane.
+inline glm::vec3 straight_through(const ThinPane& pane, const Surface& surface, const glm::vec3& direction) {
+    return pane.at(glm::clamp(-glm::dot(direction, surface.normal), 0.0f, 1.0f)).transmitted;
+}
+
 /// Whether photons continue from a surface, wherever they land on it: one that is clear on both sides, or metal.
 inline bool continues_photons(const Bsdf& bsdf, const Surface& surface) {
-    return surface.far_side || bsdf.is_metal();
+    return surface.is_transparent() || bsdf.is_metal();
+}
+
+/// Whether photons that land on a surface are stored, and gathered, apart from those on opaque surfaces. A mesh that is
+/// thin in places alone has one kind of photons.
+inline bool has_photons_of_interfaces(const Surface& surface) {
+    return surface.far_side && !surface.is_partly_rough;
 }
 
 /// The receiver of shadow rays on a surface from which photons continue; `of_path` is the side from which the path

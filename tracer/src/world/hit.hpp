@@ -32,7 +32,7 @@ struct Surface {
     glm::vec3 normal;
     glm::vec3 geometric_normal;    ///< the surface's own, unit length, on the side from which the ray came
     Side near_side;                ///< side from which the ray came; its phase is clear
-    std::optional<Side> far_side;  ///< the other side; nullopt if opaque: opaque phases and meshes
+    std::optional<Side> far_side;  ///< the other side; nullopt if opaque: opaque phases, and meshes that are not thin
     std::reference_wrapper<const Interface> optics;  ///< seen from the near side
     StartHint hint;                                  ///< for a ray from either side
     std::uint32_t object;                            ///< the objects of phases first, then the meshes
@@ -45,6 +45,10 @@ struct Surface {
     /// Whether anything other than a smooth surface is there, including the material of a mixture that was not chosen
     /// for this ray.
     bool is_partly_rough = false;
+
+    /// Whether shadow rays and photons may continue on the far side: not behind a thin diffuse mesh, which scatters all
+    /// light.
+    bool is_transparent() const { return far_side && !optics.get().is_thin_diffuse(); }
 
     /// The local frame of its BSDF: z is the shading normal, and x is along the grain, if any.
     Frame frame() const { return along_grain ? Frame(normal, *along_grain) : Frame(normal); }
@@ -85,8 +89,8 @@ struct Blocked {
     std::optional<Surface> emissive{};  ///< set if it is emissive
 };
 
-/// The occluder between a point and a light: none, something opaque, or an interface of two clear phases, beyond which
-/// the light may still be visible (path.hpp). Such a surface always has a far side.
+/// The occluder between a point and a light: none, something opaque, or an interface of two clear phases or a thin
+/// pane, beyond which the light may still be visible (path.hpp). Such a surface is always transparent.
 using Visibility = std::variant<Escaped, Blocked, Surface>;
 
 }  // namespace phasetree::tracer

@@ -189,7 +189,7 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
         const Hit hit = intersect_several(ray, far, counters);
         const Surface* surface = std::get_if<Surface>(&hit);
         if (!surface) return Escaped{};
-        if (!surface->far_side) return blocked_by(*surface);
+        if (!surface->is_transparent()) return blocked_by(*surface);
         return *surface;
     }
     embree::Query query;
@@ -198,9 +198,9 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     const bool is_mesh = hit.hit.geomID != object_id;
     const Material& met =
         is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];
-    if (!is_clear(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
+    if (!is_clear(met) && !has_pane(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
     const Surface surface = is_mesh ? surface_of_mesh(ray, hit) : surface_of_object(ray, query, hit);
-    if (surface.far_side) return surface;
+    if (surface.is_transparent()) return surface;
     return blocked_by(surface);
 }
 
@@ -244,7 +244,8 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
         }
     }
     const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1.0f});
-    const glm::vec3 origin = p + flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
+    const glm::vec3 offset = flat * std::max(surface_epsilon_, relative_surface_epsilon * largest);
+    const glm::vec3 origin = p + offset;
     // The origin of rays that leave a smooth mesh. If anything touches the mesh between the triangle and the smooth
     // surface that it approximates, rays leave from the triangle instead.
     glm::vec3 leaves_from = origin;
@@ -254,6 +255,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
             leaves_from = smooth;
     }
     TexturePoint place(origin, shading, met.coordinates());
+    place.is_back = is_behind;
     if (!mesh.tangents.empty() && place.mesh) met.add_tangents(*place.mesh, shading, is_behind);
     const Interface& optics = mesh_interfaces_[index * scene_.materials.size() + ray.phase.index];
     Surface surface{.distance = hit.ray.tfar,
@@ -268,6 +270,7 @@ Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) co
                     .place = place};
     if (mesh.opacity) surface.opacity = mesh.opacity->at(TexturePoint(p, flat, place.mesh));
     choose_of_mixture(surface);
+    if (surface.optics.get().is_thin()) surface.far_side = {p - offset, ray.phase, ray.in};
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
 }

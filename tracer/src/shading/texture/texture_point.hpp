@@ -29,6 +29,7 @@ struct TexturePoint {
     glm::vec3 position;                  ///< in object space, in the scene's unit of length
     glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< unit length, on either side
     std::optional<MeshCoordinates> mesh{};
+    bool is_back = false;    ///< of a mesh: whether it is seen from behind
     std::uint32_t copy = 0;  ///< number of the copy of the object (scene/placed.hpp); 0 for an object that exists once
 
     TexturePoint(const glm::vec3& p) : position(p) {}
