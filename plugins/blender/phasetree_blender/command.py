@@ -75,11 +75,12 @@ class Cancelled(Exception):
     """The user cancelled."""
 
 
-def run(arguments, cancelled):
-    """Runs a command to its end, or raises Cancelled."""
+def run(arguments, cancelled, **options):
+    """Runs a command to its end, or raises Cancelled. `options`: of Popen."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         try:
-            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **child_options())
+            options = {**options, **child_options()}
+            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **options)
         except OSError as error:
             raise TranslationError(f"cannot run {arguments[0]}: {error.strerror}") from error
         try:

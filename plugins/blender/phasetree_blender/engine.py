@@ -110,7 +110,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         try:
             if self._viewport is None:
                 self._viewport = Viewport(preferences.found_command(), self.tag_redraw)
-            self._viewport.show(translation=translate(depsgraph, self._viewport.path(), notes))
+            self._viewport.show(translation=translate(depsgraph, self._viewport.path(), preferences.found_command(), notes))
         except TranslationError as error:
             self.update_stats("", str(error))
 

@@ -10,7 +10,7 @@ import bpy
 from .. import command as commands
 from ..notes import TranslationError
 from ..passes import planes_of
-from . import camera, lights, materials, meshes, world
+from . import camera, lights, materials, meshes, trees, world
 from .glb import Glb
 
 
@@ -23,6 +23,7 @@ class Translation:
     parts: dict  # of the scene file: camera, lights, background
     settings: dict  # "render" of the scene file
     media: dict  # material: what the scene file says of the phase, and glTF cannot
+    has_meshes: bool  # whether the glTF file has anything
     closes_gaps: bool
     digest: str  # equal digests: equal scenes
 
@@ -53,19 +54,20 @@ def write_scene(depsgraph, path, command, notes, active_camera=None, cancelled=l
     """Writes a scene file and, into its folder, the files that it names. Adds to the notes. Raises TranslationError."""
     width, height = size_of(depsgraph.scene.render)
     seen = camera.camera_of(active_camera or depsgraph.scene.camera, depsgraph, width, height, notes)
-    translation = translate(depsgraph, path, notes)
+    translation = translate(depsgraph, path, command, notes)
     translation.parts["camera"] = seen
     return complete(translation, command, notes, cancelled)
 
 
-def translate(depsgraph, path, notes):
-    """Writes the objects to a glTF file. Returns the scene without a camera."""
+def translate(depsgraph, path, command, notes):
+    """Writes the objects to a glTF file, and trees to scene files. Returns the scene without a camera."""
     scene, folder, glb = depsgraph.scene, os.path.dirname(path), Glb()
     writer = meshes.MeshWriter(glb, round(1000 * scene.unit_settings.scale_length, 4), notes)
-    lamps = write_objects(depsgraph, writer, notes)
-    if writer.is_empty:
+    planted = trees.TreeWriter(folder, os.path.splitext(os.path.basename(path))[0], command, notes)
+    lamps = write_objects(depsgraph, writer, planted, notes)
+    if writer.is_empty and not planted.objects:
         raise TranslationError("the scene has nothing to render: no visible object has faces")
-    parts = {"lights": [world.world_light(depsgraph.scene_eval.world, folder, notes), *lamps]}
+    parts = {"lights": [world.world_light(depsgraph.scene_eval.world, folder, notes), *lamps], **planted.parts()}
     if scene.render.film_transparent:
         parts["background"] = [0, 0, 0]
     note_render_settings(scene, notes)
@@ -73,18 +75,15 @@ def translate(depsgraph, path, notes):
     content, settings = glb.content(), render_settings(scene)
     with open(file, "wb") as out:
         out.write(content)
-    rest = json.dumps([parts, settings, writer.media, scene.phasetree.closes_gaps])
+    rest = json.dumps([parts, settings, writer.media, scene.phasetree.closes_gaps, planted.digests])
     digest = hashlib.sha256(content + rest.encode()).hexdigest()
-    return Translation(path, file, parts, settings, writer.media, scene.phasetree.closes_gaps, digest)
+    closes_gaps, has_meshes = scene.phasetree.closes_gaps, not writer.is_empty
+    return Translation(path, file, parts, settings, writer.media, has_meshes, closes_gaps, digest)
 
 
 def complete(translation, command, notes, cancelled=lambda: False):
     """Makes phases of clear objects by `phasetree import`, and writes the scene file. May run in any thread."""
-    imported = commands.import_glb(command, translation.glb, translation.path, translation.closes_gaps, cancelled)
-    for warning in imported.warnings:
-        notes.approximate(warning)
-    with open(translation.path, encoding="utf-8") as file:
-        document = json.load(file)
+    document, report = imported_document(translation, command, notes, cancelled)
     for mesh in document.get("meshes", ()):
         mesh["gltf"]["imported"] = True  # the lights are in the scene file
     for name, medium in translation.media.items():
@@ -96,7 +95,18 @@ def complete(translation, command, notes, cancelled=lambda: False):
     document.update(translation.parts)
     document["render"] = {**translation.settings, **({"spectral": True} if is_spectral else {})}
     write_document(document, translation.path)
-    return Written(document, imported.report)
+    return Written(document, report)
+
+
+def imported_document(translation, command, notes, cancelled):
+    """The scene file of the meshes, and the report on its phases."""
+    if not translation.has_meshes:
+        return {"version": 1, "render": {}}, ""
+    imported = commands.import_glb(command, translation.glb, translation.path, translation.closes_gaps, cancelled)
+    for warning in imported.warnings:
+        notes.approximate(warning)
+    with open(translation.path, encoding="utf-8") as file:
+        return json.load(file), imported.report
 
 
 def write_document(document, path):
@@ -104,7 +114,7 @@ def write_document(document, path):
         json.dump(document, file, indent=1, ensure_ascii=False)
 
 
-def write_objects(depsgraph, writer, notes):
+def write_objects(depsgraph, writer, planted, notes):
     """Adds all visible objects; returns the lights."""
     found = []
     for instance in depsgraph.object_instances:
@@ -112,7 +122,10 @@ def write_objects(depsgraph, writer, notes):
         about = notes.about(f'object "{item.name}"')
         if not instance.show_self:
             continue
-        if item.type == "LIGHT":
+        if trees.is_tree(item):
+            note_object(item, about)
+            planted.add(item, instance.matrix_world.copy())
+        elif item.type == "LIGHT":
             light = lights.light_of(item, instance.matrix_world, notes)
             found += [light] if light else []
         elif item.type in meshes.UNSUPPORTED:
