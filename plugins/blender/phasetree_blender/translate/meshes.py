@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import materials
+from . import materials, scene_materials
+from .glb import Glb
 from .texture_files import TextureFiles
 
 # Objects that Blender can convert to meshes.
@@ -85,6 +86,7 @@ class MeshWriter:
         self._glb, self._millimetres, self._notes = glb, millimetres, notes
         self._meshes, self._materials, self._surfaces, self._files = {}, {}, {}, TextureFiles(glb)
         self.has_clear, self.is_empty = False, True
+        self.mixed = {}  # material: a glTF file of the surfaces that are a mix, and the mix
         self.media = {}  # material: parameters of the scene file's clear material that glTF lacks
 
     def add(self, instance_object, matrix):
@@ -93,40 +95,56 @@ class MeshWriter:
         key = (instance_object.original.as_pointer(), instance_object.data.as_pointer() if instance_object.data else 0)
         if key not in self._meshes:
             self._meshes[key] = self._mesh_of(instance_object, settings.role == "OPAQUE")
-        mesh = self._meshes[key]
-        if mesh is None:
-            return
+        made = self._meshes[key]
         extras = {"phasetree_matter": settings.role.lower()} if settings.role in ("SOLID", "LIQUID", "GAS") else {}
         if settings.priority:
             extras["phasetree_priority"] = settings.priority
-        self._glb.node(instance_object.name, mesh, np.array(matrix, dtype=float), extras)
-        self.is_empty = False
+        for glb, mesh in made:
+            glb.node(instance_object.name, mesh, np.array(matrix, dtype=float), extras)
+            self.is_empty = False
 
     def _mesh_of(self, item, is_opaque):
+        """The object's meshes, each with the glTF file that has it."""
         notes = self._notes.about(f'object "{item.name}"')
         mesh = item.to_mesh()
         if mesh is None:
-            return None
+            return []
         try:
             if len(mesh.polygons) == 0:
-                return None
+                return []
             triangles = triangles_of(mesh)
         finally:
             item.to_mesh_clear()
         if not np.isfinite(triangles.positions).all():
             notes.error("has vertices whose coordinates are not finite; it is left out")
-            return None
+            return []
         slots = [slot.material for slot in item.material_slots] or [None]
         numbers = np.minimum(triangles.materials, len(slots) - 1)
-        primitives = [
-            self._primitive(triangles, triangles.corners[numbers == slot], slots[slot], is_opaque, notes)
-            for slot in np.unique(numbers)
-        ]
-        return self._glb.mesh(item.name, primitives)
+        primitives = {}  # by the glTF file
+        for slot in np.unique(numbers):
+            surface = self._surface_of(slots[slot])
+            glb = self._mixed_glb(slots[slot], surface) if surface.mixture else self._glb
+            made = self._primitive(glb, triangles, triangles.corners[numbers == slot], slots[slot], is_opaque, notes)
+            primitives.setdefault(glb, []).append(made)
+        return [(glb, glb.mesh(item.name, parts)) for glb, parts in primitives.items()]
 
-    def _primitive(self, triangles, corners, material, is_opaque, notes):
+    def _mixed_glb(self, material, surface):
+        if material.name not in self.mixed:
+            glb = Glb()
+            glb.material({"name": material.name})
+            self.mixed[material.name] = (glb, surface)
+        return self.mixed[material.name][0]
+
+    def mixed_meshes(self, files):
+        """[(content of a glTF file, material of the scene file)] of the surfaces that are a mix."""
+        return [
+            (glb.content(), scene_materials.material_of(surface, files, self._notes.about(f'material "{name}"')))
+            for name, (glb, surface) in self.mixed.items()
+        ]
+
+    def _primitive(self, glb, triangles, corners, material, is_opaque, notes):
         surface = self._surface_of(material)
-        number = self._material_of(material, surface, is_opaque)
+        number = 0 if surface.mixture else self._material_of(material, surface, is_opaque)
         if surface.is_clear and not is_opaque:
             self.has_clear = True
             angle = greatest_facet_angle(triangles, corners)
@@ -136,7 +154,7 @@ class MeshWriter:
                     "modifier"
                 )
             vertices, indices = np.unique(triangles.of_corners[corners], return_inverse=True)
-            return self._glb.primitive(triangles.positions[vertices], None, indices.reshape(-1, 3), None, number)
+            return glb.primitive(triangles.positions[vertices], None, indices.reshape(-1, 3), None, number)
         used, indices = np.unique(corners, return_inverse=True)
         coordinates = self._coordinates(triangles, surface, notes)
         coordinates = None if coordinates is None else coordinates[used]
@@ -146,7 +164,7 @@ class MeshWriter:
             tangents = tangents_around(surface.grain_axis, triangles.generated[triangles.of_corners[used]], normals)
             if coordinates is None:  # the reader drops tangents of meshes without coordinates
                 coordinates = np.zeros((len(used), 2))
-        return self._glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
+        return glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
 
     def _coordinates(self, triangles, surface, notes):
         """The texture coordinates of corners as in glTF, where v points down; None without images."""

@@ -12,6 +12,7 @@ from ..notes import TranslationError
 from ..passes import planes_of
 from . import camera, lights, materials, meshes, trees, world
 from .glb import Glb
+from .scene_materials import MaterialFiles
 
 
 @dataclass
@@ -71,13 +72,18 @@ def translate(depsgraph, path, command, notes):
     if scene.render.film_transparent:
         parts["background"] = [0, 0, 0]
     note_render_settings(scene, notes)
-    file = os.path.splitext(path)[0] + ".glb"
-    content, settings = glb.content(), render_settings(scene)
-    with open(file, "wb") as out:
-        out.write(content)
+    stem = os.path.splitext(path)[0]
+    file, content, settings = stem + ".glb", glb.content(), render_settings(scene)
+    write_bytes(file, content)
+    parts["mixed"] = []
+    for number, (mixed, material) in enumerate(writer.mixed_meshes(MaterialFiles(folder, os.path.basename(stem))), 1):
+        name = f"{stem}.mix{number}.glb"
+        write_bytes(name, mixed)
+        content += mixed
+        parts["mixed"].append({"gltf": {"file": os.path.basename(name), "material": material}})
     rest = json.dumps([parts, settings, writer.media, scene.phasetree.closes_gaps, planted.digests])
     digest = hashlib.sha256(content + rest.encode()).hexdigest()
-    closes_gaps, has_meshes = scene.phasetree.closes_gaps, not writer.is_empty
+    closes_gaps, has_meshes = scene.phasetree.closes_gaps, glb.has_nodes
     return Translation(path, file, parts, settings, writer.media, has_meshes, closes_gaps, digest)
 
 
@@ -93,6 +99,9 @@ def complete(translation, command, notes, cancelled=lambda: False):
     is_spectral = document["render"].get("spectral", False) or any("glass" in m for m in translation.media.values())
     document.pop("camera", None)
     document.update(translation.parts)
+    mixed = document.pop("mixed")
+    if mixed:
+        document["meshes"] = document.get("meshes", []) + mixed
     document["render"] = {**translation.settings, **({"spectral": True} if is_spectral else {})}
     write_document(document, translation.path)
     return Written(document, report)
@@ -107,6 +116,11 @@ def imported_document(translation, command, notes, cancelled):
         notes.approximate(warning)
     with open(translation.path, encoding="utf-8") as file:
         return json.load(file), imported.report
+
+
+def write_bytes(path, content):
+    with open(path, "wb") as file:
+        file.write(content)
 
 
 def write_document(document, path):
