@@ -50,7 +50,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         command, scene = preferences.found_command(), depsgraph.scene
         self.update_stats("", "translating the scene")
         path = self.export_path or os.path.join(folder, "scene.json")
-        written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break)
+        written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break, self._set_time)
         if self.export_path:
             return written.report
         options = options_of(scene, depsgraph.view_layer)
@@ -73,6 +73,9 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
             process.stop()
         self._show(depsgraph, process.picture, is_last=True)
         return written.report
+
+    def _set_time(self, frame, subframe):
+        self.frame_set(frame, subframe=subframe)
 
     def _show(self, depsgraph, file, is_last):
         """Hands the pixels of an EXR file to Blender."""

@@ -33,7 +33,10 @@ class PHASETREE_OT_check(bpy.types.Operator):
         with tempfile.TemporaryDirectory(prefix="phasetree_") as folder:
             try:
                 depsgraph, path = context.evaluated_depsgraph_get(), os.path.join(folder, "scene.json")
-                phases = write_scene(depsgraph, path, preferences.found_command(), notes).report
+                phases = write_scene(
+                    depsgraph, path, preferences.found_command(), notes, evaluated=context.evaluated_depsgraph_get,
+                    set_time=lambda frame, subframe: context.scene.frame_set(frame, subframe=subframe),
+                ).report  # fmt: skip
             except TranslationError as error:
                 notes.error(str(error))
         last_report.keep(context.scene.name, notes, phases)

@@ -37,6 +37,20 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
         subtype="TIME_ABSOLUTE",
         unit="TIME_ABSOLUTE",
     )
+    motion_blur_position: EnumProperty(
+        name="Position",
+        description="When the shutter is open",
+        items=(
+            ("START", "Start on Frame", "The shutter opens at the frame"),
+            ("CENTER", "Center on Frame", "The shutter is open around the frame"),
+            ("END", "End on Frame", "The shutter closes at the frame"),
+        ),
+        default="CENTER",
+    )
+    motion_steps: IntProperty(
+        name="Steps", description="Times at which moving objects are looked at; more follow curved paths", default=3, min=2,
+        soft_max=9, max=65,
+    )  # fmt: skip
     viewport_scale: IntProperty(
         name="Viewport Scale",
         description="Resolution of the rendered viewport, as a share of its pixels",

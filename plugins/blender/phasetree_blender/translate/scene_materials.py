@@ -68,11 +68,15 @@ def material_of(surface, files, notes):
     bumps = {}
     if surface.normal_image is not None and (found := files.color(surface.normal_image, notes)):
         bumps = {"normal_map": {**found["mesh_image"], "strength": surface.normal_strength}}
+    radiance = max(surface.emission)
+    light = [c / radiance for c in surface.emission] if radiance > 0 else None
     if surface.is_matt and not surface.extensions:
+        if light:
+            return {"glowing": {"light": light, "radiance": radiance, "color": color}}
         return {"diffuse": {"color": color, **bumps}}
     # Roughness is squared: α of GGX is interpolated by its image, which differs little.
     alpha = surface.roughness**2
-    if surface.metallic == 1 and not surface.metallic_image and not surface.extensions:
+    if surface.metallic == 1 and not surface.metallic_image and not surface.extensions and not light:
         if surface.roughness_image:
             alpha = files.number(surface.roughness_image, notes) or surface.roughness_image.otherwise ** 2
         return {"conductor": {"reflectance": color, "roughness": alpha, **bumps}}
@@ -82,6 +86,8 @@ def material_of(surface, files, notes):
     if surface.metallic_image:
         metallic = files.number(surface.metallic_image, notes) or surface.metallic_image.otherwise
     layers = layers_of(surface, notes)
+    if light:
+        layers.update(emission_radiance=radiance, emission_color=light)
     return {"principled": {"base_color": color, "base_metalness": metallic, "specular_roughness": roughness,
                            "specular_ior": min(max(surface.ior, 1.0), 4.0), **layers, **bumps}}  # fmt: skip
 

@@ -6,12 +6,12 @@ import os
 import sys
 
 import bpy
-import numpy as np
 
 from .. import preferences
 from ..notes import TranslationError
 from . import scene_text
 from .python_trees import SHARED
+from .scene_objects import is_flat
 
 # Digests of code that the user ran by a button in this session.
 _approved = set()
@@ -105,63 +105,32 @@ def number_of(item, key):
     return value
 
 
-def columns_of(matrix):
-    """Twelve numbers: the images of the unit vectors and of the origin."""
-    return np.array(matrix, dtype=float)[:3, :].T.reshape(-1).tolist()
-
-
-def affine(matrix):
-    x, y, z, by = np.array(matrix, dtype=float)[:3, :].T.tolist()
-    return {"affine": {"x": x, "y": y, "z": z, "by": by}}
-
-
 class TreeWriter:
-    """Writes the trees of objects as scene files beside that of the scene, and lists them as its objects."""
+    """Adds objects that carry a tree to the objects of the scene. Instances share one tree."""
 
-    def __init__(self, folder, stem, command, notes):
-        self._folder, self._stem, self._command, self._notes = folder, stem, command, notes
-        self._names, self._places = {}, {}
-        self.objects, self.digests = [], []
+    def __init__(self, objects, command, notes):
+        self._objects, self._command, self._notes = objects, command, notes
+        self._names, self.digests = {}, []
 
-    def add(self, item, matrix):
-        """Adds an evaluated object at a place. Instances share one tree."""
-        if abs(np.linalg.det(np.array(matrix, dtype=float)[:3, :3])) < 1e-30:
-            self._notes.about(f'object "{item.name}"').unsupported("is scaled to nothing, so it is left out")
+    def add(self, item, matrix, matrices):
+        """Adds an evaluated object at a place. `matrices`: its places while the shutter is open, or None."""
+        notes = self._notes.about(f'object "{item.name}"')
+        if is_flat(matrix):
+            notes.unsupported("is scaled to nothing, so it is left out")
             return
         key = item.original.as_pointer()
         if key not in self._names:
-            notes = self._notes.about(f'object "{item.name}"')
-            document = scene_of(item, self._command, notes)
-            self._names[key] = name = self._new_name(item.name)
-            text = json.dumps(document, indent=1, ensure_ascii=False)
-            self.objects.append({"name": name, "file": self._file_of(item, text)})
+            text = json.dumps(scene_of(item, self._command, notes), indent=1, ensure_ascii=False)
+            self._names[key] = self._objects.add(item.name, {"file": self._file_of(item, text)})
             self.digests.append(digest_of(text))
-        self._places.setdefault(self._names[key], []).append(matrix)
+        self._objects.place(self._names[key], matrix, matrices)
 
     def _file_of(self, item, text):
         """A scene file with the text. A file without changed numbers is used itself, so that messages name its lines."""
         settings = item.original.phasetree
         if settings.source == "FILE" and not settings.numbers:
             return file_of(item)
-        file = f"{self._stem}.tree{len(self.objects) + 1}.json"
-        with open(os.path.join(self._folder, file), "w", encoding="utf-8") as out:
+        file = f"{self._objects.stem}.tree{len(self._objects) + 1}.json"
+        with open(os.path.join(self._objects.folder, file), "w", encoding="utf-8") as out:
             out.write(text)
         return file
-
-    def _new_name(self, wanted):
-        taken, name, same = {"tree", *self._names.values()}, wanted, 2
-        while name in taken:
-            name, same = f"{wanted} {same}", same + 1
-        return name
-
-    def parts(self):
-        """"objects" and "instances" of the scene file."""
-        objects, instances = [], []
-        for made in self.objects:
-            places = self._places[made["name"]]
-            if len(places) == 1:
-                objects.append({**made, "transform": affine(places[0])})
-            else:
-                objects.append(made)
-                instances.append({"of": made["name"], "transforms": [columns_of(place) for place in places]})
-        return {**({"objects": objects} if objects else {}), **({"instances": instances} if instances else {})}
