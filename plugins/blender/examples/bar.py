@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-AROUND = 360  # clear objects are shaded flat, so round ones need many faces
+AROUND = 192  # clear objects are shaded flat, so round ones need many faces
 
 
 # Materials
@@ -112,7 +112,7 @@ def rounded(points, step):
     return [*curve, points[-1][0]]
 
 
-def lathe(name, points, its_material, place=(0, 0, 0), around=AROUND, step=0.012, smooth=False):
+def lathe(name, points, its_material, place=(0, 0, 0), around=AROUND, step=0.03, smooth=False):
     """A closed solid of revolution. The profile begins and ends on the axis; anticlockwise, with the solid on its left."""
     curve = rounded(points, step)
     angles = 2 * math.pi * np.arange(around) / around

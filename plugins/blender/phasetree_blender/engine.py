@@ -24,6 +24,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
 
+    _meanings = {}  # of the scene that is rendered: for Cryptomatte
     export_path = ""  # if set, a render only writes this scene file: Blender evaluates objects as for a render only then
 
     def update_render_passes(self, scene=None, renderlayer=None):
@@ -51,6 +52,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "translating the scene")
         path = self.export_path or os.path.join(folder, "scene.json")
         written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break, self._set_time)
+        self._meanings = written.meanings
         if self.export_path:
             return written.report
         options = options_of(scene, depsgraph.view_layer)
@@ -86,10 +88,13 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         if size != (y1 - y0, x1 - x0):
             raise TranslationError(f"phasetree rendered {size[1]} × {size[0]} pixels instead of {x1 - x0} × {y1 - y0}")
         result = self.begin_result(0, 0, x1 - x0, y1 - y0, layer=depsgraph.view_layer.name)
-        if depsgraph.view_layer.use_pass_cryptomatte_material:
-            ids = cryptomatte.renamed(channels, attributes)
-            for name, value in cryptomatte.metadata(depsgraph.view_layer.name, ids).items():
+        mattes = {}
+        for layer in cryptomatte.layers_of(depsgraph.view_layer):
+            renamed, ids = cryptomatte.renamed(layer, channels, attributes, self._meanings)
+            mattes.update(renamed)
+            for name, value in cryptomatte.metadata(depsgraph.view_layer.name, layer, ids).items():
                 self.get_result().stamp_data_add_field(name, value)
+        channels.update(mattes)
         for render_pass in result.layers[0].passes:
             if render_pass.name in made:
                 fill(render_pass, made[render_pass.name], channels)

@@ -150,7 +150,9 @@ class PHASETREE_PT_passes(PhasetreePanel, bpy.types.Panel):
         self.layout.prop(context.view_layer, "use_pass_normal", text="Normal")
         self.layout.prop(context.view_layer.phasetree, "use_pass_albedo")
         column = self.layout.column(heading="Cryptomatte")
+        column.prop(context.view_layer, "use_pass_cryptomatte_object", text="Object")
         column.prop(context.view_layer, "use_pass_cryptomatte_material", text="Material")
+        column.prop(context.view_layer, "use_pass_cryptomatte_asset", text="Phase (as Asset)")
 
 
 class PHASETREE_PT_light_groups(PhasetreePanel, bpy.types.Panel):

@@ -11,8 +11,9 @@ from .texture_files import TextureFiles
 class MeshWriter:
     """Adds shapes to a glTF file. Instances of one shape share a mesh."""
 
-    def __init__(self, glb, millimetres, notes):
-        """`millimetres`: the length of Blender's unit."""
+    def __init__(self, glb, millimetres, notes, names):
+        """`millimetres`: the length of Blender's unit. `names`: of the materials that are written."""
+        self._names = names
         self._glb, self._millimetres, self._notes = glb, millimetres, notes
         self._meshes, self._materials, self._surfaces, self._files = {}, {}, {}, TextureFiles(glb)
         self.has_clear, self.is_empty = False, True
@@ -43,29 +44,30 @@ class MeshWriter:
         for slot in shape.used_slots():
             material = shape.slots[slot]
             surface = self.surface_of(material)
-            glb = self._mixed_glb(material, surface) if surface.mixture else self._glb
-            made = self._primitive(glb, triangles, triangles.corners[numbers == slot], material, shape.is_opaque, notes)
+            glb = self._mixed_glb(material, surface, shape) if surface.mixture else self._glb
+            made = self._primitive(glb, triangles, triangles.corners[numbers == slot], material, shape, notes)
             primitives.setdefault(glb, []).append(made)
         return [(glb, glb.mesh(shape.name, parts)) for glb, parts in primitives.items()]
 
-    def _mixed_glb(self, material, surface):
-        if material.name not in self.mixed:
+    def _mixed_glb(self, material, surface, shape):
+        name = self._names.of(shape.name, material)
+        if name not in self.mixed:
             glb = Glb()
-            glb.material({"name": material.name})
-            self.mixed[material.name] = (glb, surface)
-        return self.mixed[material.name][0]
+            glb.material({"name": name})
+            self.mixed[name] = (glb, surface)
+        return self.mixed[name][0]
 
     def mixed_meshes(self, files):
-        """[(content of a glTF file, material of the scene file)] of the surfaces that are a mix."""
+        """[(name, content of a glTF file, material of the scene file)] of the surfaces that are a mix."""
         return [
-            (glb.content(), scene_materials.material_of(surface, files, self._notes.about(f'material "{name}"')))
+            (name, glb.content(), scene_materials.material_of(surface, files, self._about_name(name)))
             for name, (glb, surface) in self.mixed.items()
         ]
 
-    def _primitive(self, glb, triangles, corners, material, is_opaque, notes):
+    def _primitive(self, glb, triangles, corners, material, shape, notes):
         surface = self.surface_of(material)
-        number = 0 if surface.mixture else self._material_of(material, surface, is_opaque)
-        if surface.is_clear and not is_opaque:
+        number = 0 if surface.mixture else self._material_of(material, surface, shape)
+        if surface.is_clear and not shape.is_opaque:
             self.has_clear = True
             angle = greatest_facet_angle(triangles, corners)
             if angle > 3:
@@ -77,7 +79,10 @@ class MeshWriter:
             return glb.primitive(triangles.positions[vertices], None, indices.reshape(-1, 3), None, number)
         used, indices = np.unique(corners, return_inverse=True)
         coordinates = self._coordinates(triangles, surface, notes)
-        coordinates = None if coordinates is None else coordinates[used]
+        if coordinates is not None:
+            coordinates = coordinates[used]
+        elif surface.mixture and surface.uv_maps:  # the scene file's images need some
+            coordinates = np.zeros((len(used), 2))
         positions = triangles.positions[triangles.of_corners[used]]
         normals, tangents = triangles.normals[used], None
         if surface.grain_axis:
@@ -100,6 +105,9 @@ class MeshWriter:
         found = triangles.coordinates.get(name)
         return None if found is None else np.column_stack([found[:, 0], 1 - found[:, 1]])
 
+    def _about_name(self, name):
+        return self._notes.about(f'material "{self._names.meanings[name][1]}"')
+
     def _about(self, material):
         return self._notes.about(f'material "{material.name}"' if material else "")
 
@@ -109,13 +117,13 @@ class MeshWriter:
             self._surfaces[key] = materials.surface_of(material, self._about(material))
         return self._surfaces[key]
 
-    def _material_of(self, material, surface, is_opaque):
-        key = (material.original.as_pointer() if material else None, is_opaque and surface.is_clear)
+    def _material_of(self, material, surface, shape):
+        is_opaque, name = shape.is_opaque, self._names.of(shape.name, material)
+        key = (name, material.original.as_pointer() if material else None, is_opaque and surface.is_clear)
         if key not in self._materials:
             notes = self._about(material)
-            if key[1]:
+            if key[-1]:
                 notes.information("is clear, but opaque on objects whose role is Opaque")
-            name = material.name if material else "Default"
             made = materials.gltf_of(surface, name, self._files, notes, is_opaque)
             if surface.is_clear and not is_opaque:
                 medium = materials.medium_of(surface, material, self._millimetres, notes)

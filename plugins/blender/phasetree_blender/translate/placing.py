@@ -27,8 +27,8 @@ class Group:
 class Placing:
     """Collects shapes and their places, and then writes them."""
 
-    def __init__(self, writer, objects, millimetres, notes):
-        self._writer, self._objects, self._millimetres, self._notes = writer, objects, millimetres, notes
+    def __init__(self, writer, objects, millimetres, notes, names):
+        self._writer, self._objects, self._millimetres, self._notes, self._names = writer, objects, millimetres, notes, names
         self._places = []  # (shape, matrix, matrices)
         self.groups = []
 
@@ -44,6 +44,8 @@ class Placing:
                 self._objects.place(kind, matrix, matrices)
             elif matrices is None or not self._write_moving(shape, matrix, matrices, moving):
                 self._writer.add(shape, matrix)
+        for group in self.groups:
+            self._names.add_group(group.name)
 
     def _apart(self):
         """{id of a shape: name of its object} of those with too many copies."""
@@ -64,17 +66,23 @@ class Placing:
             elif self._writer.is_clear(shape) is False and count > MANY_COPIES and total > MANY_TRIANGLES:
                 if self._note_solid(shape, f"has {count} copies, but", notes):
                     total -= count * len(shape.triangles.corners)
-                    apart[key] = self._objects.add_solid(shape, self._surface(shape), notes)
+                    apart[key] = self._add_solid(shape, notes)
         return apart
 
     def _surface(self, shape):
         return self._writer.surface_of(shape.slots[shape.used_slots()[0]])
 
+    def _add_solid(self, shape, notes):
+        name = self._objects.add_solid(shape, self._surface(shape), notes)
+        material = shape.slots[shape.used_slots()[0]]
+        self._names.add(name, shape.name, material.name if material else "Default")
+        return name
+
     def _new_group(self, wanted):
         number = len(self.groups) + 1
         glb, file = Glb(), f"{self._objects.stem}.group{number}.json"
         name = self._objects.add(wanted, {"file": file})
-        self.groups.append(Group(MeshWriter(glb, self._millimetres, self._notes), glb, name, file))
+        self.groups.append(Group(MeshWriter(glb, self._millimetres, self._notes, self._names), glb, name, file))
         return self.groups[-1]
 
     def _write_moving(self, shape, matrix, matrices, moving):
@@ -89,7 +97,7 @@ class Placing:
         if not is_clear:
             if not self._note_solid(shape, "its motion is not blurred, because", notes):
                 return False
-            self._objects.place(self._objects.add_solid(shape, self._surface(shape), notes), matrix, matrices)
+            self._objects.place(self._add_solid(shape, notes), matrix, matrices)
             return True
         # Shapes with the same motion stay in one tree, so that glass and liquid touch exactly.
         motion = [place @ np.linalg.inv(np.array(matrix, dtype=float)) for place in matrices]

@@ -13,6 +13,7 @@ from ..notes import TranslationError
 from ..passes import planes_of
 from . import camera, lights, materials, meshes, motion, shapes, trees, world
 from .glb import Glb
+from .material_names import MaterialNames
 from .placing import Placing, group_paths
 from .scene_objects import SceneObjects
 
@@ -29,6 +30,7 @@ class Translation:
     has_meshes: bool  # whether the glTF file has anything
     groups: list  # clear objects that are imported by themselves
     closes_gaps: bool
+    meanings: dict  # name of a material or phase: names of the object and of the material in Blender
     digest: str  # equal digests: equal scenes
 
 
@@ -36,6 +38,7 @@ class Translation:
 class Written:
     document: dict  # what is in the scene file
     report: str  # the order of the phases, overlaps and gaps, as `phasetree import` prints them
+    meanings: dict  # that of the translation
 
 
 def size_of(render):
@@ -77,9 +80,10 @@ def translate(depsgraph, path, command, notes, moved=None):
     """Writes the objects to glTF files, and trees to scene files. Returns the scene without a camera."""
     scene, folder, glb, moved = depsgraph.scene, os.path.dirname(path), Glb(), moved or motion.Motion()
     millimetres = round(1000 * scene.unit_settings.scale_length, 4)
-    writer = meshes.MeshWriter(glb, millimetres, notes)
+    names = MaterialNames(depsgraph.view_layer.use_pass_cryptomatte_object)
+    writer = meshes.MeshWriter(glb, millimetres, notes, names)
     objects = SceneObjects(folder, os.path.splitext(os.path.basename(path))[0], moved.times)
-    planted, placing = trees.TreeWriter(objects, command, notes), Placing(writer, objects, millimetres, notes)
+    planted, placing = trees.TreeWriter(objects, command, notes, names), Placing(writer, objects, millimetres, notes, names)
     lamps = write_objects(depsgraph, placing, planted, moved, notes)
     placing.write()
     if writer.is_empty and not objects:
@@ -94,17 +98,17 @@ def translate(depsgraph, path, command, notes, moved=None):
     for group in placing.groups:
         write_bytes(group_paths(folder, group)[0], group.glb.content())
     parts["added"], parts["mixed"] = objects.parts(), []
-    for number, (mixed, material) in enumerate(writer.mixed_meshes(objects.materials), 1):
-        name = f"{stem}.mix{number}.glb"
-        write_bytes(name, mixed)
+    for number, (name, mixed, material) in enumerate(writer.mixed_meshes(objects.materials), 1):
+        file_of_mix = f"{stem}.mix{number}.glb"
+        write_bytes(file_of_mix, mixed)
         content += mixed
-        parts["mixed"].append({"gltf": {"file": os.path.basename(name), "material": material}})
+        parts["mixed"].append((name, {"gltf": {"file": os.path.basename(file_of_mix), "material": material}}))
     rest = json.dumps([parts, settings, writer.media, scene.phasetree.closes_gaps, planted.digests])
     digest = hashlib.sha256(content + rest.encode()).hexdigest()
     closes_gaps, has_meshes = scene.phasetree.closes_gaps, glb.has_nodes
     if moved.times:
         settings["shutter"] = moved.shutter()
-    return Translation(path, file, parts, settings, writer.media, has_meshes, placing.groups, closes_gaps, digest)
+    return Translation(path, file, parts, settings, writer.media, has_meshes, placing.groups, closes_gaps, names.meanings, digest)
 
 
 def complete(translation, command, notes, cancelled=lambda: False):
@@ -125,12 +129,15 @@ def complete(translation, command, notes, cancelled=lambda: False):
     document.update(translation.parts)
     mixed, added = document.pop("mixed"), document.pop("added")
     if mixed:
-        document["meshes"] = document.get("meshes", []) + mixed
+        for number, (name, mesh) in enumerate(mixed, len(document.get("meshes", ())) + 1):
+            # The command names a mesh with a material of the scene file by its place in the list.
+            translation.meanings["gltf all" if number == 1 else f"gltf {number} all"] = translation.meanings[name]
+            document.setdefault("meshes", []).append(mesh)
     for key, value in added.items():
         document[key] = {**document.get(key, {}), **value} if key == "phases" else value
     document["render"] = {**translation.settings, **({"spectral": True} if is_spectral else {})}
     write_document(document, translation.path)
-    return Written(document, report)
+    return Written(document, report, translation.meanings)
 
 
 def imported(glb, path, translation, media, command, notes, cancelled):

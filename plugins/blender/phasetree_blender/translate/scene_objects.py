@@ -58,17 +58,15 @@ class SceneObjects:
             self._moving.setdefault(name, []).append(matrices)
 
     def add_solid(self, shape, surface, notes):
-        """Adds a closed opaque shape as a solid of one phase. Returns its name."""
+        """Adds a closed opaque shape as a solid of one phase. Returns its name, which is also that of the phase."""
         if id(shape) not in self._by_solid:
-            phase, same = shape.name, 2
-            while phase in self.phases:
-                phase, same = f"{shape.name} {same}", same + 1
-            self.phases[phase] = scene_materials.material_of(surface, self.materials, notes)
-            file = f"{self.stem}.solid{len(self.phases)}.ply"
+            file = f"{self.stem}.solid{len(self.phases) + 1}.ply"
             with open(os.path.join(self.folder, file), "wb") as out:
                 out.write(ply_of(shape.triangles))
-            tree = {"set": {"phase": phase, "of": {"mesh": {"file": file}}}}
-            self._by_solid[id(shape)] = self.add(shape.name, {"tree": tree})
+            name = self.add(shape.name, {})
+            self._objects[name]["tree"] = {"set": {"phase": name, "of": {"mesh": {"file": file}}}}
+            self.phases[name] = scene_materials.material_of(surface, self.materials, notes)
+            self._by_solid[id(shape)] = name
         return self._by_solid[id(shape)]
 
     def parts(self):

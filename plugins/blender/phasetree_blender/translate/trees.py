@@ -108,8 +108,8 @@ def number_of(item, key):
 class TreeWriter:
     """Adds objects that carry a tree to the objects of the scene. Instances share one tree."""
 
-    def __init__(self, objects, command, notes):
-        self._objects, self._command, self._notes = objects, command, notes
+    def __init__(self, objects, command, notes, names):
+        self._objects, self._command, self._notes, self._material_names = objects, command, notes, names
         self._names, self.digests = {}, []
 
     def add(self, item, matrix, matrices):
@@ -120,8 +120,11 @@ class TreeWriter:
             return
         key = item.original.as_pointer()
         if key not in self._names:
-            text = json.dumps(scene_of(item, self._command, notes), indent=1, ensure_ascii=False)
-            self._names[key] = self._objects.add(item.name, {"file": self._file_of(item, text)})
+            scene = scene_of(item, self._command, notes)
+            text = json.dumps(scene, indent=1, ensure_ascii=False)
+            name = self._names[key] = self._objects.add(item.name, {"file": self._file_of(item, text)})
+            for phase in scene.get("phases", ()):
+                self._material_names.add(f"{name}.{phase}", item.name, f"{name}.{phase}")
             self.digests.append(digest_of(text))
         self._objects.place(self._names[key], matrix, matrices)
 
