@@ -10,7 +10,7 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
 from . import cryptomatte, exr, last_report, preferences
-from .command import Cancelled, RenderProcess
+from .command import Cancelled, RenderProcess, UnusableCheckpoint
 from .notes import Kind, Notes, TranslationError
 from .passes import passes_of
 from .translate.scene import options_of, region_of, translate, write_scene
@@ -51,16 +51,29 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         command, scene = preferences.found_command(), depsgraph.scene
         self.update_stats("", "translating the scene")
         path = self.export_path or os.path.join(folder, "scene.json")
-        written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break, self._set_time)
+        written = write_scene(depsgraph, path, command, notes, self.camera_override, self._is_cancelled, self._set_time)
         self._meanings = written.meanings
         if self.export_path:
             return written.report
         options = options_of(scene, depsgraph.view_layer)
-        process = RenderProcess(command, path, folder, options, 0 if self.is_animation else scene.phasetree.update_interval)
+        interval, kept = 0 if self.is_animation else scene.phasetree.update_interval, checkpoint_of(depsgraph)
+        try:
+            process = RenderProcess(command, path, folder, options, interval, kept)
+            self._wait_for(process, depsgraph, notes)
+        except UnusableCheckpoint:
+            notes.information("the render started again, because the scene or its settings changed since the checkpoint")
+            os.remove(kept)
+            process = RenderProcess(command, path, folder, options, interval, kept)
+            self._wait_for(process, depsgraph, notes)
+        self._show(depsgraph, process.picture, is_last=True)
+        return written.report
+
+    def _wait_for(self, process, depsgraph, notes):
+        """Shows what a process renders until it ends."""
         status = None
         try:
             while not process.wait(0.1):
-                if self.test_break():
+                if self._is_cancelled():
                     raise Cancelled
                 if status != (process.stage, process.share):
                     status = (process.stage, process.share)
@@ -73,8 +86,9 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
                 notes.approximate(warning)
         finally:
             process.stop()
-        self._show(depsgraph, process.picture, is_last=True)
-        return written.report
+
+    def _is_cancelled(self):
+        return self.test_break()
 
     def _set_time(self, frame, subframe):
         self.frame_set(frame, subframe=subframe)
@@ -155,6 +169,23 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         losses = len(notes.of_kind(Kind.UNSUPPORTED)) + len(notes.of_kind(Kind.APPROXIMATE))
         if losses:
             self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
+
+
+def checkpoint_of(depsgraph):
+    """The file of a picture's checkpoint, in a folder that exists; empty if renders do not go on."""
+    scene = depsgraph.scene
+    if not scene.phasetree.keeps_checkpoints:
+        return ""
+    folder = bpy.path.abspath(scene.phasetree.checkpoint_folder)
+    if scene.phasetree.checkpoint_folder.startswith("//") and not bpy.data.filepath:
+        raise TranslationError("save the .blend file first, or choose a folder for checkpoints that does not begin with //")
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise TranslationError(f"cannot make the folder of checkpoints {folder}: {error.strerror}") from error
+    blend = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "unsaved"
+    name = f"{blend} {scene.name} {depsgraph.view_layer.name} {scene.frame_current:04}"
+    return os.path.join(folder, bpy.path.clean_name(name) + ".checkpoint")
 
 
 def fill(render_pass, made, channels):

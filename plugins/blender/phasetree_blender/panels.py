@@ -69,8 +69,10 @@ class PHASETREE_PT_sampling(PhasetreePanel, bpy.types.Panel):
     def draw(self, context):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        for name in ("samples", "seed", "denoise", "update_interval", "viewport_scale"):
+        for name in ("samples", "seed", "denoise", "update_interval", "viewport_scale", "keeps_checkpoints"):
             self.layout.prop(context.scene.phasetree, name)
+        if context.scene.phasetree.keeps_checkpoints:
+            self.layout.prop(context.scene.phasetree, "checkpoint_folder")
 
 
 class PHASETREE_PT_light_paths(PhasetreePanel, bpy.types.Panel):

@@ -37,6 +37,14 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
         subtype="TIME_ABSOLUTE",
         unit="TIME_ABSOLUTE",
     )
+    keeps_checkpoints: BoolProperty(
+        name="Resume",
+        description="Keep a checkpoint of each frame. A render that was cancelled goes on from it, and one that is complete "
+        "goes on when Samples grows. A changed scene starts again",
+    )
+    checkpoint_folder: StringProperty(
+        name="Folder", description="Folder of the checkpoints", default="//phasetree_checkpoints", subtype="DIR_PATH"
+    )
     motion_blur_position: EnumProperty(
         name="Position",
         description="When the shutter is open",
