@@ -98,6 +98,7 @@ class PHASETREE_PT_phases(PhasetreePanel, bpy.types.Panel):
         if report and report.phases:
             draw_text(self.layout, "Where objects overlap, the first keeps the space:")
             draw_phases(self.layout.column(align=True), report.phases)
+        self.layout.operator("phasetree.select_reported")
 
 
 class PHASETREE_PT_motion_blur(PhasetreePanel, bpy.types.Panel):
