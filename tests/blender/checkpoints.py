@@ -61,7 +61,7 @@ class Checkpoints(BlenderTest):
         self.assertEqual([name[-15:] for name in self.checkpoints()], ["0001.checkpoint", "0007.checkpoint"])
 
     def test_folder_that_cannot_be_made_gives_a_message(self):
-        for folder, wanted in (("//checkpoints", "save the .blend file first"), ("/proc/no", "cannot make the folder of checkpoints")):
+        for folder, wanted in (("//checkpoints", "save the .blend file first"), ("/proc/no", "cannot make the folder")):
             self.scene.phasetree.checkpoint_folder = folder
             with self.assertRaisesRegex(RuntimeError, wanted):
                 bpy.ops.render.render()

@@ -61,7 +61,8 @@ def wood_image(size=2048, boards=5):
     warp = 0.35 * noise(generator, size, size, 10, 3) + 0.1 * noise(generator, size, size, 60, 8)
     rings = 0.5 + 0.5 * np.sin(2 * math.pi * (9 * across + 7 * warp + 2.3 * board))
     fibre = noise(generator, size, size, 700, 14)
-    light = 0.45 + 0.3 * rings**1.5 + 0.3 * (fibre - 0.5) + 0.22 * (noise(generator, boards, 1, boards, 1).repeat(size, 1)[board[:, 0].astype(int)] - 0.5)
+    own = generator.random(boards)[board.astype(int)]  # of each board
+    light = 0.45 + 0.3 * rings**1.5 + 0.3 * (fibre - 0.5) + 0.22 * (own - 0.5)
     light *= np.where(np.minimum(across, 1 - across) < 0.006, 0.25, 1)
     colors = np.ones((size, size, 4), dtype=np.float32)
     colors[..., :3] = np.clip(light, 0.02, 1)[..., None] ** 1.3 * np.array([0.62, 0.37, 0.21])
@@ -179,10 +180,11 @@ def add_label(place):
     item = mesh_object("Label", vertices, faces, paper, smooth=True)
     item.location, item.rotation_euler.z = place, math.radians(14)
     band = material("Gold", (0.9, 0.62, 0.25), 0.25, Metallic=1.0)
+    narrow, outer = count - 12, 1.003 * radius
     for number, (bottom, top) in enumerate(((0.5, 0.53), (1.19, 1.22))):
-        strip = [(1.003 * radius * math.cos(a), 1.003 * radius * math.sin(a), z) for z in (bottom, top) for a in angles[6:-6]]
-        narrow = count - 12
-        item = mesh_object(f"Band {number + 1}", strip, [(i, i + 1, narrow + 2 + i, narrow + 1 + i) for i in range(narrow)], band, True)
+        strip = [(outer * math.cos(a), outer * math.sin(a), z) for z in (bottom, top) for a in angles[6:-6]]
+        faces = [(i, i + 1, narrow + 2 + i, narrow + 1 + i) for i in range(narrow)]
+        item = mesh_object(f"Band {number + 1}", strip, faces, band, smooth=True)
         item.location, item.rotation_euler.z = place, math.radians(14)
 
 
@@ -200,8 +202,8 @@ def add_tumbler(place, whisky):
 def add_martini(place):
     glass, gin = clear("Martini glass", 1.5), clear("Gin", 1.355, (0.86, 0.95, 0.72), 0.25)
     lathe("Martini", [
-        (0, 0), (0.42, 0.0, 0.012), (0.42, 0.025, 0.012), (0.1, 0.055, 0.25), (0.035, 0.18, 0.2), (0.035, 1.0, 0.12), (0.1, 1.12, 0.12),
-        (0.62, 1.78, 0.012), (0.6, 1.795, 0.01), (0.06, 1.135, 0.05), (0, 1.13),
+        (0, 0), (0.42, 0.0, 0.012), (0.42, 0.025, 0.012), (0.1, 0.055, 0.25), (0.035, 0.18, 0.2), (0.035, 1.0, 0.12),
+        (0.1, 1.12, 0.12), (0.62, 1.78, 0.012), (0.6, 1.795, 0.01), (0.06, 1.135, 0.05), (0, 1.13),
     ], glass, place)  # fmt: skip
     lathe("Gin", [(0, 1.1), (0.075, 1.125, 0.05), (0.49, 1.64), (0, 1.64)], gin, place)
     x, y, z = place
@@ -210,12 +212,14 @@ def add_martini(place):
     axis = Vector((0.82, 0.12, 0.52)).normalized()
     turn = axis.to_track_quat("Z", "Y")
     centre = Vector((x - 0.06, y - 0.03, z + 1.5))
-    lathe("Olive", [(0, -0.15), (0.07, -0.143, 0.05), (0.115, -0.08, 0.08), (0.125, 0.0, 0.1), (0.11, 0.09, 0.08), (0.06, 0.14, 0.03), (0, 0.13)],
-          olive, around=96, smooth=True)  # fmt: skip
+    lathe("Olive", [
+        (0, -0.15), (0.07, -0.143, 0.05), (0.115, -0.08, 0.08), (0.125, 0.0, 0.1), (0.11, 0.09, 0.08), (0.06, 0.14, 0.03), (0, 0.13),
+    ], olive, around=96, smooth=True)  # fmt: skip
     lathe("Pimento", [(0, 0.05), (0.042, 0.06, 0.01), (0.04, 0.14, 0.02), (0, 0.155)], pimento, around=64, smooth=True)
     steel = material("Steel", (0.85, 0.84, 0.82), 0.15, Metallic=1.0)
     lathe("Pick", [(0, -0.3), (0.016, -0.22), (0.016, 0.86, 0.005), (0, 0.87)], steel, around=48, smooth=True)
-    lathe("Knob", [(0, 0.84), (0.02, 0.845, 0.01), (0.038, 0.88, 0.03), (0.02, 0.92, 0.02), (0, 0.92)], steel, around=64, smooth=True)
+    knob = [(0, 0.84), (0.02, 0.845, 0.01), (0.038, 0.88, 0.03), (0.02, 0.92, 0.02), (0, 0.92)]
+    lathe("Knob", knob, steel, around=64, smooth=True)
     for name in ("Olive", "Pimento", "Pick", "Knob"):
         item = bpy.data.objects[name]
         item.location, item.rotation_mode, item.rotation_quaternion = centre, "QUATERNION", turn
@@ -234,7 +238,8 @@ def add_room():
         strength = lamp.node_tree.nodes["Principled BSDF"].inputs["Emission Strength"]
         strength.default_value = float(18 + 30 * generator.random())
         x, z = generator.uniform(-5.5, 5.5), generator.uniform(0.6, 5.0)
-        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.075, location=(x, 9 + 3 * generator.random(), z))
+        place = (x, 9 + 3 * generator.random(), z)
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.075, location=place)
         bpy.context.object.name = f"Lamp {number + 1}"
         bpy.context.object.data.materials.append(lamp)
 

@@ -14,7 +14,7 @@ import numpy as np
 
 OF_MESHES = "gltf "
 # Layers in Blender, the layers of the command that have their coverages, and the planes.
-MATERIAL, OBJECT, PHASE = "CryptoMaterial", "CryptoObject", "CryptoAsset"  # the node has these three, whatever they mean
+MATERIAL, OBJECT, PHASE = "CryptoMaterial", "CryptoObject", "CryptoAsset"  # Blender's node knows only these
 SOURCES = {MATERIAL: "CryptoMaterial", OBJECT: "CryptoMaterial", PHASE: "CryptoPhase"}
 PLANES = {MATERIAL: "crypto_material", OBJECT: "crypto_material", PHASE: "crypto_phase"}
 

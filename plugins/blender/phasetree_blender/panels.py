@@ -245,7 +245,8 @@ class PHASETREE_PT_material(PhasetreePanel, bpy.types.Panel):
 
 
 CLASSES = (
-    PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_motion_blur, PHASETREE_PT_film, PHASETREE_PT_phases, PHASETREE_PT_report,
+    PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_motion_blur, PHASETREE_PT_film, PHASETREE_PT_phases,
+    PHASETREE_PT_report,
     PHASETREE_PT_passes, PHASETREE_PT_light_groups, PHASETREE_PT_light_group_of_light, PHASETREE_PT_light_group_of_world,
     PHASETREE_PT_object, PHASETREE_PT_material,
 )  # fmt: skip

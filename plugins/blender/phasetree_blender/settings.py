@@ -56,8 +56,8 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
         default="CENTER",
     )
     motion_steps: IntProperty(
-        name="Steps", description="Times at which moving objects are looked at; more follow curved paths", default=3, min=2,
-        soft_max=9, max=65,
+        name="Steps", description="Times at which the places of moving objects are read; more follow curved paths", default=3,
+        min=2, soft_max=9, max=65,
     )  # fmt: skip
     viewport_scale: IntProperty(
         name="Viewport Scale",

@@ -54,7 +54,7 @@ class Motion:
 
 
 def key_of(instance):
-    """Tells instances apart, and stays the same from time to time."""
+    """Identifies an instance at all times."""
     parent = instance.parent.original.as_pointer() if instance.is_instance and instance.parent else 0
     return instance.object.original.as_pointer(), parent, tuple(instance.persistent_id) if instance.is_instance else ()
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import scene_materials
 
-FEW = 16  # at most so many places are written into the scene file, and others to a file beside it
+FEW = 16  # at most this many places are written into the scene file; more go to a file beside it
 
 
 def columns_of(matrices):
