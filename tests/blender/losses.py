@@ -31,7 +31,6 @@ class Losses(BlenderTest):
         light = bpy.data.objects["Light"]
         light.data.specular_factor = 0
         cube.visible_shadow = False
-        self.scene.render.use_motion_blur = True
         world = self.scene.world.node_tree
         world.links.new(world.nodes.new("ShaderNodeTexSky").outputs[0], world.nodes["Background"].inputs["Color"])
         notes, _ = self.check()
@@ -47,10 +46,9 @@ class Losses(BlenderTest):
             'not supported: object "Cube": it is visible to all rays, although ray visibility excludes shadow',
             'not supported: light "Light": "specular_factor" is ignored',
             'approximate: world "World": Sky Texture is rendered by another model of the atmosphere',
-            "not supported: motion blur is ignored",
         ):
             self.assertIn(wanted, notes)
-        self.assertEqual(len(notes.splitlines()), 12, notes)
+        self.assertEqual(len(notes.splitlines()), 11, notes)
         # A render reports the same.
         self.render()
         self.assertEqual(self.notes(), notes)

@@ -110,6 +110,16 @@ class Phases(BlenderTest):
         self.assertIn("it is left out", notes)
         self.render()  # the tube
 
+    def test_reported_objects_are_selected(self):
+        self.add_drink()
+        self.assertFalse(bpy.ops.phasetree.select_reported.poll())
+        bpy.ops.mesh.primitive_cylinder_add(end_fill_type="NOTHING", vertices=16, location=(5, 0, 0))
+        dress(bpy.context.object, self.glass).name = 'Tube "1"'
+        add_box("Apart", (8, 8, 8), (9, 9, 9), self.glass)
+        self.check()
+        bpy.ops.phasetree.select_reported()
+        self.assertEqual({item.name for item in bpy.context.selected_objects}, {"Cup", "Water", "Cube 1", 'Tube "1"'})
+
     def test_facets_of_smooth_glass_are_reported(self):
         bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
         dress(bpy.context.object, clear("Glass", 1.5)).name = "Ball"

@@ -27,7 +27,7 @@ class RenderedViewport(BlenderTest):
 
     def show_scene(self):
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        self.viewport.show(translation=translate(depsgraph, self.viewport.path(), Notes()))
+        self.viewport.show(translation=translate(depsgraph, self.viewport.path(), preferences.found_command(), Notes()))
 
     def show_camera(self):
         """Shows what the camera sees, by matrices as those of a viewport."""

@@ -18,9 +18,9 @@ except ImportError as error:
         "start Blender outside of virtual environments"
     ) from error
 
-from . import compatible_panels, engine, operators, panels, preferences, settings
+from . import compatible_panels, engine, operators, panels, preferences, settings, trees_ui
 
-PARTS = (preferences, settings, operators, engine, panels, compatible_panels)
+PARTS = (preferences, settings, operators, engine, panels, trees_ui, compatible_panels)
 
 
 def register():

@@ -20,6 +20,9 @@ MISSING = (
 )
 
 
+SECONDS_BETWEEN_KEPT_CHECKPOINTS, SECONDS_FOR_LAST_CHECKPOINT = 60, 60
+
+
 def find(preferred=""):
     """The path of the command: the preferred one, $PHASETREE_COMMAND, or one on PATH. Raises TranslationError."""
     for candidate in (preferred, os.environ.get("PHASETREE_COMMAND", ""), "phasetree"):
@@ -75,11 +78,12 @@ class Cancelled(Exception):
     """The user cancelled."""
 
 
-def run(arguments, cancelled):
-    """Runs a command to its end, or raises Cancelled."""
+def run(arguments, cancelled, **options):
+    """Runs a command to its end, or raises Cancelled. `options`: of Popen."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         try:
-            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **child_options())
+            options = {**options, **child_options()}
+            child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **options)
         except OSError as error:
             raise TranslationError(f"cannot run {arguments[0]}: {error.strerror}") from error
         try:
@@ -107,18 +111,29 @@ def end(child):
         child.wait()
 
 
+class UnusableCheckpoint(TranslationError):
+    """The checkpoint belongs to another scene, other settings or another build."""
+
+
 class RenderProcess:
     """`phasetree render` of a scene file. Writes an EXR file and, while it runs, checkpoints."""
 
-    def __init__(self, command, scene, folder, options, seconds_between_checkpoints):
+    def __init__(self, command, scene, folder, options, seconds_between_checkpoints, kept_checkpoint=""):
+        """`kept_checkpoint`: a file from which the render goes on if it exists, and which stays when the render ends."""
         self._command, self.picture = command, os.path.join(folder, "picture.exr")
         self._checkpoint, self._preview = os.path.join(folder, "checkpoint"), os.path.join(folder, "preview.exr")
-        self._age = None
         self._lines, self._scene = [], scene
         self.stage, self.share = "preparing", 0.0
         arguments = [command, "render", scene, "-o", self.picture, *options]
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(self._checkpoint)  # of an earlier render in this folder
+        self._is_kept, self.resumes = bool(kept_checkpoint), os.path.isfile(kept_checkpoint)
+        if self._is_kept:
+            self._checkpoint = kept_checkpoint
+            arguments += ["--resume", kept_checkpoint, "--or-start"]
+            seconds_between_checkpoints = seconds_between_checkpoints or SECONDS_BETWEEN_KEPT_CHECKPOINTS
+        else:
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(self._checkpoint)  # of an earlier render in this folder
+        self._age = os.stat(self._checkpoint).st_mtime_ns if self.resumes else None  # it may be of another scene
         if seconds_between_checkpoints > 0:
             arguments += ["--checkpoint", self._checkpoint, "--checkpoint-interval", f"{seconds_between_checkpoints:g}s"]
         try:
@@ -164,11 +179,18 @@ class RenderProcess:
         self._reader.join(5)
         if self._child.returncode != 0:
             code, text = self._child.returncode, message_of("\n".join(self._lines), self._scene)
+            if self.resumes and code == 2 and self._checkpoint in text:
+                raise UnusableCheckpoint(text)
             ended = f"phasetree was ended by signal {-code}" if code < 0 else f"phasetree failed with exit code {code}"
             raise TranslationError(f"{ended}: {text}" if self._lines else ended)
         return [line.removeprefix("warning: ").removeprefix(f"{self._scene}: ") for line in self._lines if "warning: " in line]
 
     def stop(self):
+        """Ends the render. One with a kept checkpoint may first write it."""
+        if self._is_kept and self._child.poll() is None:
+            self._child.terminate()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._child.wait(SECONDS_FOR_LAST_CHECKPOINT)
         end(self._child)
         self._reader.join(5)
         self._child.stderr.close()

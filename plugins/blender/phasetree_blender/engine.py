@@ -10,7 +10,7 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
 from . import cryptomatte, exr, last_report, preferences
-from .command import Cancelled, RenderProcess
+from .command import Cancelled, RenderProcess, UnusableCheckpoint
 from .notes import Kind, Notes, TranslationError
 from .passes import passes_of
 from .translate.scene import options_of, region_of, translate, write_scene
@@ -24,6 +24,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
 
+    _meanings = {}  # of the scene that is rendered: for Cryptomatte
     export_path = ""  # if set, a render only writes this scene file: Blender evaluates objects as for a render only then
 
     def update_render_passes(self, scene=None, renderlayer=None):
@@ -50,15 +51,29 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         command, scene = preferences.found_command(), depsgraph.scene
         self.update_stats("", "translating the scene")
         path = self.export_path or os.path.join(folder, "scene.json")
-        written = write_scene(depsgraph, path, command, notes, self.camera_override, self.test_break)
+        written = write_scene(depsgraph, path, command, notes, self.camera_override, self._is_cancelled, self._set_time)
+        self._meanings = written.meanings
         if self.export_path:
             return written.report
         options = options_of(scene, depsgraph.view_layer)
-        process = RenderProcess(command, path, folder, options, 0 if self.is_animation else scene.phasetree.update_interval)
+        interval, kept = 0 if self.is_animation else scene.phasetree.update_interval, checkpoint_of(depsgraph)
+        try:
+            process = RenderProcess(command, path, folder, options, interval, kept)
+            self._wait_for(process, depsgraph, notes)
+        except UnusableCheckpoint:
+            notes.information("the render started again, because the scene or its settings changed since the checkpoint")
+            os.remove(kept)
+            process = RenderProcess(command, path, folder, options, interval, kept)
+            self._wait_for(process, depsgraph, notes)
+        self._show(depsgraph, process.picture, is_last=True)
+        return written.report
+
+    def _wait_for(self, process, depsgraph, notes):
+        """Shows what a process renders until it ends."""
         status = None
         try:
             while not process.wait(0.1):
-                if self.test_break():
+                if self._is_cancelled():
                     raise Cancelled
                 if status != (process.stage, process.share):
                     status = (process.stage, process.share)
@@ -71,8 +86,12 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
                 notes.approximate(warning)
         finally:
             process.stop()
-        self._show(depsgraph, process.picture, is_last=True)
-        return written.report
+
+    def _is_cancelled(self):
+        return self.test_break()
+
+    def _set_time(self, frame, subframe):
+        self.frame_set(frame, subframe=subframe)
 
     def _show(self, depsgraph, file, is_last):
         """Hands the pixels of an EXR file to Blender."""
@@ -83,10 +102,13 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         if size != (y1 - y0, x1 - x0):
             raise TranslationError(f"phasetree rendered {size[1]} × {size[0]} pixels instead of {x1 - x0} × {y1 - y0}")
         result = self.begin_result(0, 0, x1 - x0, y1 - y0, layer=depsgraph.view_layer.name)
-        if depsgraph.view_layer.use_pass_cryptomatte_material:
-            ids = cryptomatte.renamed(channels, attributes)
-            for name, value in cryptomatte.metadata(depsgraph.view_layer.name, ids).items():
+        mattes = {}
+        for layer in cryptomatte.layers_of(depsgraph.view_layer):
+            renamed, ids = cryptomatte.renamed(layer, channels, attributes, self._meanings)
+            mattes.update(renamed)
+            for name, value in cryptomatte.metadata(depsgraph.view_layer.name, layer, ids).items():
                 self.get_result().stamp_data_add_field(name, value)
+        channels.update(mattes)
         for render_pass in result.layers[0].passes:
             if render_pass.name in made:
                 fill(render_pass, made[render_pass.name], channels)
@@ -110,7 +132,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         try:
             if self._viewport is None:
                 self._viewport = Viewport(preferences.found_command(), self.tag_redraw)
-            self._viewport.show(translation=translate(depsgraph, self._viewport.path(), notes))
+            self._viewport.show(translation=translate(depsgraph, self._viewport.path(), preferences.found_command(), notes))
         except TranslationError as error:
             self.update_stats("", str(error))
 
@@ -147,6 +169,23 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
         losses = len(notes.of_kind(Kind.UNSUPPORTED)) + len(notes.of_kind(Kind.APPROXIMATE))
         if losses:
             self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
+
+
+def checkpoint_of(depsgraph):
+    """The file of a picture's checkpoint, in a folder that exists; empty if renders do not go on."""
+    scene = depsgraph.scene
+    if not scene.phasetree.keeps_checkpoints:
+        return ""
+    folder = bpy.path.abspath(scene.phasetree.checkpoint_folder)
+    if scene.phasetree.checkpoint_folder.startswith("//") and not bpy.data.filepath:
+        raise TranslationError("save the .blend file first, or choose a folder for checkpoints that does not begin with //")
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise TranslationError(f"cannot make the folder of checkpoints {folder}: {error.strerror}") from error
+    blend = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "unsaved"
+    name = f"{blend} {scene.name} {depsgraph.view_layer.name} {scene.frame_current:04}"
+    return os.path.join(folder, bpy.path.clean_name(name) + ".checkpoint")
 
 
 def fill(render_pass, made, channels):

@@ -1,5 +1,6 @@
 """What the last translation of each scene reported. Panels draw it; a render thread cannot store it in the file."""
 
+import re
 from dataclasses import dataclass, field
 
 
@@ -22,6 +23,13 @@ def of(scene_name):
 
 def forget(scene_name):
     _reports.pop(scene_name, None)
+
+
+def object_names(report):
+    """Names of the objects that overlap, have a gap between them, or are open."""
+    pairs = re.findall(r'^"(.+)" and "(.+)" (?:overlap by|have a gap)', report.phases, re.MULTILINE)
+    opened = [found[1] for note in report.notes if (found := re.match(r'"(.+)" is not closed', note.text))]
+    return {name for pair in pairs for name in pair}.union(opened)
 
 
 def clear():

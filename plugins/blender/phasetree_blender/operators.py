@@ -33,11 +33,35 @@ class PHASETREE_OT_check(bpy.types.Operator):
         with tempfile.TemporaryDirectory(prefix="phasetree_") as folder:
             try:
                 depsgraph, path = context.evaluated_depsgraph_get(), os.path.join(folder, "scene.json")
-                phases = write_scene(depsgraph, path, preferences.found_command(), notes).report
+                phases = write_scene(
+                    depsgraph, path, preferences.found_command(), notes, evaluated=context.evaluated_depsgraph_get,
+                    set_time=lambda frame, subframe: context.scene.frame_set(frame, subframe=subframe),
+                ).report  # fmt: skip
             except TranslationError as error:
                 notes.error(str(error))
         last_report.keep(context.scene.name, notes, phases)
         return tell(self, context.scene)
+
+
+class PHASETREE_OT_select_reported(bpy.types.Operator):
+    bl_idname = "phasetree.select_reported"
+    bl_label = "Select Objects"
+    bl_description = "Select the clear objects that overlap, have a gap between them, or are open, by the last check or render"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return last_report.of(context.scene.name) is not None
+
+    def execute(self, context):
+        names = last_report.object_names(last_report.of(context.scene.name))
+        found = [item for item in context.view_layer.objects if item.name in names]
+        for item in context.view_layer.objects:
+            item.select_set(item in found)
+        if found:
+            context.view_layer.objects.active = found[0]
+        self.report({"INFO"}, f"Objects that overlap, have gaps or are open: {len(found)}")
+        return {"FINISHED"}
 
 
 class PHASETREE_OT_export(bpy.types.Operator, ExportHelper):
@@ -69,6 +93,7 @@ def menu_entry(self, _context):
 
 def register():
     bpy.utils.register_class(PHASETREE_OT_check)
+    bpy.utils.register_class(PHASETREE_OT_select_reported)
     bpy.utils.register_class(PHASETREE_OT_export)
     bpy.types.TOPBAR_MT_file_export.append(menu_entry)
 
@@ -76,5 +101,6 @@ def register():
 def unregister():
     bpy.types.TOPBAR_MT_file_export.remove(menu_entry)
     bpy.utils.unregister_class(PHASETREE_OT_export)
+    bpy.utils.unregister_class(PHASETREE_OT_select_reported)
     bpy.utils.unregister_class(PHASETREE_OT_check)
     last_report.clear()

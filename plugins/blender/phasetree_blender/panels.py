@@ -7,7 +7,7 @@ import bpy
 from . import last_report
 from .notes import Kind, Notes
 from .translate.materials import surface_of
-from .translate.meshes import WITH_MESHES
+from .translate.shapes import WITH_MESHES
 
 ICONS = {Kind.ERROR: "CANCEL", Kind.UNSUPPORTED: "ERROR", Kind.APPROXIMATE: "INFO", Kind.INFORMATION: "DOT"}
 
@@ -69,8 +69,10 @@ class PHASETREE_PT_sampling(PhasetreePanel, bpy.types.Panel):
     def draw(self, context):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        for name in ("samples", "seed", "denoise", "update_interval", "viewport_scale"):
+        for name in ("samples", "seed", "denoise", "update_interval", "viewport_scale", "keeps_checkpoints"):
             self.layout.prop(context.scene.phasetree, name)
+        if context.scene.phasetree.keeps_checkpoints:
+            self.layout.prop(context.scene.phasetree, "checkpoint_folder")
 
 
 class PHASETREE_PT_light_paths(PhasetreePanel, bpy.types.Panel):
@@ -96,6 +98,24 @@ class PHASETREE_PT_phases(PhasetreePanel, bpy.types.Panel):
         if report and report.phases:
             draw_text(self.layout, "Where objects overlap, the first keeps the space:")
             draw_phases(self.layout.column(align=True), report.phases)
+        self.layout.operator("phasetree.select_reported")
+
+
+class PHASETREE_PT_motion_blur(PhasetreePanel, bpy.types.Panel):
+    bl_label = "Motion Blur"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "use_motion_blur", text="")
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        self.layout.active = context.scene.render.use_motion_blur
+        blenders = hasattr(context.scene.render, "motion_blur_position")
+        self.layout.prop(context.scene.render if blenders else context.scene.phasetree, "motion_blur_position")
+        self.layout.prop(context.scene.render, "motion_blur_shutter")
+        self.layout.prop(context.scene.phasetree, "motion_steps")
 
 
 class PHASETREE_PT_film(PhasetreePanel, bpy.types.Panel):
@@ -133,7 +153,9 @@ class PHASETREE_PT_passes(PhasetreePanel, bpy.types.Panel):
         self.layout.prop(context.view_layer, "use_pass_normal", text="Normal")
         self.layout.prop(context.view_layer.phasetree, "use_pass_albedo")
         column = self.layout.column(heading="Cryptomatte")
+        column.prop(context.view_layer, "use_pass_cryptomatte_object", text="Object")
         column.prop(context.view_layer, "use_pass_cryptomatte_material", text="Material")
+        column.prop(context.view_layer, "use_pass_cryptomatte_asset", text="Phase (as Asset)")
 
 
 class PHASETREE_PT_light_groups(PhasetreePanel, bpy.types.Panel):
@@ -223,7 +245,8 @@ class PHASETREE_PT_material(PhasetreePanel, bpy.types.Panel):
 
 
 CLASSES = (
-    PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_film, PHASETREE_PT_phases, PHASETREE_PT_report,
+    PHASETREE_PT_sampling, PHASETREE_PT_light_paths, PHASETREE_PT_motion_blur, PHASETREE_PT_film, PHASETREE_PT_phases,
+    PHASETREE_PT_report,
     PHASETREE_PT_passes, PHASETREE_PT_light_groups, PHASETREE_PT_light_group_of_light, PHASETREE_PT_light_group_of_world,
     PHASETREE_PT_object, PHASETREE_PT_material,
 )  # fmt: skip

@@ -30,10 +30,10 @@ def passes_of(view_layer):
     for group in view_layer.lightgroups:
         channels = tuple(f"light_{group_name(group.name)}.{c}" for c in "RGB")
         found.append(Pass(f"Combined_{group.name}", channels, "RGB", "COLOR", "lights"))
-    if view_layer.use_pass_cryptomatte_material:
+    for layer in cryptomatte.layers_of(view_layer):
         for i in range(min(view_layer.pass_cryptomatte_depth, CRYPTOMATTE_RANKS) // 2):
-            name = f"{cryptomatte.LAYER}{i:02}"
-            found.append(Pass(name, tuple(f"{name}.{c}" for c in "RGBA"), "RGBA", "COLOR", "crypto_material"))
+            name = f"{layer}{i:02}"
+            found.append(Pass(name, tuple(f"{name}.{c}" for c in "RGBA"), "RGBA", "COLOR", cryptomatte.PLANES[layer]))
     return found
 
 

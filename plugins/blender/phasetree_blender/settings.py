@@ -1,7 +1,9 @@
 """Settings of scenes, view layers and objects, which are saved in .blend files."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import (
+    BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty,
+)  # fmt: skip
 
 
 class PhasetreeSceneSettings(bpy.types.PropertyGroup):
@@ -35,6 +37,28 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
         subtype="TIME_ABSOLUTE",
         unit="TIME_ABSOLUTE",
     )
+    keeps_checkpoints: BoolProperty(
+        name="Resume",
+        description="Keep a checkpoint of each frame. A render that was cancelled goes on from it, and one that is complete "
+        "goes on when Samples grows. A changed scene starts again",
+    )
+    checkpoint_folder: StringProperty(
+        name="Folder", description="Folder of the checkpoints", default="//phasetree_checkpoints", subtype="DIR_PATH"
+    )
+    motion_blur_position: EnumProperty(
+        name="Position",
+        description="When the shutter is open",
+        items=(
+            ("START", "Start on Frame", "The shutter opens at the frame"),
+            ("CENTER", "Center on Frame", "The shutter is open around the frame"),
+            ("END", "End on Frame", "The shutter closes at the frame"),
+        ),
+        default="CENTER",
+    )
+    motion_steps: IntProperty(
+        name="Steps", description="Times at which the places of moving objects are read; more follow curved paths", default=3,
+        min=2, soft_max=9, max=65,
+    )  # fmt: skip
     viewport_scale: IntProperty(
         name="Viewport Scale",
         description="Resolution of the rendered viewport, as a share of its pixels",
@@ -49,7 +73,30 @@ class PhasetreeViewLayerSettings(bpy.types.PropertyGroup):
     use_pass_albedo: BoolProperty(name="Albedo", description="Albedo of the first surface")
 
 
+class PhasetreeNumber(bpy.types.PropertyGroup):
+    """A number of an object's tree. Its value is the object's custom property of that name."""
+
+    pointer: StringProperty(name="Path", description="Its place in the scene file, such as /shapes/bowl/sphere/radius")
+
+
 class PhasetreeObjectSettings(bpy.types.PropertyGroup):
+    source: EnumProperty(
+        name="Tree",
+        description="Where the tree comes from that is rendered instead of the mesh",
+        items=(
+            ("NONE", "None", "An ordinary object: its mesh is rendered"),
+            ("FILE", "Scene File", "The tree and the materials of a scene file"),
+            ("TEXT", "Python", "The object of phases that the function `tree` in a text block returns"),
+        ),
+        default="NONE",
+    )
+    file: StringProperty(name="Scene File", description="A scene file of phasetree", subtype="FILE_PATH")
+    text: PointerProperty(name="Text", description="Python code that defines a function `tree`", type=bpy.types.Text)
+    numbers: CollectionProperty(type=PhasetreeNumber)
+    detail: IntProperty(
+        name="Detail", description="Grid points along the longest side of the mesh that the viewport shows", default=64, min=8,
+        max=1024, soft_max=256,
+    )  # fmt: skip
     role: EnumProperty(
         name="Role",
         description="What a clear object is",
@@ -91,12 +138,13 @@ class PhasetreeMaterialSettings(bpy.types.PropertyGroup):
 
 
 CLASSES = (PhasetreeSceneSettings, PhasetreeViewLayerSettings, PhasetreeObjectSettings, PhasetreeMaterialSettings)
+PARTS = (PhasetreeNumber,)  # of the groups above
 OWNERS = ((bpy.types.Scene, CLASSES[0]), (bpy.types.ViewLayer, CLASSES[1]), (bpy.types.Object, CLASSES[2]),
           (bpy.types.Material, CLASSES[3]))  # fmt: skip
 
 
 def register():
-    for group in CLASSES:
+    for group in (*PARTS, *CLASSES):
         bpy.utils.register_class(group)
     for owner, group in OWNERS:
         owner.phasetree = PointerProperty(type=group)
@@ -105,5 +153,5 @@ def register():
 def unregister():
     for owner, _ in OWNERS:
         del owner.phasetree
-    for group in reversed(CLASSES):
+    for group in reversed((*PARTS, *CLASSES)):
         bpy.utils.unregister_class(group)

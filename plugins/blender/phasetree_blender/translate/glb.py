@@ -45,6 +45,10 @@ class Glb:
         return {"attributes": attributes, "indices": self._accessor(triangles.reshape(-1), "SCALAR", UNSIGNED),
                 "material": material}  # fmt: skip
 
+    @property
+    def has_nodes(self):
+        return bool(self._json["scenes"][0]["nodes"])
+
     def mesh(self, name, primitives):
         return self._add("meshes", {"name": name, "primitives": primitives})
 

@@ -30,9 +30,15 @@ def read_layers(node, surface, notes):
         read_sheen(node, surface, notes)
         read_grain(node, surface, notes)
     # The reader makes layers of any extension but the specular one, which a metal does not have.
-    if any(surface.emission) and not surface.is_clear and not surface.extensions:
-        surface.extensions["KHR_materials_sheen"] = {"sheenColorFactor": [INVISIBLE] * 3, "sheenRoughnessFactor": 1.0}
+    if any(surface.emission) and not surface.is_clear:
+        make_layered(surface)
     read_specular_tint(node, surface, notes)
+
+
+def make_layered(surface):
+    """Makes the reader choose its layered material."""
+    if not surface.extensions:
+        surface.extensions["KHR_materials_sheen"] = {"sheenColorFactor": [INVISIBLE] * 3, "sheenRoughnessFactor": 1.0}
 
 
 def weight_of(node, name, notes):

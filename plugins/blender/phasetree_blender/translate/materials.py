@@ -4,7 +4,7 @@ import copy
 import math
 from dataclasses import dataclass, field
 
-from . import layers, sockets, textures, volumes
+from . import layers, mixes, sockets, textures, volumes
 from .sockets import constant
 
 # Inputs of the Principled BSDF that are ignored, and whose effect vanishes at 0.
@@ -36,6 +36,12 @@ class Surface:
     extensions: dict = field(default_factory=dict)  # layers, by glTF's names
     grain_axis: str = None  # the axis that anisotropy turns around; None: as the UV map
     uv_maps: set = field(default_factory=set)  # names; "" is the active one
+    mixture: tuple = None  # two surfaces, and the share of the second: a number or a textures.Channel
+
+    @property
+    def is_matt(self):
+        """Whether it only reflects diffusely, or is black."""
+        return self.ior == MATT and self.metallic == 0 and not (self.is_clear or self.metallic_image or self.roughness_image)
 
 
 # Diffuse reflection alone: with the smallest index that glTF's reader accepts, the coat reflects 0.002 %.
@@ -58,14 +64,19 @@ def surface_of(material, notes):
         if output and sockets.source(output.inputs["Volume"]):
             notes.unsupported("a volume without a surface; it is rendered as black")
         return surface
-    make = SHADERS.get(shader.node.bl_idname)
-    if make is None:
-        return fallback(material, shader.node, notes)
-    surface = make(shader.node, notes)
+    surface = shader_surface(material, shader.node, notes)
     volume = sockets.source(output.inputs["Volume"])
     if volume is not None:
         read_volume(volume.node, surface, notes)
     return surface
+
+
+def shader_surface(material, node, notes):
+    """The surface of a shader node."""
+    if node.bl_idname in mixes.SHADERS:
+        return mixes.SHADERS[node.bl_idname](node, notes, lambda part, notes: shader_surface(material, part, notes))
+    make = SHADERS.get(node.bl_idname)
+    return fallback(material, node, notes) if make is None else make(node, notes)
 
 
 def fallback(material, node, notes):

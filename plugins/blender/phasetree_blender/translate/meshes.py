@@ -1,133 +1,73 @@
-"""Evaluated objects as arrays of triangles, and as meshes of a glTF file."""
-
-from dataclasses import dataclass
+"""Shapes as meshes of a glTF file."""
 
 import numpy as np
 
-from . import materials
+from . import materials, scene_materials
+from .glb import Glb
+from .shapes import greatest_facet_angle, tangents_around
 from .texture_files import TextureFiles
-
-# Objects that Blender can convert to meshes.
-WITH_MESHES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-# Objects with something to see that is lost.
-UNSUPPORTED = {
-    "VOLUME": "volumes", "POINTCLOUD": "point clouds", "CURVES": "hair curves", "GPENCIL": "grease pencil strokes",
-    "GREASEPENCIL": "grease pencil strokes",
-}  # fmt: skip
-
-
-@dataclass
-class Triangles:
-    positions: np.ndarray  # of vertices
-    of_corners: np.ndarray  # the vertex of each corner of a face
-    normals: np.ndarray  # of corners
-    corners: np.ndarray  # (n, 3): those of each triangle
-    materials: np.ndarray  # the material slot of each triangle
-    coordinates: dict  # name: of corners; "" is the active UV map
-    generated: np.ndarray  # of vertices: places in the mesh's texture space, whose centre is 0
-
-
-def read(collection, attribute, columns, dtype):
-    values = np.empty(len(collection) * columns, dtype=dtype)
-    collection.foreach_get(attribute, values)
-    return values.reshape(-1, columns) if columns > 1 else values
-
-
-def triangles_of(mesh):
-    mesh.calc_loop_triangles()
-    if hasattr(mesh, "corner_normals"):  # from Blender 4.1
-        normals = read(mesh.corner_normals, "vector", 3, np.float32)
-    else:
-        mesh.calc_normals_split()
-        normals = read(mesh.loops, "normal", 3, np.float32)
-    coordinates = {}
-    for layer in mesh.uv_layers:
-        coordinates[layer.name] = read(layer.data, "uv", 2, np.float32)
-        if layer.active_render:
-            coordinates[""] = coordinates[layer.name]
-    return Triangles(
-        read(mesh.vertices, "co", 3, np.float32), read(mesh.loops, "vertex_index", 1, np.int32), normals,
-        read(mesh.loop_triangles, "loops", 3, np.int32), read(mesh.loop_triangles, "material_index", 1, np.int32), coordinates,
-        generated_of(mesh),
-    )  # fmt: skip
-
-
-def generated_of(mesh):
-    size = np.array(mesh.texspace_size)
-    return (read(mesh.vertices, "co", 3, np.float32) - np.array(mesh.texspace_location)) / np.where(size > 0, size, 1)
-
-
-def tangents_around(axis, places, normals):
-    """Tangents of glTF that turn around an axis of the texture space, as anisotropy does without a UV map."""
-    x, y, z = places.T
-    zero = np.zeros_like(x)
-    around = np.column_stack({"X": (zero, -z, y), "Y": (-z, zero, x), "Z": (-y, x, zero)}[axis])
-    around = around - normals * np.sum(normals * around, axis=1, keepdims=True)
-    length = np.linalg.norm(around, axis=1, keepdims=True)
-    return np.column_stack([around / np.where(length > 0, length, 1), np.ones_like(x)])
-
-
-def greatest_facet_angle(triangles, corners):
-    """The largest angle in degrees between a triangle and the normal that smooth shading gives one of its corners."""
-    p = triangles.positions[triangles.of_corners[corners]].astype(float)
-    flat = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    length = np.linalg.norm(flat, axis=1)
-    flat, smooth = flat[length > 0] / length[length > 0, None], triangles.normals[corners][length > 0]
-    cosines = np.einsum("ij,ikj->ik", flat, smooth)
-    return float(np.degrees(np.arccos(np.clip(cosines, -1, 1).min()))) if cosines.size else 0.0
 
 
 class MeshWriter:
-    """Adds objects to a glTF file. Instances of one object share a mesh."""
+    """Adds shapes to a glTF file. Instances of one shape share a mesh."""
 
-    def __init__(self, glb, millimetres, notes):
-        """`millimetres`: the length of Blender's unit."""
+    def __init__(self, glb, millimetres, notes, names):
+        """`millimetres`: the length of Blender's unit. `names`: of the materials that are written."""
+        self._names = names
         self._glb, self._millimetres, self._notes = glb, millimetres, notes
         self._meshes, self._materials, self._surfaces, self._files = {}, {}, {}, TextureFiles(glb)
         self.has_clear, self.is_empty = False, True
+        self.mixed = {}  # material: a glTF file of the surfaces that are a mix, and the mix
         self.media = {}  # material: parameters of the scene file's clear material that glTF lacks
 
-    def add(self, instance_object, matrix):
-        """Adds an evaluated object at a place, a 4×4 matrix."""
-        settings = instance_object.original.phasetree
-        key = (instance_object.original.as_pointer(), instance_object.data.as_pointer() if instance_object.data else 0)
+    def add(self, shape, matrix):
+        """Adds a shape at a place, a 4×4 matrix."""
+        key = id(shape)
         if key not in self._meshes:
-            self._meshes[key] = self._mesh_of(instance_object, settings.role == "OPAQUE")
-        mesh = self._meshes[key]
-        if mesh is None:
-            return
-        extras = {"phasetree_matter": settings.role.lower()} if settings.role in ("SOLID", "LIQUID", "GAS") else {}
-        if settings.priority:
-            extras["phasetree_priority"] = settings.priority
-        self._glb.node(instance_object.name, mesh, np.array(matrix, dtype=float), extras)
-        self.is_empty = False
+            self._meshes[key] = self._meshes_of(shape)
+        extras = {"phasetree_matter": shape.role.lower()} if shape.role in ("SOLID", "LIQUID", "GAS") else {}
+        if shape.priority:
+            extras["phasetree_priority"] = shape.priority
+        for glb, mesh in self._meshes[key]:
+            glb.node(shape.name, mesh, np.array(matrix, dtype=float), extras)
+            self.is_empty = False
 
-    def _mesh_of(self, item, is_opaque):
-        notes = self._notes.about(f'object "{item.name}"')
-        mesh = item.to_mesh()
-        if mesh is None:
-            return None
-        try:
-            if len(mesh.polygons) == 0:
-                return None
-            triangles = triangles_of(mesh)
-        finally:
-            item.to_mesh_clear()
-        if not np.isfinite(triangles.positions).all():
-            notes.error("has vertices whose coordinates are not finite; it is left out")
-            return None
-        slots = [slot.material for slot in item.material_slots] or [None]
-        numbers = np.minimum(triangles.materials, len(slots) - 1)
-        primitives = [
-            self._primitive(triangles, triangles.corners[numbers == slot], slots[slot], is_opaque, notes)
-            for slot in np.unique(numbers)
+    def is_clear(self, shape):
+        """Whether a shape is clear: True or False, or None if only some of its surfaces are."""
+        clear = {not shape.is_opaque and self.surface_of(shape.slots[slot]).is_clear for slot in shape.used_slots()}
+        return clear.pop() if len(clear) == 1 else None
+
+    def _meshes_of(self, shape):
+        """The shape's meshes, each with the glTF file that has it."""
+        notes = self._notes.about(f'object "{shape.name}"')
+        triangles, numbers, primitives = shape.triangles, shape.slot_numbers(), {}  # by the glTF file
+        for slot in shape.used_slots():
+            material = shape.slots[slot]
+            surface = self.surface_of(material)
+            glb = self._mixed_glb(material, surface, shape) if surface.mixture else self._glb
+            made = self._primitive(glb, triangles, triangles.corners[numbers == slot], material, shape, notes)
+            primitives.setdefault(glb, []).append(made)
+        return [(glb, glb.mesh(shape.name, parts)) for glb, parts in primitives.items()]
+
+    def _mixed_glb(self, material, surface, shape):
+        name = self._names.of(shape.name, material)
+        if name not in self.mixed:
+            glb = Glb()
+            glb.material({"name": name})
+            self.mixed[name] = (glb, surface)
+        return self.mixed[name][0]
+
+    def mixed_meshes(self, files):
+        """[(name, content of a glTF file, material of the scene file)] of the surfaces that are a mix."""
+        return [
+            (name, glb.content(), scene_materials.material_of(surface, files, self._about_name(name)))
+            for name, (glb, surface) in self.mixed.items()
         ]
-        return self._glb.mesh(item.name, primitives)
 
-    def _primitive(self, triangles, corners, material, is_opaque, notes):
-        surface = self._surface_of(material)
-        number = self._material_of(material, surface, is_opaque)
-        if surface.is_clear and not is_opaque:
+    def _primitive(self, glb, triangles, corners, material, shape, notes):
+        surface = self.surface_of(material)
+        number = 0 if surface.mixture else self._material_of(material, surface, shape)
+        if surface.is_clear and not shape.is_opaque:
             self.has_clear = True
             angle = greatest_facet_angle(triangles, corners)
             if angle > 3:
@@ -136,17 +76,20 @@ class MeshWriter:
                     "modifier"
                 )
             vertices, indices = np.unique(triangles.of_corners[corners], return_inverse=True)
-            return self._glb.primitive(triangles.positions[vertices], None, indices.reshape(-1, 3), None, number)
+            return glb.primitive(triangles.positions[vertices], None, indices.reshape(-1, 3), None, number)
         used, indices = np.unique(corners, return_inverse=True)
         coordinates = self._coordinates(triangles, surface, notes)
-        coordinates = None if coordinates is None else coordinates[used]
+        if coordinates is not None:
+            coordinates = coordinates[used]
+        elif surface.mixture and surface.uv_maps:  # the scene file's images need some
+            coordinates = np.zeros((len(used), 2))
         positions = triangles.positions[triangles.of_corners[used]]
         normals, tangents = triangles.normals[used], None
         if surface.grain_axis:
             tangents = tangents_around(surface.grain_axis, triangles.generated[triangles.of_corners[used]], normals)
             if coordinates is None:  # the reader drops tangents of meshes without coordinates
                 coordinates = np.zeros((len(used), 2))
-        return self._glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
+        return glb.primitive(positions, normals, indices.reshape(-1, 3), coordinates, number, tangents)
 
     def _coordinates(self, triangles, surface, notes):
         """The texture coordinates of corners as in glTF, where v points down; None without images."""
@@ -162,22 +105,25 @@ class MeshWriter:
         found = triangles.coordinates.get(name)
         return None if found is None else np.column_stack([found[:, 0], 1 - found[:, 1]])
 
+    def _about_name(self, name):
+        return self._notes.about(f'material "{self._names.meanings[name][1]}"')
+
     def _about(self, material):
         return self._notes.about(f'material "{material.name}"' if material else "")
 
-    def _surface_of(self, material):
+    def surface_of(self, material):
         key = material.original.as_pointer() if material else None
         if key not in self._surfaces:
             self._surfaces[key] = materials.surface_of(material, self._about(material))
         return self._surfaces[key]
 
-    def _material_of(self, material, surface, is_opaque):
-        key = (material.original.as_pointer() if material else None, is_opaque and surface.is_clear)
+    def _material_of(self, material, surface, shape):
+        is_opaque, name = shape.is_opaque, self._names.of(shape.name, material)
+        key = (name, material.original.as_pointer() if material else None, is_opaque and surface.is_clear)
         if key not in self._materials:
             notes = self._about(material)
-            if key[1]:
+            if key[-1]:
                 notes.information("is clear, but opaque on objects whose role is Opaque")
-            name = material.name if material else "Default"
             made = materials.gltf_of(surface, name, self._files, notes, is_opaque)
             if surface.is_clear and not is_opaque:
                 medium = materials.medium_of(surface, material, self._millimetres, notes)
