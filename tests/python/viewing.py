@@ -77,8 +77,7 @@ class Viewing(unittest.TestCase):
 
     def test_what_the_page_changes_comes_back(self):
         ball = pt.phase("a", pt.diffuse((0.5, 0.3, 0.1)))(pt.sphere(1))
-        view = pt.view(ball, open=False)
-        ready(view)
+        view = pt.view(ball, width=60, samples=1, open=False)
         self.assertEqual(view.scene().object, ball)
         edit(view, {"set": "/tree/set/of/sphere/radius", "to": "0.75"})
         self.assertEqual(view.scene().object, pt.phase("a", pt.diffuse((0.5, 0.3, 0.1)))(pt.sphere(0.75)))
