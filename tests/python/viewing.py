@@ -81,8 +81,8 @@ class Viewing(unittest.TestCase):
         self.assertEqual(view.scene().object, ball)
         edit(view, {"set": "/tree/set/of/sphere/radius", "to": "0.75"})
         self.assertEqual(view.scene().object, pt.phase("a", pt.diffuse((0.5, 0.3, 0.1)))(pt.sphere(0.75)))
-        edit(view, {"set": "/camera/fov", "to": "30"}, {"rename": "/phases/a", "to": "b", "references": True})
-        self.assertEqual(view.scene().camera, view.scene().camera.with_(fov=30))
+        edit(view, {"set": "/camera/thin_lens/fov", "to": "30"}, {"rename": "/phases/a", "to": "b", "references": True})
+        self.assertEqual(view.scene().camera.parameters()["fov"], 30)
         self.assertEqual([phase.name for phase in view.scene().object.phases[1:]], ["b"])
         # What comes back can be shown and changed again.
         view.show(view.scene())

@@ -4,10 +4,11 @@ built.
     PHASETREE_COMMAND=build/release/tracer/phasetree python3 tests/view/studio_tutorial.py tracer/manual/images
 
 Each picture is taken when the page's own picture is finished, and the recording shows few samples in between, so neither
-shows how long that takes. The recording needs Pillow (package python3-pil)."""
+shows how long that takes. PHASETREE_SAMPLES sets the samples per pixel of the pictures. The recording needs Pillow (package python3-pil)."""
 
 import base64
 import io
+import os
 import pathlib
 import sys
 import time
@@ -20,7 +21,8 @@ from browser import Browser  # noqa: E402
 from studio_user import EMPTY, User, build_glass_of_water  # noqa: E402
 from support import View  # noqa: E402
 
-NOISE_IS_SMALL = 8  # samples, of frames of the recording
+SAMPLES = os.environ.get("PHASETREE_SAMPLES", "64")  # of the pictures
+SAMPLES_OF_FRAMES = 2  # of the recording
 MOST_BYTES = 2_000_000
 FRAME, LAST_FRAME = 900, 4000  # milliseconds
 
@@ -63,7 +65,7 @@ class Recorder(User):
 
     def step(self, action):
         super().step(action)
-        self.settle(NOISE_IS_SMALL)
+        self.settle(SAMPLES_OF_FRAMES)
         self.record()
 
 
@@ -78,7 +80,7 @@ def save_recording(frames, file):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    with GlassView(EMPTY) as view, Browser(1280, 720) as browser:
+    with GlassView(EMPTY, "--samples", SAMPLES) as view, Browser(1280, 720) as browser:
         user = Recorder(browser)
         user.open(view.url)
 
