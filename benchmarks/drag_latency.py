@@ -86,7 +86,7 @@ def measure(view_type, browser, user, scene, steps):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--command", default=str(ROOT / "build/release/tracer/phasetree"))
-    parser.add_argument("--steps", type=int, default=15)
+    parser.add_argument("--steps", type=int, default=15, help="of each drag")
     parser.add_argument("--markdown", action="store_true", help="print a table for a document")
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()

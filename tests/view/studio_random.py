@@ -1,9 +1,7 @@
 """Random operations on a scene with undo and redo, as the studio's page sends them: the file is always the one that the
 history says, never an invalid one, and neither the server nor the page grows.
 
-PHASETREE_STUDIO_OPERATIONS sets the number of operations over HTTP; the long form has 10000:
-
-    PHASETREE_STUDIO_OPERATIONS=10000 PHASETREE_COMMAND=build/release/tracer/phasetree python3 tests/view/studio_random.py"""
+The long form (PHASETREE_LONG_TESTS=1) has 10,000 operations over HTTP, and 250 actions in the page."""
 
 import json
 import os
@@ -18,8 +16,8 @@ import browser  # noqa: E402
 from studio_user import User  # noqa: E402
 from support import View, skip  # noqa: E402
 
-OPERATIONS = int(os.environ.get("PHASETREE_STUDIO_OPERATIONS", "400"))
-IN_PAGE = max(150, OPERATIONS // 40)
+IS_LONG = os.environ.get("PHASETREE_LONG_TESTS") == "1"
+OPERATIONS, IN_PAGE = (10000, 250) if IS_LONG else (400, 120)
 MOST_CHARACTERS = 5000  # of the text, from which on parts are deleted rather than added
 
 SCENE = """{

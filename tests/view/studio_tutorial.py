@@ -80,7 +80,7 @@ def save_recording(frames, file):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    with GlassView(EMPTY, "--samples", SAMPLES) as view, Browser(1280, 720) as browser:
+    with GlassView(EMPTY, "--spp", SAMPLES) as view, Browser(1280, 720) as browser:
         user = Recorder(browser)
         user.open(view.url)
 
