@@ -206,7 +206,7 @@ class Editors(StudioCase):
         self.step(lambda: self.browser.press("Enter", "Enter", "\r"))
         self.assertEqual(self.scene()["shapes"]["pair"], {"over": [box, sphere]})
         self.assertEqual(self.tree(), {"over": [wood, "pair"]})
-        # Once more, from the palette; then in place of something.
+        # Once more, from the palette; then as the replacement of a part.
         self.click(self.row("Wood ball"))
         self.click("#add")
         self.choose("pair")
@@ -215,7 +215,7 @@ class Editors(StudioCase):
         self.click("[data-action=replace]")
         self.choose("pair")
         self.assertEqual(self.tree(), {"over": ["pair", "pair", "pair"]})
-        # A copy of its own is a reference no more.
+        # A copy of its own does not refer to the shape.
         self.click("[data-action=more]")
         self.menu("Make a copy of its own")
         self.assertEqual(self.tree(), {"over": [{"over": [box, sphere]}, "pair", "pair"]})

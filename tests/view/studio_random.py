@@ -14,11 +14,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import browser  # noqa: E402
 from studio_user import User  # noqa: E402
-from support import View, skip  # noqa: E402
+from support import PATIENCE, View, skip  # noqa: E402
 
 IS_LONG = os.environ.get("PHASETREE_LONG_TESTS") == "1"
 OPERATIONS, IN_PAGE = (10000, 250) if IS_LONG else (400, 120)
-MOST_CHARACTERS = 5000  # of the text, from which on parts are deleted rather than added
+MOST_CHARACTERS = 3000  # of the text, from which on parts are deleted rather than added
 
 SCENE = """{
   // Comments stay.
@@ -114,7 +114,10 @@ class Editor:
         return ("remove", [{"remove": choice(listed)["pointer"]}]) if listed else (None, [])
 
     def post(self, name, body):
-        answer = self.view.post(name, body)
+        try:
+            answer = self.view.post(name, body, timeout=60 * PATIENCE)
+        except TimeoutError as error:
+            raise AssertionError(f"no answer to {body}, for the scene {self.text}") from error
         self.read()
         return answer.status
 
@@ -164,6 +167,8 @@ class Random(unittest.TestCase):
                 if i % 50 == 0:
                     self.assertEqual(view.file.read_text(encoding="utf-8"), editor.text)
                     self.assert_valid(editor)
+                if i % 1000 == 999:
+                    print(i + 1, "operations", file=sys.stderr, flush=True)
                 if i == OPERATIONS // 4:
                     begun = kilobytes(view.process)
             grown = kilobytes(view.process) - begun

@@ -201,7 +201,8 @@ export class Handles {
       const c = Math.cos(degrees * Math.PI / 180), s = Math.sin(degrees * Math.PI / 180);
       return this.#seen(at(map, plus(times(a, size * c), times(b, size * s))));
     };
-    const places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(angle), next = point(angle + 7.5);
+    // The dot of what is not rotated yet is not behind an arrow.
+    const shown = entry ? angle : -50, places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(shown), next = point(shown + 7.5);
     if (!knob || !next || places.some((place) => !place)) return [];
     const path = makeSvg("path", {d: `M${places.map(({x, y}) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`});
     // Where the ring is seen from below, it turns the other way round.
