@@ -27,6 +27,16 @@ def ready(view, condition=lambda state: True):
     raise AssertionError(now)
 
 
+def edit(view, *operations):
+    """What the page sends when something is changed."""
+    with urllib.request.urlopen(view.url + "document") as answer:
+        base = json.loads(answer.read())["version"]
+    body = json.dumps({"base": base, "label": "Edit", "operations": operations}).encode()
+    request = urllib.request.Request(view.url + "document", body, {"Content-Type": "application/json"})
+    with urllib.request.urlopen(request) as answer:
+        return json.loads(answer.read())["version"]
+
+
 def is_served(url):
     try:
         with urllib.request.urlopen(url):
@@ -64,6 +74,26 @@ class Viewing(unittest.TestCase):
         self.assertFalse(is_served(view.url))
         self.assertFalse(os.path.exists(view.file))
         view.close()
+
+    def test_what_the_page_changes_comes_back(self):
+        ball = pt.phase("a", pt.diffuse((0.5, 0.3, 0.1)))(pt.sphere(1))
+        view = pt.view(ball, width=60, samples=1, open=False)
+        self.assertEqual(view.scene().object, ball)
+        edit(view, {"set": "/tree/set/of/sphere/radius", "to": "0.75"})
+        self.assertEqual(view.scene().object, pt.phase("a", pt.diffuse((0.5, 0.3, 0.1)))(pt.sphere(0.75)))
+        edit(view, {"set": "/camera/thin_lens/fov", "to": "30"}, {"rename": "/phases/a", "to": "b", "references": True})
+        self.assertEqual(view.scene().camera.parameters()["fov"], 30)
+        self.assertEqual([phase.name for phase in view.scene().object.phases[1:]], ["b"])
+        # What comes back can be shown and changed again.
+        view.show(view.scene())
+        edit(view, {"set": "/tree/set/of/sphere/radius", "to": "0.5"})
+        self.assertEqual(view.scene().object.phases[1].name, "b")
+        edit(view, {"set": "/tree/set/of/sphere/radius", "to": "-1"})
+        with self.assertRaisesRegex(pt.SceneError, "radius"):
+            view.scene()
+        view.close()
+        with self.assertRaisesRegex(pt.Error, "the view is closed"):
+            view.scene()
 
     def test_a_view_that_nobody_holds_ends(self):
         view = pt.view(small_scene(), open=False)

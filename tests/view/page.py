@@ -237,7 +237,10 @@ class Page(unittest.TestCase):
             self.assertTrue(any(role == "slider" and name.startswith(slider) for role, name in told), slider)
 
     def test_the_file_is_followed_and_its_errors_are_shown(self):
-        self.view.file.write_text(LARGER.replace('"radius": 0.5', '"raduis": 0.5'), encoding="utf-8")
+        # At once, so that nobody reads a file that is still empty.
+        written = self.view.file.with_suffix(".new")
+        written.write_text(LARGER.replace('"radius": 0.5', '"raduis": 0.5'), encoding="utf-8")
+        written.replace(self.view.file)
         self.browser.wait_for("!document.getElementById('error').hidden")
         error = self.text("error")
         self.assertIn("scene.json:3:", error)

@@ -150,6 +150,9 @@ class Catalogue(unittest.TestCase):
             sphere = kinds["field", "sphere"]
             self.assertEqual(json.loads(sphere["template"]), {"sphere": {"radius": 0.5}})
             self.assertEqual(sphere["parameters"][0]["control"], "length")
+            self.assertEqual(sphere["parameters"][0]["type"], "number")
+            points = next(p for p in kinds["field", "polygon"]["parameters"] if p["name"] == "points")
+            self.assertEqual(points["type"], "list of [x, y]s")
             if sphere["picture"]:
                 picture = view.get(sphere["picture"])
                 self.assertEqual(picture.headers["Content-Type"], "image/jpeg")

@@ -1161,14 +1161,19 @@ def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np
 class View:
     r"""A live view, served until close() is called or the program ends.
 
-    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, into which
-    the page can write a camera and numbers."""
+    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, which the
+    page edits."""
     def __init__(self, what, width=..., samples=..., threads=..., port=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def show(self, what):
         r"""Shows another object or scene on the same page.
 
 The camera stays as the user turned it, unless the camera of the new scene differs from that of the last one."""
+    def scene(self):
+        r"""The scene as the page has changed it, without what the tab View shows differently.
+
+An object that was shown without a scene has a sky, a camera and plain colours; `scene().object` is the object.
+Raises SceneError if the text that was typed in the page is wrong, and Error after close()."""
     def close(self):
         r"""Ends the view. The page then shows that it has lost the connection."""
     url: str

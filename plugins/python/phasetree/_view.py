@@ -14,7 +14,7 @@ import numpy as np
 from phasetree import _parts, _phasetree
 from phasetree._errors import Error
 from phasetree._phases import Phase
-from phasetree._scene import Scene
+from phasetree._scene import Scene, load
 from phasetree._trees import Object
 
 # A palette that colour-blind people can distinguish (Okabe and Ito, "Color Universal Design", 2008), as linear values.
@@ -60,8 +60,8 @@ def _as_scene(what):
 class View:
     """A live view, served until close() is called or the program ends.
 
-    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, into which
-    the page can write a camera and numbers.
+    url: the address of the page; anyone on this machine who knows it can see the page. file: the scene file, which the
+    page edits.
     """
 
     def __init__(self, what, width=None, samples=None, threads=0, port=0):
@@ -88,6 +88,16 @@ class View:
         The camera stays as the user turned it, unless the camera of the new scene differs from that of the last one.
         """
         _as_scene(what).save(self.file)
+
+    def scene(self):
+        """The scene as the page has changed it, without what the tab View shows differently.
+
+        An object that was shown without a scene has a sky, a camera and plain colours; `scene().object` is the object.
+        Raises SceneError if the text that was typed in the page is wrong, and Error after close().
+        """
+        if not self._end.alive:
+            raise Error("the view is closed, and its scene is gone; call scene() before close()")
+        return load(self.file)
 
     def close(self):
         """Ends the view. The page then shows that it has lost the connection."""

@@ -24,6 +24,7 @@ Json parameter_json(const KindParameter& p) {
     Json json;
     json["name"] = p.name;
     json["control"] = p.control;
+    json["type"] = p.type;
     json["low"] = limit(p.low);
     json["high"] = limit(p.high);
     json["low_open"] = p.low_is_open;

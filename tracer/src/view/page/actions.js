@@ -11,6 +11,7 @@ import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
 import {shortMessage} from "./server.js";
+import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
 import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
 
 const isSettings = (entry) => entry.type === "render" || entry.type === "scene";
@@ -97,13 +98,14 @@ export class Actions {
   }
   async add() {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type));
-    const kind = await this.#chosen("Add", withoutTwins(kinds, this.active));
+    const kind = await this.#chosen("Add", [...shapeKinds(this.#scene), ...withoutTwins(kinds, this.active)]);
     if (kind) await this.addKind(kind);
   }
   // Adds in a slot of an entry.
   async addTo(entry, slot) {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && (fits(slot.type, kind.type) || (fits(slot.type, "object") && kind.type === "field" && kind.chapter === "shapes")));
-    const kind = await this.#chosen(`Add to ${nameOf(entry, this.catalogue).toLowerCase()}`, withoutTwins(kinds, entry));
+    const shapes = shapeKinds(this.#scene).filter((kind) => fits(slot.type, kind.type));
+    const kind = await this.#chosen(`Add to ${nameOf(entry, this.catalogue).toLowerCase()}`, [...shapes, ...withoutTwins(kinds, entry)]);
     if (kind) await this.run(addedTo(this.#scene, entry, slot, kind, this.phases));
   }
   async addToSection(section, button = document.querySelector(`[data-key="${section.key}"]`)) {
@@ -127,15 +129,36 @@ export class Actions {
   }
   wrapMenu(button, entry = this.active) {
     if (!entry || !isNode(entry)) return this.#announcer.say("Select an object or a shape first.");
+    const several = this.selected.length > 1 && this.selected.includes(entry) ? this.selected : null;
     const items = wraps[entry.type].map((wrap) => wrap && {
-      text: wrap.text, icon: iconOf({kind: wrap.kind, type: entry.type}), run: () => this.wrap(entry, wrap.kind, wrap.in),
+      text: wrap.text, icon: iconOf({kind: wrap.kind, type: entry.type}), run: () => (several ? this.wrapTogether(several, wrap) : this.wrap(entry, wrap.kind, wrap.in)),
     });
-    openMenu(button, [...items, null, {text: "Something else …", icon: "search", run: () => this.wrapInAny(entry)}], {label: "Wrap the selection"});
+    const fill = entry.type === "object" && !several ? [{text: "Fill up to here", icon: "fill", run: () => this.fillTo(entry)}] : [];
+    const other = several ? [] : [null, {text: "Something else …", icon: "search", run: () => this.wrapInAny(entry)}];
+    openMenu(button, [...items, ...fill, ...other], {label: "Wrap the selection"});
   }
   wrap(entry, kindName, value = null) {
     const kind = this.catalogue.named(kindName, entry.type) ?? this.catalogue.named(kindName);
     const wrapper = value ? withPhases(value, this.#otherPhases(entry)) : wrapperOf(kind, entry.type, this.#otherPhases(entry), this.catalogue);
     return this.run(wrapped(entry, wrapper, kind?.title ?? kindName));
+  }
+  wrapTogether(entries, {kind: kindName, in: value, text}) {
+    const [first] = entries, kind = this.catalogue.named(kindName, first.type) ?? this.catalogue.named(kindName);
+    const wrapper = value ? withPhases(value, this.#otherPhases(first)) : wrapperOf(kind, first.type, this.#otherPhases(first), this.catalogue);
+    const step = wrappedTogether(entries, wrapper, text);
+    if (step) return this.run(step);
+    this.#announcer.say("To wrap several parts at once, select parts of the same list.");
+  }
+  // Up to the height of the point that was clicked last.
+  fillTo(entry = this.active) {
+    const level = this.pointed?.[2];
+    if (level === undefined) return this.#announcer.say("Click in the picture first: the level will be at that height.");
+    const step = filledTo(this.#scene, entry, level, this.#otherPhases(entry)[0]);
+    if (step) return this.run(step);
+    this.#announcer.say("Nothing has been cut out of the selection, so there is nothing to fill.", {isWrong: true});
+  }
+  stack(entries, isBelow) {
+    return this.run(stacked(entries, this.active, isBelow));
   }
   // A coat of the phase that is inside would not be seen.
   #otherPhases(entry) {
@@ -150,7 +173,8 @@ export class Actions {
   async replace(entry = this.active) {
     if (!entry || isSettings(entry)) return;
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && kind.kind !== entry.kind && (isNode(entry) ? mayStandAt(entry, kind.type) : kind.type === entry.type));
-    const kind = await this.#chosen(`Replace ${nameOf(entry, this.catalogue).toLowerCase()} with`, kinds);
+    const shapes = isNode(entry) ? shapeKinds(this.#scene).filter((kind) => mayStandAt(entry, kind.type) && kind.title !== entry.label) : [];
+    const kind = await this.#chosen(`Replace ${nameOf(entry, this.catalogue).toLowerCase()} with`, [...shapes, ...kinds]);
     const phases = [...entry.phases, ...this.phases.filter((name) => !entry.phases.includes(name))];
     if (kind) await this.run(replaced(entry, kind, phases, this.catalogue));
   }
@@ -178,12 +202,18 @@ export class Actions {
     if (step) return this.run(step);
     this.#announcer.say("There is nothing to remove: the selection wraps no other part that could stand in its place.");
   }
+  copyShape(entry = this.active) {
+    return this.run(ownCopy(this.#scene, entry));
+  }
+  async makeShapeOf(entries) {
+    const taken = keysAt(this.#scene.text, "/shapes"), name = await askName("Make a reusable shape", freeName(entries[0].type === "field" ? "shape" : "object", taken), "Make it reusable");
+    if (name) await this.run(shapeOfSeveral(this.#scene, entries, freeName(name, taken)));
+  }
   async makeShape(entry = this.active) {
     if (!entry || !isNode(entry) || entry.kind === "reference" || entry.pointer.startsWith("/shapes/") && !entry.parent?.parent) return;
     const name = await askName("Make a reusable shape", freeName(entry.type === "field" ? "shape" : "object", keysAt(this.#scene.text, "/shapes")), "Make it reusable");
     if (name) await this.run(namedShape(this.#scene, entry, freeName(name, keysAt(this.#scene.text, "/shapes"))));
   }
-  // Puts a named shape in place of something, or beside it.
   async rename(entry = this.active) {
     if (!entry?.label || entry.kind === "reference") return;
     const name = await askName("Rename", entry.label, "Rename");
@@ -215,9 +245,13 @@ export class Actions {
     ];
   }
   buttonsForMany(entries) {
-    const step = grouped(entries);
+    const step = grouped(entries), off = {isOff: !step, why: step ? "" : "Only parts of the same list can be grouped."}, {active} = this;
+    const stack = (text, icon, isBelow) => ({text, icon, isOff: !stacked(entries, active, isBelow), why: "The part that was selected last changes its place in an over or under.", run: () => this.stack(entries, isBelow)});
     return [
-      {text: "Group", icon: "group", keys: "Ctrl+G", isOff: !step, why: step ? "" : "Only parts of the same list can be grouped.", run: () => this.group()},
+      {text: "Group", icon: "group", keys: "Ctrl+G", ...off, run: () => this.group()},
+      {text: "Wrap: move, cut, coat, repeat …", icon: "wrap", keys: "W", ...off, run: (event) => this.wrapMenu(event.currentTarget, active)},
+      {text: "Make reusable …", icon: "link", ...off, run: () => this.makeShapeOf(entries)},
+      ...(active?.type === "object" ? [stack("Put the last under the others", "down", true), stack("Put the last over the others", "up", false)] : []),
       {text: "Delete all", icon: "delete", keys: "Delete", run: () => this.delete()},
     ];
   }
@@ -229,6 +263,7 @@ export class Actions {
       {text: "Replace …", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
       {text: "Remove the wrapper", icon: "unwrap", keys: "Ctrl+Shift+G", isOff: !node || !unwrapped(entry), run: () => this.unwrap(entry)},
       {text: "Make reusable …", icon: "link", isOff: !node || entry.kind === "reference" || !entry.parent, run: () => this.makeShape(entry)},
+      {text: "Make a copy of its own", icon: "duplicate", isOff: entry.kind !== "reference", run: () => this.copyShape(entry)},
       {text: "Rename …", icon: "text", keys: "F2", isOff: !entry.label || entry.kind === "reference", run: () => this.rename(entry)},
       null,
       {text: "Move up", icon: "up", keys: "Alt+↑", isOff: !listed || indexOf(entry) === 0, run: () => this.shift(-1)},

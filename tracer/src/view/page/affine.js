@@ -1,5 +1,6 @@
 // Affine maps of the tree's transforms, from a node's own coordinates to the scene's: p ↦ m p + t.
 import {parsed} from "./json_text.js";
+import {nowOf} from "./keyframes.js";
 import {isNode, pathTo} from "./structure.js";
 
 export const identity = {m: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], t: [0, 0, 0]};
@@ -27,15 +28,18 @@ function rotation([x, y, z], degrees) {
     [c * a * k - b * sin, c * b * k + a * sin, cos + c * c * k]];
 }
 
-export function valueOf(entry, name, fallback = null) {
-  const text = entry.parameters[name]?.text;
-  if (text === undefined || entry.parameters[name].keyed) return fallback;
+// A parameter of an entry as the file has it; what is too long to be shown is absent.
+export function writtenValueOf(entry, name, fallback = null) {
+  const text = entry.parameters[name]?.text ?? null;
   try {
-    return parsed(text);
+    return text === null ? fallback : parsed(text);
   } catch {
     return fallback;
   }
 }
+
+// A parameter of an entry, at the time of the picture.
+export const valueOf = (entry, name, fallback = null) => nowOf(writtenValueOf(entry, name, fallback));
 
 // The map of one node, from its content to itself.
 function ownMap(entry) {
@@ -48,6 +52,8 @@ function ownMap(entry) {
       return diagonal(factor, factor, factor);
     }
     case "stretch": return diagonal(...valueOf(entry, "factors", [1, 1, 1]));
+    // The section's y axis becomes the z axis.
+    case "revolve": return {m: [[1, 0, 0], [0, 0, -1], [0, 1, 0]], t: [valueOf(entry, "offset", 0), 0, 0]};
     default: return identity;
   }
 }

@@ -1,18 +1,26 @@
 // Handles over the picture for the selection: arrows that move it along the axes, a disc that moves it in the plane of
-// the picture, a ring that rotates it, and dots for end points and radii. The picture follows while they are dragged.
-import {at, mapTo, turned, unturned, valueOf} from "./affine.js";
+// the picture, a ring that rotates it, squares that scale it, and dots for its points and lengths. The picture follows
+// while they are dragged. A click on one types its numbers.
+import {at, mapTo, turned, unturned, valueOf, writtenValueOf} from "./affine.js";
 import {canProject, projected} from "./camera.js";
 import {makeSvg, newId} from "./dom.js";
-import {written} from "./json_text.js";
+import {follow, followed, rounded, typeNumbers} from "./handle_drag.js";
+import {handlesIn} from "./handle_places.js";
+import {parsed, written} from "./json_text.js";
+import {isKeyed, set} from "./keyframes.js";
+import {titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
-import {chainOf, isNode, membersOf} from "./structure.js";
+import {chainOf, isNode, pointerOf} from "./structure.js";
 
-const arrow = 64; // pixels
+const arrow = 64, square = 44, beside = 30; // pixels
 const axes = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
+const diagonals = [[1, 1], [-1, 1], [-1, -1], [0, 1]].map(([x, y]) => [x / Math.hypot(x, y), y / Math.hypot(x, y)]);
 const plus = (a, b) => a.map((x, i) => x + b[i]);
 const times = (a, k) => a.map((x) => x * k);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const precise = (v, step) => v.map((x) => Number((Math.round(x / step) * step).toPrecision(6)));
+const unit = (a) => times(a, 1 / Math.max(1e-12, Math.hypot(...a)));
+const hasHandles = (entry) => (isNode(entry) && entry.kind !== "reference") || ["light", "mesh", "camera"].includes(entry.type);
+const inSpace = (p) => [...p, 0, 0].slice(0, 3);
 
 export class Handles {
   #svg;
@@ -20,6 +28,7 @@ export class Handles {
   #scene;
   #entry = null;
   #drag = null;
+  catalogue = null;
 
   // `view` has camera() and canvas; `failed(error)` is called when the server rejects a step.
   constructor(svg, {view, scene, failed}) {
@@ -29,13 +38,14 @@ export class Handles {
     this.failed = failed;
   }
   select(entry) {
-    this.#entry = entry && isNode(entry) && entry.kind !== "reference" ? entry : null;
+    this.#entry = entry && hasHandles(entry) ? entry : null;
     this.show();
   }
   // Where a point is on the page, relative to the canvas, in pixels.
   #seen(p) {
     const {width, height} = this.#view.canvas.getBoundingClientRect();
-    const found = projected(this.#view.camera(), width / height, p);
+    // A drag of the camera itself changes the view.
+    const found = projected(this.#drag?.camera ?? this.#view.camera(), width / height, p);
     return found && {x: found.x * width, y: found.y * height, unit: found.height / height, axes: found.axes};
   }
   show() {
@@ -46,174 +56,240 @@ export class Handles {
     }
     this.#svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
     Object.assign(this.#svg.style, {width: `${box.width}px`, height: `${box.height}px`});
-    const chain = chainOf(this.#entry), mover = chain.find((entry) => entry.kind === "translate") ?? null;
-    const target = mover ?? this.#placeToWrap(chain);
-    const isPlane = chain.at(-1).kind === "plane" && !mover;
-    const parts = isPlane ? this.#offset(chain.at(-1)) : [...this.#points(chain), ...this.#radii(chain), ...this.#ring(chain), ...this.#arrows(target, mover)];
-    if (!this.#drag) this.#svg.replaceChildren(...parts);
-    else this.#follow();
+    if (this.#drag) this.#follow();
+    else this.#svg.replaceChildren(...this.#handles().map((handle) => this.#drawn(handle)));
   }
-  // A filled field is moved inside its filling, as in files written by hand.
-  #placeToWrap(chain) {
-    return chain[0].kind === "set" && chain.length > 1 ? chain[1] : chain[0];
+  // A handle has: name, part (SVG), value, valueAt(by, event), operations(value), and where its label is.
+  #handles() {
+    if (!isNode(this.#entry)) return this.#places([this.#entry]);
+    const chain = chainOf(this.#entry).filter(isNode), mover = chain.find((entry) => entry.kind === "translate") ?? null;
+    if (chain.at(-1).kind === "plane" && !mover) return this.#offset(chain.at(-1));
+    return [...this.#ring(chain), ...this.#arrows(chain, mover), ...this.#squares(chain), ...this.#places(chain)];
   }
-  #arrows(target, mover) {
-    if (mover && !Array.isArray(valueOf(mover, "by"))) return [];
-    const origin = at(mapTo(target, Boolean(mover)), [0, 0, 0]), centre = this.#seen(origin);
-    if (!centre) return [];
-    const parts = axes.map(([name, direction]) => {
-      const tip = this.#seen(plus(origin, times(direction, arrow * centre.unit)));
-      if (!tip) return null;
-      const long = Math.hypot(tip.x - centre.x, tip.y - centre.y);
-      if (long < 8) return null;
-      const group = this.#arrow(name, centre, tip);
-      group.addEventListener("pointerdown", (event) => this.#begin(event, target, mover, (dx, dy) => {
-        const along = [(tip.x - centre.x) / long, (tip.y - centre.y) / long];
-        return times(direction, (dx * along[0] + dy * along[1]) / long * arrow * centre.unit);
-      }, centre.unit));
-      return group;
+  #drawn(handle) {
+    const {name, part, label, value} = handle;
+    const text = makeSvg("text", {x: label.x + 12, y: label.y - 10, class: "reading"});
+    const group = makeSvg("g", {class: `handle ${handle.look ?? ""}`, "data-handle": name}, part, text);
+    const say = (now) => { text.textContent = `${titleOf(name)} ${[now].flat().map((c) => Number(c.toPrecision(5))).join(", ")}`; };
+    say(value);
+    group.addEventListener("pointerdown", (event) => this.#run(event, handle, say));
+    return group;
+  }
+  // Follows the pointer. A step is made only after the one before it has been accepted, because the first may wrap what
+  // the others change.
+  #run(event, handle, say) {
+    const merge = newId("handle"), send = this.#sender(handle, merge);
+    const hasBegun = follow(event, {
+      moved: (by, now) => {
+        this.#follow();
+        const value = handle.valueAt(by, now);
+        if (value === null) return;
+        say(value);
+        send(value);
+      },
+      ended: () => {
+        this.#drag = null;
+        this.show();
+      },
+      clicked: () => this.#type(handle, merge),
     });
-    const disc = makeSvg("circle", {cx: centre.x, cy: centre.y, r: 9, class: "plane"});
-    disc.addEventListener("pointerdown", (event) => this.#begin(event, target, mover,
-      (dx, dy) => plus(times(centre.axes.right, dx * centre.unit), times(centre.axes.up, -dy * centre.unit)), centre.unit));
-    return [...parts.filter(Boolean), disc];
+    if (hasBegun) this.#drag = {grip: event.currentTarget, camera: this.#view.camera()};
   }
-  // A plane moves along its normal.
-  #offset(plane) {
-    const normal = valueOf(plane, "normal", [0, 0, 1]), size = Math.hypot(...normal), offset = valueOf(plane, "offset", 0);
-    if (!(size > 0) || typeof offset !== "number") return [];
-    const map = mapTo(plane), direction = turned(map, times(normal, 1 / size)), stretch = Math.hypot(...direction);
-    const centre = this.#seen(at(map, times(normal, offset / size)));
-    const origin = at(map, times(normal, offset / size)), tip = centre && this.#seen(plus(origin, times(direction, arrow * centre.unit / stretch)));
-    if (!tip) return [];
-    const long = Math.hypot(tip.x - centre.x, tip.y - centre.y);
-    if (long < 8) return [];
-    const grip = this.#arrow("offset", centre, tip);
-    grip.addEventListener("pointerdown", (event) => this.#run(event, "Move the plane", (dx, dy) => {
-      const by = (dx * (tip.x - centre.x) + dy * (tip.y - centre.y)) / long ** 2 * arrow * centre.unit / stretch;
-      return [{set: joined(membersOf(plane), "offset"), to: written(precise([offset + by], 10 ** Math.floor(Math.log10(centre.unit)))[0])}];
-    }));
-    return [grip];
-  }
-  #arrow(name, from, to) {
-    const line = {x1: from.x, y1: from.y, x2: to.x, y2: to.y};
-    return makeSvg("g", {class: `axis ${name}`}, makeSvg("line", {...line, class: "grip"}), makeSvg("line", line), makeSvg("circle", {cx: to.x, cy: to.y, r: 6}));
-  }
-  // Drags by a vector of the scene, which `vectorOf` finds from the pointer's motion.
-  #begin(event, target, mover, vectorOf, unit) {
-    const map = mapTo(target, false), from = mover ? valueOf(mover, "by") : [0, 0, 0];
-    const step = 10 ** Math.floor(Math.log10(unit));
-    let isWrapped = mover !== null;
-    const pointer = mover ? joined(membersOf(mover), "by") : `${target.pointer}/translate/by`;
-    this.#run(event, "Move", (dx, dy) => {
-      const by = unturned(map, vectorOf(dx, dy));
-      if (!by) return null;
-      const value = written(precise(plus(from, by), step));
-      if (isWrapped) return [{set: pointer, to: value}];
-      isWrapped = true;
-      return [{wrap: target.pointer, in: `{"translate": {"by": ${value}, "of": null}}`}];
-    });
-  }
-  // Follows the pointer until it is released. A step is made only after the one before it has been accepted, because
-  // the first may wrap what the others change.
-  #run(event, label, operationsFor) {
-    if (event.button !== 0) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const grip = event.currentTarget, from = [event.clientX, event.clientY], merge = newId("handle");
+  #sender(handle, merge) {
     let next = null, isBusy = false;
     const send = async () => {
-      if (isBusy || !next) return;
-      const operations = operationsFor(next[0], next[1]);
+      if (isBusy || next === null) return;
+      const {value, gesture} = next;
       next = null;
-      if (!operations) return;
       isBusy = true;
-      await this.#scene.perform({label, operations, merge}).catch((error) => this.failed(error));
+      await this.#scene.perform({label: handle.step, operations: handle.operations(value), merge: gesture}).catch((error) => this.failed(error));
       isBusy = false;
       send();
     };
-    const move = (now) => {
-      next = [now.clientX - from[0], now.clientY - from[1]];
-      this.#drag.by = next;
-      this.#follow();
+    return (value, gesture = merge) => {
+      next = {value, gesture};
       send();
     };
-    const end = () => {
-      grip.removeEventListener("pointermove", move);
-      this.#drag = null;
-      this.show();
-    };
-    this.#drag = {by: [0, 0], grip};
-    grip.setPointerCapture(event.pointerId);
-    grip.addEventListener("pointermove", move);
-    grip.addEventListener("pointerup", end, {once: true});
-    grip.addEventListener("pointercancel", end, {once: true});
+  }
+  #type(handle, merge) {
+    const grip = [...this.#svg.children].find((part) => part.dataset.handle === handle.name) ?? this.#svg, send = this.#sender(handle, merge);
+    typeNumbers(grip, {title: titleOf(handle.name), value: handle.value, least: handle.least, unit: handle.unit, scale: Math.abs([handle.value].flat()[0]) || 1},
+      (value, gesture) => send(value, gesture ?? merge));
   }
   // While one is dragged, the others are hidden: where they belong is known again at the end.
   #follow() {
-    for (const part of this.#svg.children) part.classList.toggle("resting", part !== this.#drag.grip);
+    for (const part of this.#svg.children) {
+      part.classList.toggle("resting", part !== this.#drag.grip);
+      part.classList.toggle("dragged", part === this.#drag.grip);
+    }
   }
-  // A ring around the axis of the first rotation, with a dot that turns it.
+  // The step that sets a parameter, or an item of it, in its key at this time if it has keys.
+  #setting(entry, [name, ...indices], value) {
+    const old = writtenValueOf(entry, name), pointer = pointerOf(entry, name);
+    if (indices.length > 0 && old !== null && !isKeyed(old)) return [{set: joined(pointer, ...indices), to: written(value)}];
+    const whole = indices.length === 0 ? value : this.#valuesOf(entry)[name].map((item, i) => (i === indices[0] ? value : item));
+    return [{set: pointer, to: written(set(old, whole))}];
+  }
+  // The values of an entry's parameters, with those that are left out.
+  #valuesOf(entry) {
+    const specs = this.catalogue?.of(entry)?.parameters ?? [], values = {};
+    for (const spec of specs) values[spec.name] = spec.default === null || spec.default === undefined ? null : parsed(spec.default);
+    for (const name of Object.keys(entry.parameters)) values[name] = valueOf(entry, name);
+    return values;
+  }
+  // Sets a parameter of an entry, or wraps another entry in a node that has it.
+  #placing({entry, around, kind, name, more = {}}) {
+    let isWrapped = entry !== null;
+    return (value) => {
+      if (entry) return this.#setting(entry, [name], value);
+      const pointer = joined(around.pointer, kind, name);
+      if (isWrapped) return [{set: pointer, to: written(value)}];
+      isWrapped = true;
+      return [{wrap: around.pointer, in: written({[kind]: {...more, [name]: value, of: null}})}];
+    };
+  }
+  // Where a wrapper goes in a chain: inside its filling and what already places it, as in files written by hand.
+  #inside(chain, kinds) {
+    return chain.find((entry, i) => i === chain.length - 1 || !kinds.includes(entry.kind));
+  }
+  #arrows(chain, mover) {
+    const around = mover ? null : this.#inside(chain, ["set"]), target = mover ?? around, from = mover ? valueOf(mover, "by") : [0, 0, 0];
+    const origin = at(mapTo(target, Boolean(mover)), [0, 0, 0]), centre = this.#seen(origin), outer = mapTo(target, false);
+    if (!centre || !Array.isArray(from)) return [];
+    const common = {step: "Move", value: from, operations: this.#placing({entry: mover, around, kind: "translate", name: "by"})};
+    const moved = (vector, event) => {
+      const by = unturned(outer, vector);
+      return by && from.map((c, i) => (Math.abs(by[i]) < 1e-9 * Math.hypot(...by) ? c : rounded(c + by[i], centre.unit, event)));
+    };
+    const parts = axes.map(([name, direction]) => {
+      const tip = this.#seen(plus(origin, times(direction, arrow * centre.unit)));
+      if (!tip || Math.hypot(tip.x - centre.x, tip.y - centre.y) < 8) return null;
+      const valueAt = ([dx, dy], event) => {
+        const by = followed((p) => this.#seen(p), plus(origin, times(direction, arrow * centre.unit)), [direction], {x: tip.x + dx, y: tip.y + dy});
+        return by && moved(times(direction, by[0]), event);
+      };
+      return {...common, name: `move ${name}`, look: `axis ${name}`, label: tip, part: stem(centre, tip), valueAt};
+    });
+    const valueAt = ([dx, dy], event) => moved(plus(times(centre.axes.right, dx * centre.unit), times(centre.axes.up, -dy * centre.unit)), event);
+    return [...parts.filter(Boolean), {...common, name: "move", look: "plane", label: centre, part: circle(centre, 9), valueAt}];
+  }
+  // A plane moves along its normal.
+  #offset(plane) {
+    const {normal, offset} = {normal: valueOf(plane, "normal", [0, 0, 1]), offset: valueOf(plane, "offset", 0)}, size = Math.hypot(...normal);
+    if (!(size > 0) || typeof offset !== "number") return [];
+    const map = mapTo(plane), along = turned(map, times(normal, 1 / size)), origin = at(map, times(normal, offset / size)), centre = this.#seen(origin);
+    const end = centre && plus(origin, times(unit(along), arrow * centre.unit)), tip = centre && this.#seen(end);
+    if (!tip || Math.hypot(tip.x - centre.x, tip.y - centre.y) < 8) return [];
+    const valueAt = ([dx, dy], event) => {
+      const by = followed((p) => this.#seen(p), end, [along], {x: tip.x + dx, y: tip.y + dy});
+      return by && rounded(offset + by[0], centre.unit, event);
+    };
+    return [{name: "offset", look: "axis offset", step: "Move the plane", label: tip, part: stem(centre, tip), value: offset, valueAt,
+      operations: (value) => this.#setting(plane, ["offset"], value)}];
+  }
+  // A ring around the axis of the first rotation, or around the vertical axis, with a dot that turns it.
   #ring(chain) {
-    const entry = chain.find((one) => one.kind === "rotate"), angle = entry ? valueOf(entry, "angle") : null, axis = entry ? valueOf(entry, "axis", [0, 0, 1]) : null;
+    const entry = chain.find((one) => one.kind === "rotate") ?? null, around = entry ? null : this.#inside(chain, ["set", "translate"]);
+    const angle = entry ? valueOf(entry, "angle") : 0, axis = entry ? valueOf(entry, "axis", [0, 0, 1]) : [0, 0, 1];
     if (typeof angle !== "number" || !Array.isArray(axis) || !(Math.hypot(...axis) > 0)) return [];
-    const map = mapTo(entry, false), origin = at(map, [0, 0, 0]), centre = this.#seen(origin);
+    const map = mapTo(entry ?? around, false), centre = this.#seen(at(map, [0, 0, 0]));
     if (!centre) return [];
-    const along = times(axis, 1 / Math.hypot(...axis));
-    const [least] = [0, 1, 2].sort((i, j) => Math.abs(along[i]) - Math.abs(along[j]));
-    const first = cross(along, [0, 1, 2].map((i) => (i === least ? 1 : 0))), a = times(first, 1 / Math.hypot(...first)), b = cross(along, a);
+    const along = unit(axis), [least] = [0, 1, 2].sort((i, j) => Math.abs(along[i]) - Math.abs(along[j]));
+    const a = unit(cross(along, [0, 1, 2].map((i) => (i === least ? 1 : 0)))), b = cross(along, a);
     const size = 1.35 * arrow * centre.unit / Math.max(1e-9, Math.hypot(...turned(map, a)));
     const point = (degrees) => {
       const c = Math.cos(degrees * Math.PI / 180), s = Math.sin(degrees * Math.PI / 180);
       return this.#seen(at(map, plus(times(a, size * c), times(b, size * s))));
     };
-    const places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(angle);
-    if (!knob || places.some((place) => !place)) return [];
+    // The dot of what is not rotated yet is not behind an arrow.
+    const shown = entry ? angle : -50, places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(shown), next = point(shown + 7.5);
+    if (!knob || !next || places.some((place) => !place)) return [];
     const path = makeSvg("path", {d: `M${places.map(({x, y}) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`});
-    const group = makeSvg("g", {class: "ring"}, path, makeSvg("circle", {cx: knob.x, cy: knob.y, r: 6}));
     // Where the ring is seen from below, it turns the other way round.
-    const [p, q] = [point(angle), point(angle + 7.5)];
-    const sense = Math.sign((p.x - centre.x) * (q.y - centre.y) - (p.y - centre.y) * (q.x - centre.x)) || 1;
-    group.addEventListener("pointerdown", (event) => this.#run(event, "Rotate", (dx, dy) => {
+    const sense = Math.sign((knob.x - centre.x) * (next.y - centre.y) - (knob.y - centre.y) * (next.x - centre.x)) || 1;
+    const valueAt = ([dx, dy], event) => {
       const from = Math.atan2(knob.y - centre.y, knob.x - centre.x), to = Math.atan2(knob.y + dy - centre.y, knob.x + dx - centre.x);
-      const by = ((to - from) * sense * 180 / Math.PI + 540) % 360 - 180;
-      return [{set: joined(membersOf(entry), "angle"), to: written(Math.round(angle + by))}];
-    }));
-    return [group];
+      const turn = ((to - from) * sense * 180 / Math.PI + 540) % 360 - 180, grid = event.ctrlKey || event.metaKey ? 15 : event.shiftKey ? 0.1 : 1;
+      return Number((Math.round((angle + turn) / grid) * grid).toPrecision(6));
+    };
+    return [{name: "rotate", look: entry ? "ring" : "ring faint", step: "Rotate", label: knob, part: makeSvg("g", {}, path, circle(knob, 6)), value: angle, unit: "degrees",
+      valueAt, operations: this.#placing({entry, around, kind: "rotate", name: "angle", more: {axis: [0, 0, 1]}})}];
   }
-  // End points, such as those of a capsule.
-  #points(chain) {
-    const entry = chain.at(-1), map = mapTo(entry);
-    const names = ["from", "to", "centre", "target", "position"].filter((name) => Array.isArray(valueOf(entry, name)) && entry.kind !== "rotate");
-    return names.map((name) => {
-      const value = valueOf(entry, name);
-      if (value.length !== 3 || !value.every((x) => typeof x === "number")) return null;
-      const seen = this.#seen(at(map, value));
-      if (!seen) return null;
-      const dot = makeSvg("circle", {cx: seen.x, cy: seen.y, r: 6, class: "dot"});
-      dot.append(makeSvg("title"));
-      dot.lastChild.textContent = name;
-      dot.addEventListener("pointerdown", (event) => this.#run(event, `Move ${name}`, (dx, dy) => {
-        const by = unturned(map, plus(times(seen.axes.right, dx * seen.unit), times(seen.axes.up, -dy * seen.unit)));
-        return by && [{set: joined(membersOf(entry), name), to: written(precise(plus(value, by), 10 ** Math.floor(Math.log10(seen.unit))))}];
-      }));
-      return dot;
-    }).filter(Boolean);
-  }
-  // A dot at the rim of what has a radius, in the direction to the right of the picture.
-  #radii(chain) {
-    const entry = chain.at(-1), radius = valueOf(entry, "radius");
-    if (typeof radius !== "number" || !["sphere", "cylinder", "rounded_cylinder", "tube", "prism"].includes(entry.kind)) return [];
-    const map = mapTo(entry), centre = this.#seen(at(map, [0, 0, 0]));
+  // Squares that scale along the axes of the selection, and one for all axes.
+  #squares(chain) {
+    const placing = ["set", "translate", "rotate"], around = this.#inside(chain, placing);
+    const [scale, stretch] = ["scale", "stretch"].map((kind) => chain.find((entry) => entry.kind === kind) ?? null);
+    const map = mapTo(stretch ?? around, false), centre = this.#seen(at(mapTo(scale ?? stretch ?? around, false), [0, 0, 0]));
     if (!centre) return [];
-    const scale = Math.hypot(...turned(map, [1, 0, 0])), rim = radius * scale / centre.unit;
-    const dot = makeSvg("circle", {cx: centre.x + rim, cy: centre.y, r: 6, class: "dot"});
-    dot.append(makeSvg("title"));
-    dot.lastChild.textContent = "radius";
-    dot.addEventListener("pointerdown", (event) => this.#run(event, "Change radius", (dx) => {
-      const next = Math.max((rim + dx) * centre.unit / scale, centre.unit);
-      return [{set: joined(membersOf(entry), "radius"), to: written(precise([next], 10 ** Math.floor(Math.log10(centre.unit)))[0])}];
-    }));
-    return [dot];
+    const factors = stretch ? valueOf(stretch, "factors") : [1, 1, 1], factor = scale ? valueOf(scale, "factor") : 1;
+    const grown = (value, [dx, dy], along, event) => rounded(value * Math.max(0.02, 1 + (dx * along[0] + dy * along[1]) / square), value / square, event);
+    const parts = axes.map(([name, axis], i) => {
+      // Opposite to the arrows and to what has a length along the axis.
+      const direction = times(unit(turned(map, axis)), -1), tip = this.#seen(plus(at(map, [0, 0, 0]), times(direction, square * centre.unit)));
+      const size = tip ? Math.hypot(tip.x - centre.x, tip.y - centre.y) : 0;
+      if (size < 8 || !Array.isArray(factors)) return null;
+      const along = [(tip.x - centre.x) / size, (tip.y - centre.y) / size];
+      return {name: `scale ${name}`, look: `square ${name}`, step: "Stretch", label: tip, part: makeSvg("g", {}, line(centre, tip, "thin"), box(tip)), value: factors, least: 1e-4,
+        valueAt: (by, event) => factors.map((old, j) => (i === j ? grown(old, by, along, event) : old)),
+        operations: this.#placing({entry: stretch, around, kind: "stretch", name: "factors"})};
+    });
+    const corner = {x: centre.x + 0.8 * arrow, y: centre.y - 0.8 * arrow};
+    const all = {name: "scale", look: "square all", step: "Scale", label: corner, part: makeSvg("g", {}, line(centre, corner, "thin"), box(corner)), value: factor, least: 1e-4,
+      valueAt: (by, event) => grown(factor, times(by, square / (1.13 * arrow)), [0.7071, -0.7071], event),
+      operations: this.#placing({entry: scale, around: stretch ?? around, kind: "scale", name: "factor"})};
+    return [...parts.filter(Boolean), ...(typeof factor === "number" ? [all] : [])];
+  }
+  // Dots for what the kinds of a chain have: points, lengths, and numbers without a place.
+  #places(chain) {
+    let measures = 0;
+    return chain.flatMap((entry) => {
+      const map = mapTo(entry, false), values = this.#valuesOf(entry), specs = this.catalogue?.of(entry)?.parameters ?? [];
+      const middles = isNode(entry) ? [] : [values.centre, values.look_at, values.position].filter(Array.isArray);
+      const centre = [...middles, [0, 0, 0]].map((p) => this.#seen(at(map, p))).find((seen) => seen !== null);
+      if (!centre || !unturned(map, [1, 0, 0])) return [];
+      const facing = unit(unturned(map, centre.axes.right)), flat = [facing[0], facing[1], 0];
+      const found = handlesIn(entry, values, {facing, radial: Math.hypot(...flat) > 1e-3 ? unit(flat) : [1, 0, 0]});
+      return found.map((place) => {
+        const {low, high, low_open: isOpen} = specs.find((spec) => spec.name === place.path[0]) ?? {};
+        const limited = (value, grain) => Math.min(high ?? Infinity, Math.max(isOpen ? low + rounded(grain, grain) : low ?? -Infinity, value));
+        const handle = place.from ? this.#length(map, place, limited) : Array.isArray(place.value) ? this.#point(map, place) : this.#measure(map, place, limited, centre, measures++);
+        return handle && {...handle, name: place.name, look: `${handle.look ?? ""} dot`, value: place.value, least: low ?? undefined,
+          step: `Change ${place.name}`, operations: (value) => this.#setting(entry, place.path, value)};
+      }).filter(Boolean);
+    });
+  }
+  #length(map, {value, from, along}, limited) {
+    const end = at(map, plus(from, times(along, value))), vector = turned(map, along), tip = this.#seen(end), root = this.#seen(at(map, from));
+    if (!tip || !root || !followed((p) => this.#seen(p), end, [vector], tip)) return null;
+    const grain = tip.unit / Math.max(1e-9, Math.hypot(...vector));
+    const valueAt = ([dx, dy], event) => {
+      const by = followed((p) => this.#seen(p), end, [vector], {x: tip.x + dx, y: tip.y + dy});
+      return by && limited(rounded(value + by[0], grain, event), grain);
+    };
+    return {label: tip, part: makeSvg("g", {}, line(root, tip, "thin"), circle(tip, 6)), valueAt};
+  }
+  #point(map, {value, basis}) {
+    const p = at(map, inSpace(value)), tip = this.#seen(p);
+    if (!tip) return null;
+    const vectors = basis?.map((vector) => turned(map, vector)) ?? [tip.axes.right, tip.axes.up];
+    const valueAt = ([dx, dy], event) => {
+      const by = followed((q) => this.#seen(q), p, vectors, {x: tip.x + dx, y: tip.y + dy});
+      const change = by && (basis ? by : unturned(map, vectors.reduce((sum, v, i) => plus(sum, times(v, by[i])), [0, 0, 0])));
+      return change && value.map((c, i) => (Math.abs(change[i]) < 1e-9 * tip.unit ? c : rounded(c + change[i], tip.unit, event)));
+    };
+    return {label: tip, part: circle(tip, 6), valueAt};
+  }
+  // Beside the middle, from a dot that marks 0.
+  #measure(map, {value}, limited, centre, i) {
+    const grain = centre.unit / Math.max(1e-9, Math.hypot(...turned(map, [1, 0, 0]))), along = diagonals[i % diagonals.length];
+    const place = (pixels) => ({x: centre.x + along[0] * pixels, y: centre.y + along[1] * pixels});
+    const tip = place(beside + Math.max(-beside, Math.min(4 * arrow, value / grain)));
+    const valueAt = ([dx, dy], event) => limited(rounded(value + (dx * along[0] + dy * along[1]) * grain, grain, event), grain);
+    return {look: "measure", label: tip, part: makeSvg("g", {}, line(place(beside), tip, "thin"), circle(place(beside), 2.5), circle(tip, 6)), valueAt};
   }
 }
+
+const line = (a, b, look = "") => makeSvg("line", {x1: a.x, y1: a.y, x2: b.x, y2: b.y, class: look});
+const circle = ({x, y}, r) => makeSvg("circle", {cx: x, cy: y, r});
+const box = ({x, y}) => makeSvg("rect", {x: x - 5, y: y - 5, width: 10, height: 10});
+const stem = (from, to) => makeSvg("g", {}, line(from, to, "grip"), line(from, to), circle(to, 6));

@@ -7,7 +7,7 @@ import {isPlacing, nameOf} from "./names.js";
 import {ParameterRow, titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
 import {shortMessage} from "./server.js";
-import {chainOf, isNode, isSection, membersOf, pathTo} from "./structure.js";
+import {chainOf, isNode, isSection, membersOf, pathTo, pointerOf} from "./structure.js";
 import {swatchOf} from "./swatch.js";
 
 const mostAtOnce = 9; // parameters shown before the rest is folded
@@ -70,15 +70,15 @@ export class Inspector {
     this.context = {
       radius,
       phases: () => (scene.section("phases")?.children ?? []).map((entry) => entry.label),
-      set: (entry, name, text, gesture, row) => this.#perform(row, {
+      set: (entry, name, text, gesture, row, index) => this.#perform(row, {
         label: `Change ${titleOf(name).toLowerCase()} of ${nameOf(entry, this.catalogue).toLowerCase()}`,
         merge: gesture,
-        operations: [{set: joined(membersOf(entry), name), to: text}],
+        operations: [{set: index === undefined ? pointerOf(entry, name) : joined(pointerOf(entry, name), index), to: text}],
       }),
       fill: (entry, slot) => act.addTo(entry, {...slot, pointer: joined(membersOf(entry), slot.name)}),
       reset: (entry, name, row) => this.#perform(row, {
         label: `Reset ${titleOf(name).toLowerCase()}`,
-        operations: [{remove: joined(membersOf(entry), name)}],
+        operations: [{remove: pointerOf(entry, name)}],
       }),
     };
     this.failed = failed;
@@ -151,7 +151,10 @@ export class Inspector {
       make("button", {type: "button", class: "link", onclick: () => this.select(entry.target)}, "Edit the shape"));
     if (!kind) return make("p", {class: "about"}, "");
     const more = plainText(kind.help ?? "").split(/\n\s*\n/).slice(1).join("\n\n");
-    const text = make("span", {}, `${kind.title}. ${summaryOf(kind.help)}`);
+    const summary = summaryOf(kind.help), [word] = kind.title.split(" ");
+    // "Translates" says it already.
+    const isSaid = summary.toLowerCase().startsWith(word.toLowerCase());
+    const text = make("span", {}, isSaid ? summary : `${kind.title}. ${summary}`);
     if (more === "") return make("p", {class: "about"}, text);
     const rest = make("span", {hidden: true}, ` ${more}`);
     return make("p", {class: "about"}, text, rest, " ", make("button", {

@@ -46,6 +46,11 @@ const studio = new Studio({
   camera: () => camera,
   radius: () => state?.radius ?? 1,
   lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  seek: (seconds) => {
+    studio.showTime(seconds, state.times);
+    changes.make({time: seconds});
+  },
+  togglePlay: () => element("time-play").click(),
   changed: () => showErrors(),
   lost: (error) => { element("status").textContent = error.message; },
 });
@@ -114,6 +119,7 @@ function told(next, pixels) {
   cut.show(state);
   lists.direction.refresh();
   time.show(state);
+  studio.showTime(state.time, state.times);
   showLayers(state);
   if (document.activeElement !== exposure) showExposure(state.exposure);
   if (state.camera) {
@@ -151,7 +157,7 @@ function look(next) {
 const askAt = (x, y, selects) => attempt(async () => {
   const told = await ask(x, y);
   showPoint(element("point"), told, (pointer) => studio.selectNode(pointer));
-  if (selects) studio.selectNodes(told.path);
+  if (selects) studio.selectNodes(told.path, told.point);
   else tabs.show("point");
 });
 

@@ -1,10 +1,13 @@
 // Where entries of the outline stand, and what may stand there.
 import {fits} from "./catalogue.js";
-import {lastKey, parentOf} from "./pointer.js";
+import {joined, lastKey, parentOf} from "./pointer.js";
 
 export const isSection = (entry) => entry.isSection === true;
 export const isNode = (entry) => entry.type === "field" || entry.type === "object";
 export const membersOf = (entry) => entry.members;
+
+// The pointer of a parameter: what is written without its name has the pointer of its parent.
+export const pointerOf = (entry, name) => entry.parameters[name]?.pointer ?? joined(membersOf(entry), name);
 
 // The slot of its parent in which an entry stands, or null.
 export const slotOf = (entry) => entry.parent?.slots.find((slot) => slot.name === entry.slot) ?? null;

@@ -11,7 +11,9 @@ import {Selection} from "./selection.js";
 import {askCatalogue, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
 import {at, mapTo} from "./affine.js";
+import {present} from "./keyframes.js";
 import {TextDrawer} from "./text_drawer.js";
+import {Timeline} from "./timeline.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -19,7 +21,7 @@ export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), changed() and lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), seek(seconds), togglePlay(), changed() and lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -40,6 +42,10 @@ export class Studio {
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
     this.handles = new Handles(element("handles"), {view, scene: this.scene, failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true})});
     this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem"), names: element("text-names")}, this.scene);
+    this.timeline = new Timeline(element("timeline"), this.scene, {
+      entry: () => this.actions.active, catalogue: () => this.#catalogue, seek: view.seek, togglePlay: view.togglePlay,
+      failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true}),
+    });
     this.scene.addEventListener("change", (event) => this.#changed(event.detail));
     this.selection.addEventListener("change", () => this.#selected());
     this.#connectButtons();
@@ -55,9 +61,18 @@ export class Studio {
       return;
     }
     this.scene.follow((error) => this.view.lost(error));
-    this.actions.catalogue = this.text.catalogue = this.#catalogue;
+    this.actions.catalogue = this.text.catalogue = this.handles.catalogue = this.#catalogue;
     this.outliner.use(this.#catalogue);
     this.inspector.use(this.#catalogue);
+  }
+  // Shows the scene at a time; `span` is the time from its first key to the last, or null.
+  showTime(seconds, span) {
+    if (present.seconds === seconds && JSON.stringify(present.span) === JSON.stringify(span)) return;
+    Object.assign(present, {seconds, span});
+    if (!this.#catalogue) return;
+    this.inspector.show();
+    this.handles.show();
+    this.timeline.show();
   }
   #connectButtons() {
     const {actions} = this, run = {
@@ -88,6 +103,7 @@ export class Studio {
     }
     this.inspector.show();
     this.text.show();
+    this.timeline.show();
     this.handles.select(this.actions.active);
     element("undo").disabled = scene.undo === null;
     element("redo").disabled = scene.redo === null;
@@ -102,6 +118,7 @@ export class Studio {
   #selected() {
     const {active} = this.actions;
     this.handles.select(active);
+    this.timeline.show();
     if (active) this.outliner.reveal(active.key);
     this.text.reveal(active?.line);
     if (active && this.view.tabs.shown === "view") this.view.tabs.show("edit");
@@ -111,7 +128,8 @@ export class Studio {
     return pointer === "" ? null : this.scene.entries.find((entry) => !isSection(entry) && (membersOf(entry) === pointer || entry.pointer === pointer)) ?? null;
   }
   // Selects what the picture shows at a point: the whole thing first, and then what it is made of.
-  selectNodes(path) {
+  selectNodes(path, point = null) {
+    if (point) this.actions.pointed = point;
     if (!this.scene.hasOutline) return void (this.#whenOutlined = () => this.selectNodes(path));
     const entries = path.map((node) => this.entryOf(node.pointer)).filter(Boolean), deepest = entries.at(-1);
     if (!deepest) {
