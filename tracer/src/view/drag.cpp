@@ -21,7 +21,7 @@ constexpr double farthest_back = 2;
 
 class Drag {
   public:
-    Drag(const VariedObject& object, const SurfacePoint& grabbed, std::span<const DragParameter> parameters,
+    Drag(const VariedObject& object, const InterfacePoint& grabbed, std::span<const DragParameter> parameters,
          const DragTarget& target)
         : object_(object), point_(grabbed), parameters_(parameters), target_(target) {
         for (const DragParameter& p : parameters_) values_.push_back(p.value);
@@ -37,7 +37,7 @@ class Drag {
     Dragged result() {
         const double begin = static_cast<double>(object_.readings());
         const std::vector<double> first = values_;
-        const SurfacePoint grabbed = point_;
+        const InterfacePoint grabbed = point_;
         bool sticks = stick();
         if (!sticks) {
             values_ = first;
@@ -76,7 +76,7 @@ class Drag {
     }
     double close() const { return close_enough * target_.pixel; }
 
-    std::vector<Influence> influences_at(const SurfacePoint& p) const {
+    std::vector<Influence> influences_at(const InterfacePoint& p) const {
         std::vector<Influence> result;
         for (const DragParameter& parameter : parameters_)
             result.push_back(influence_of(object_, numbers(values_), p, parameter));
@@ -230,7 +230,7 @@ class Drag {
     }
 
     const VariedObject& object_;
-    SurfacePoint point_;
+    InterfacePoint point_;
     std::span<const DragParameter> parameters_;
     DragTarget target_;
     std::vector<double> values_;
@@ -239,7 +239,7 @@ class Drag {
 
 }  // namespace
 
-Dragged drag(const VariedObject& object, const SurfacePoint& grabbed, std::span<const DragParameter> parameters,
+Dragged drag(const VariedObject& object, const InterfacePoint& grabbed, std::span<const DragParameter> parameters,
              const DragTarget& target) {
     return Drag(object, grabbed, parameters, target).result();
 }

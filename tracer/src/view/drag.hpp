@@ -38,7 +38,7 @@ struct Dragged {
 
 /// Drags a point of a surface. `object` has the numbers that it had when the point was grabbed. Without parameters, the
 /// result is the point itself.
-Dragged drag(const VariedObject& object, const SurfacePoint& grabbed, std::span<const DragParameter> parameters,
+Dragged drag(const VariedObject& object, const InterfacePoint& grabbed, std::span<const DragParameter> parameters,
              const DragTarget& target);
 
 }  // namespace phasetree::tracer::view

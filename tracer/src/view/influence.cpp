@@ -97,7 +97,7 @@ bool is_usable(const InterfaceSample& s) {
 // Finds the numbers that f or q depends on.
 class Search {
   public:
-    Search(const VariedObject& object, const SurfacePoint& point, std::span<const DragParameter> parameters)
+    Search(const VariedObject& object, const InterfacePoint& point, std::span<const DragParameter> parameters)
         : object_(object), point_(point), parameters_(parameters), base_(sample({})) {
         const double farthest = glm::length(point.position) + object.size();
         const auto evaluator = object.with({});
@@ -140,7 +140,7 @@ class Search {
     }
 
     const VariedObject& object_;
-    const SurfacePoint& point_;
+    const InterfacePoint& point_;
     std::span<const DragParameter> parameters_;
     InterfaceSample base_;
     double noise_ = 0;
@@ -166,7 +166,7 @@ std::vector<DragParameter> drag_parameters(const Document& document, const studi
     return std::move(collector.found);
 }
 
-Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const SurfacePoint& point,
+Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const InterfacePoint& point,
                        const DragParameter& p) {
     const double value = number_at(numbers, p), step = step_of(p, value);
     const auto sample = [&](double to) -> InterfaceSample {
@@ -195,7 +195,7 @@ Influence influence_of(const VariedObject& object, const NumberEdits& numbers, c
     return {p, slope, motion, glm::length(motion) * p.scale / object.size()};
 }
 
-std::vector<Influence> influences(const VariedObject& object, const SurfacePoint& point,
+std::vector<Influence> influences(const VariedObject& object, const InterfacePoint& point,
                                   std::span<const DragParameter> parameters) {
     std::vector<Influence> result;
     for (const std::size_t i : Search(object, point, parameters).found()) {

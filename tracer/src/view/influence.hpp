@@ -53,7 +53,7 @@ struct DragParameter {
 std::vector<DragParameter> drag_parameters(const Document& document, const studio::Vocabulary& vocabulary, double size);
 
 /// A point of the surface between two phases.
-struct SurfacePoint {
+struct InterfacePoint {
     Phase inside, outside;
     glm::dvec3 position{0};
 };
@@ -68,11 +68,11 @@ struct Influence {
 };
 
 /// The influence of one number, after `numbers` have been replaced.
-Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const SurfacePoint& point,
+Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const InterfacePoint& point,
                        const DragParameter& parameter);
 
 /// The numbers that move a point, from the strongest to the weakest.
-std::vector<Influence> influences(const VariedObject& object, const SurfacePoint& point,
+std::vector<Influence> influences(const VariedObject& object, const InterfacePoint& point,
                                   std::span<const DragParameter> parameters);
 
 }  // namespace phasetree::tracer::view
