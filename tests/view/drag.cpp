@@ -52,8 +52,8 @@ class Viewed {
     // The surface that is seen at a place of the picture.
     std::optional<InterfacePoint> seen_at(const glm::dvec2& place) const {
         const CameraRay ray = camera_.generate(place, glm::vec2(0.5f));
-        const auto crossing = tracer_.first_crossing(ray.origin, ray.direction, 0, 1e6f, std::nullopt,
-                                                     Evaluator::thread_workspace());
+        const auto crossing =
+            tracer_.first_crossing(ray.origin, ray.direction, 0, 1e6f, std::nullopt, Evaluator::thread_workspace());
         if (!crossing) return std::nullopt;
         return InterfacePoint{crossing->to, crossing->from, glm::dvec3(crossing->p_in)};
     }
@@ -80,6 +80,19 @@ class Viewed {
             if (changed.label(p - reach * target.pixel * normal) != changed.label(p + reach * target.pixel * normal))
                 return aside + reach;
         return 2;
+    }
+    // The direction of a motion in the picture; to the right for one along the ray.
+    glm::dvec2 direction_of(const Influence& one, const glm::dvec2& from, const glm::dvec3& p) const {
+        const auto aside = [&](const glm::dvec2& place) {
+            const CameraRay r = camera_.generate(place, glm::vec2(0.5f));
+            const glm::dvec3 d = glm::normalize(glm::dvec3(r.direction)), o(r.origin);
+            return (o - p) - d * glm::dot(o - p, d);
+        };
+        const glm::dvec3 here = aside(from), x = aside(from + glm::dvec2(1, 0)) - here,
+                         y = aside(from + glm::dvec2(0, 1)) - here;
+        const glm::dvec2 seen(glm::dot(one.motion, x) / glm::dot(x, x), glm::dot(one.motion, y) / glm::dot(y, y));
+        const double length = glm::length(seen) * glm::length(x);
+        return length > 0.05 * glm::length(one.motion) ? glm::normalize(seen) : glm::dvec2(1, 0);
     }
     glm::ivec2 resolution() const { return scene_.film.resolution(); }
 
@@ -116,7 +129,7 @@ TEST_CASE("the surface follows the pointer within a pixel, for every number that
             std::string text = studio;
             text.replace(text.find("@TREE@"), 6, text_of(entry.path()));
             const auto begin = std::chrono::steady_clock::now();
-            const Viewed viewed(text, entry.path().string());
+            const Viewed viewed(text, (nodes / "studio.json").string());
             std::map<std::string, Outcome> outcomes;
             int points = 0;
             std::size_t readings = 0;
@@ -130,23 +143,38 @@ TEST_CASE("the surface follows the pointer within a pixel, for every number that
                     for (const Influence& one : found) {
                         Outcome& outcome = outcomes[one.parameter.pointer];
                         if (outcome.drags >= 8 || one.strength < 0.02) continue;
-                        for (const auto& by : {glm::dvec2(6, 0), glm::dvec2(-4, 4)}) {
+                        const glm::dvec2 along = viewed.direction_of(one, from, point->position);
+                        for (const auto& by : {6.0 * along, -6.0 * along}) {
                             const DragTarget target = viewed.target(from, from + by, point->position);
                             const DragParameter alone[] = {one.parameter};
                             const Dragged dragged = drag(viewed.object, *point, alone, target);
                             readings += dragged.readings;
                             ++outcome.drags;
                             outcome.strength = std::max(outcome.strength, one.strength);
-                            if (dragged.miss > 0.5) continue;
+                            if (!dragged.follows) {
+                                if (std::getenv("ONLY"))
+                                    fmt::print(
+                                        "      fail {} from {} {} by {:.2f} {:.2f}: miss {} sticks {} strength {} "
+                                        "value {} -> {} cos {:.3f} flat {:.3f}\n",
+                                        one.parameter.pointer, from.x, from.y, by.x, by.y, dragged.miss, dragged.sticks,
+                                        one.strength, one.parameter.value, dragged.values.begin()->second,
+                                        glm::dot(glm::normalize(one.motion), target.facing),
+                                        one.slope / glm::length(one.motion));
+                                continue;
+                            }
                             ++outcome.followed;
-                            outcome.worst = std::max(outcome.worst, viewed.miss(dragged, *point, target));
+                            const double miss = viewed.miss(dragged, *point, target);
+                            outcome.worst = std::max(outcome.worst, miss);
+                            if (miss > 1)
+                                fmt::print("      bad {} from {} {} by {} {}: {} {}\n", one.parameter.pointer, from.x,
+                                           from.y, by.x, by.y, miss, dragged.values.begin()->second);
                         }
                     }
                 }
-            fmt::print("{}: {} points, {} ms, {} readings\n", entry.path().stem().string(), points,
-                       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin)
-                           .count(),
-                       viewed.object.readings());
+            fmt::print(
+                "{}: {} points, {} ms, {} readings\n", entry.path().stem().string(), points,
+                std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin).count(),
+                viewed.object.readings());
             for (const auto& [pointer, o] : outcomes)
                 fmt::print("    {:60} {:.3f} {}/{} worst {:.3f}\n", pointer, o.strength, o.followed, o.drags, o.worst);
         }

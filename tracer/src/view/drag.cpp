@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace phasetree::tracer::view {
@@ -18,13 +19,17 @@ constexpr int most_iterations = 12, most_halvings = 5;
 constexpr double least_share = 0.03;
 // How far a point may move along the gradient back onto the surface, relative to the step before.
 constexpr double farthest_back = 2;
+// How far a point may move with the numbers, in the way that the pointer has moved. A point that no value can bring to
+// the pointer must not lead to huge values.
+constexpr double longest_detour = 6;
+constexpr double most_miss = 0.5;
 
 class Drag {
   public:
     Drag(const VariedObject& object, const InterfacePoint& grabbed, std::span<const DragParameter> parameters,
          const DragTarget& target)
-        : object_(object), point_(grabbed), parameters_(parameters), target_(target) {
-        for (const DragParameter& p : parameters_) values_.push_back(p.value);
+        : object_(object), parameters_(parameters), target_(target), now_{{}, grabbed} {
+        for (const DragParameter& p : parameters_) now_.values.push_back(p.value);
         direction_ = glm::normalize(target.direction);
         const glm::dvec3 other = std::abs(direction_.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         across_[0] = glm::normalize(glm::cross(direction_, other));
@@ -35,23 +40,35 @@ class Drag {
     }
 
     Dragged result() {
-        const double begin = static_cast<double>(object_.readings());
-        const std::vector<double> first = values_;
-        const InterfacePoint grabbed = point_;
-        bool sticks = stick();
-        if (!sticks) {
-            values_ = first;
-            point_ = grabbed;
-            if (approach(aim_) || in_parts(grabbed.position)) point_.position = aim_;
-        }
+        const std::size_t begin = object_.readings();
+        const State grabbed = now_;
+        stick();
         round();
-        Dragged result{.values = numbers(values_), .position = point_.position, .sticks = sticks};
-        result.miss = sticks ? glm::length(miss(point_.position)) / target_.pixel : gap(aim_) / target_.pixel;
-        result.readings = object_.readings() - static_cast<std::size_t>(begin);
-        return result;
+        bool sticks = true, follows = is_at_pointer();
+        if (!follows) {
+            const State near = std::exchange(now_, grabbed);
+            if (approach(aim_) || in_parts(grabbed)) {
+                now_.point.position = aim_;
+                round();
+                follows = is_at_pointer();
+            }
+            sticks = !follows;
+            if (sticks) now_ = near;  // as near as it comes
+        }
+        return {.values = numbers(now_.values),
+                .position = now_.point.position,
+                .miss = glm::length(miss(now_.point.position)) / target_.pixel,
+                .follows = follows,
+                .sticks = sticks,
+                .readings = object_.readings() - begin};
     }
 
   private:
+    struct State {
+        std::vector<double> values;
+        InterfacePoint point;
+    };
+
     NumberEdits numbers(const std::vector<double>& values) const {
         NumberEdits result;
         for (std::size_t i = 0; i < values.size(); ++i) result[parameters_[i].pointer] = values[i];
@@ -60,7 +77,7 @@ class Drag {
     InterfaceSample sample(const std::vector<double>& values, const glm::dvec3& p) const {
         const auto evaluator = object_.with(numbers(values));
         if (!evaluator) return {.value = std::numeric_limits<double>::quiet_NaN()};
-        return evaluator->interface_sample(p, point_.inside, point_.outside);
+        return evaluator->interface_sample(p, now_.point.inside, now_.point.outside);
     }
     // From a point to the ray, in the plane across it.
     glm::dvec2 miss(const glm::dvec3& p) const {
@@ -69,33 +86,57 @@ class Drag {
     }
     // The distance of the surface from a point; infinite if unknown.
     double gap(const glm::dvec3& p) const {
-        const InterfaceSample s = sample(values_, p);
+        const InterfaceSample s = sample(now_.values, p);
         const double slope = glm::length(s.gradient);
         return std::isfinite(s.value) && slope > 0 ? std::abs(s.value) / slope
                                                    : std::numeric_limits<double>::infinity();
+    }
+    // Whether the phases change at the point, and the point is at the pointer.
+    bool is_at_pointer() const {
+        const glm::dvec3& p = now_.point.position;
+        const auto evaluator = object_.with(numbers(now_.values));
+        if (!evaluator || !(glm::length(miss(p)) <= most_miss * target_.pixel)) return false;
+        return is_interface(*evaluator, p);
+    }
+    bool is_interface(const PreciseEvaluator& object, const glm::dvec3& p) const {
+        const InterfaceSample s = object.interface_sample(p, now_.point.inside, now_.point.outside);
+        const double slope = glm::length(s.gradient);
+        if (!std::isfinite(s.value) || !(slope > 0)) return false;
+        for (const double reach : {0.1, 0.25, 0.5}) {
+            const glm::dvec3 by = s.gradient * (reach * target_.pixel / slope);
+            if (object.label(p - by) == now_.point.inside && object.label(p + by) == now_.point.outside) return true;
+        }
+        return false;
+    }
+    // Whether the change since the point was grabbed is not out of proportion to the pointer's motion.
+    bool is_moderate(const std::vector<double>& values) const {
+        double squared = 0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            squared += std::pow((values[i] - parameters_[i].value) / parameters_[i].scale, 2);
+        return std::sqrt(squared) <= longest_change_;
     }
     double close() const { return close_enough * target_.pixel; }
 
     std::vector<Influence> influences_at(const InterfacePoint& p) const {
         std::vector<Influence> result;
         for (const DragParameter& parameter : parameters_)
-            result.push_back(influence_of(object_, numbers(values_), p, parameter));
+            result.push_back(influence_of(object_, numbers(now_.values), p, parameter));
         return result;
     }
     bool is_free(std::size_t i, double change) const {
         const DragParameter& p = parameters_[i];
-        return change > 0 ? values_[i] < p.high : values_[i] > p.low;
+        return change > 0 ? now_.values[i] < p.high : now_.values[i] > p.low;
     }
     // The values after a step, within the limits.
     std::vector<double> after(const std::vector<double>& step, double share) const {
-        std::vector<double> result = values_;
+        std::vector<double> result = now_.values;
         for (std::size_t i = 0; i < result.size(); ++i)
             result[i] = std::clamp(result[i] + share * step[i], parameters_[i].low, parameters_[i].high);
         return result;
     }
 
-    // The least change by which the point moves by `by` across the ray; nullopt if the motions do not span the plane.
-    // Numbers at a limit are left out.
+    // The least change by which the point moves by `by` across the ray. If all motions are parallel there, it moves by
+    // the part of `by` in their direction. Numbers at a limit are left out; nullopt if none is left.
     std::optional<std::vector<double>> least_change(const std::vector<Influence>& all, const glm::dvec2& by) const {
         std::vector<bool> is_used(all.size(), true);
         while (true) {
@@ -110,9 +151,14 @@ class Drag {
                 yy += columns[i].y * columns[i].y;
             }
             const double mean = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
-            if (!(mean - half > least_share * least_share * (mean + half))) return std::nullopt;
-            const double determinant = xx * yy - xy * xy;
-            const glm::dvec2 y((yy * by.x - xy * by.y) / determinant, (xx * by.y - xy * by.x) / determinant);
+            const double longest = mean + half, determinant = xx * yy - xy * xy;
+            if (!(longest > 1e-12 * object_.size() * object_.size())) return std::nullopt;
+            glm::dvec2 y((yy * by.x - xy * by.y) / determinant, (xx * by.y - xy * by.x) / determinant);
+            if (!(mean - half > least_share * least_share * longest)) {
+                // The eigenvector of the longest axis.
+                const glm::dvec2 axis = xx > yy ? glm::dvec2(longest - yy, xy) : glm::dvec2(xy, longest - xx);
+                y = axis * (glm::dot(axis, by) / glm::dot(axis, axis) / longest);
+            }
             std::vector<double> step(all.size(), 0.0);
             bool is_within = true;
             for (std::size_t i = 0; i < all.size(); ++i) {
@@ -131,41 +177,47 @@ class Drag {
         if (!evaluator) return std::nullopt;
         const glm::dvec3 from = p;
         for (int i = 0; i < most_iterations; ++i) {
-            const InterfaceSample s = evaluator->interface_sample(p, point_.inside, point_.outside);
+            const InterfaceSample s = evaluator->interface_sample(p, now_.point.inside, now_.point.outside);
             const double squared = glm::dot(s.gradient, s.gradient);
             if (!std::isfinite(s.value) || !(squared > 0)) return std::nullopt;
             const glm::dvec3 back = s.gradient * (s.value / squared);
             p -= back;
             if (glm::distance(p, from) > most) return std::nullopt;
-            if (glm::length(back) < 0.1 * close()) return p;
+            if (glm::length(back) < 0.1 * close()) return is_interface(*evaluator, p) ? std::optional(p) : std::nullopt;
         }
         return std::nullopt;
     }
 
     // Newton's method for a point that sticks to the surface.
-    bool stick() {
-        if (parameters_.size() < 2) return false;
+    void stick() {
         for (int i = 0; i < most_iterations; ++i) {
-            const glm::dvec2 by = miss(point_.position);
+            const glm::dvec2 by = miss(now_.point.position);
             const double before = glm::length(by);
-            if (before <= close()) return true;
-            const std::vector<Influence> all = influences_at(point_);
+            if (before <= close()) return;
+            const std::vector<Influence> all = influences_at(now_.point);
+            if (i == 0) limit_change(all, before);
             const auto step = least_change(all, by);
-            if (!step || !follow(all, *step, before)) return false;
+            if (!step || !follow(all, *step, before)) return;
         }
-        return glm::length(miss(point_.position)) <= 0.5 * target_.pixel;
+    }
+    void limit_change(const std::vector<Influence>& all, double way) {
+        double strongest = 0;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            strongest = std::max(strongest, glm::length(all[i].motion) * parameters_[i].scale);
+        if (strongest > 0) longest_change_ = longest_detour * way / strongest;
     }
     bool follow(const std::vector<Influence>& all, const std::vector<double>& step, double before) {
         double share = 1;
         for (int i = 0; i <= most_halvings; ++i, share *= 0.5) {
             const std::vector<double> next = after(step, share);
-            glm::dvec3 p = point_.position;
-            for (std::size_t k = 0; k < next.size(); ++k) p += all[k].motion * (next[k] - values_[k]);
-            const double moved = glm::distance(p, point_.position);
+            if (!is_moderate(next)) continue;
+            glm::dvec3 p = now_.point.position;
+            for (std::size_t k = 0; k < next.size(); ++k) p += all[k].motion * (next[k] - now_.values[k]);
+            const double moved = glm::distance(p, now_.point.position);
             const auto found = onto_surface(next, p, farthest_back * moved + target_.pixel);
             if (!found || !(glm::length(miss(*found)) < before)) continue;
-            values_ = next;
-            point_.position = *found;
+            now_.values = next;
+            now_.point.position = *found;
             return true;
         }
         return false;
@@ -174,38 +226,40 @@ class Drag {
     // Newton's method for the surface to pass through a point.
     bool approach(const glm::dvec3& q) {
         for (int i = 0; i < most_iterations; ++i) {
-            const InterfaceSample s = sample(values_, q);
+            const InterfaceSample s = sample(now_.values, q);
             const double slope = glm::length(s.gradient);
             if (!std::isfinite(s.value) || !(slope > 0)) return false;
             if (std::abs(s.value) <= close() * slope) return true;
-            const std::vector<Influence> all = influences_at({point_.inside, point_.outside, q});
+            const std::vector<Influence> all = influences_at({now_.point.inside, now_.point.outside, q});
             double squared = 0;
             for (std::size_t k = 0; k < all.size(); ++k)
                 if (is_free(k, -s.value * all[k].slope)) squared += std::pow(all[k].slope * parameters_[k].scale, 2);
-            if (!(squared > 0)) return false;
+            if (!(squared > 0)) break;
             std::vector<double> step(all.size(), 0.0);
             for (std::size_t k = 0; k < all.size(); ++k)
                 if (is_free(k, -s.value * all[k].slope))
                     step[k] = -s.value * all[k].slope * std::pow(parameters_[k].scale, 2) / squared;
-            if (!come_closer(step, q, std::abs(s.value))) return false;
+            if (!come_closer(step, q, std::abs(s.value))) break;
         }
-        return gap(q) <= 0.5 * target_.pixel;
+        return gap(q) <= most_miss * target_.pixel;
     }
     bool come_closer(const std::vector<double>& step, const glm::dvec3& q, double before) {
         double share = 1;
         for (int i = 0; i <= most_halvings; ++i, share *= 0.5) {
             const std::vector<double> next = after(step, share);
+            if (!is_moderate(next)) continue;
             const InterfaceSample s = sample(next, q);
             if (!std::isfinite(s.value) || !(std::abs(s.value) < before)) continue;
-            values_ = next;
+            now_.values = next;
             return true;
         }
         return false;
     }
     // In a straight line from where the point was grabbed, because Newton's method may fail over long distances.
-    bool in_parts(const glm::dvec3& from) {
+    bool in_parts(const State& grabbed) {
         constexpr int parts = 8;
-        for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = parameters_[i].value;
+        now_ = grabbed;
+        const glm::dvec3 from = grabbed.point.position;
         for (int i = 1; i <= parts; ++i)
             if (!approach(from + (aim_ - from) * (static_cast<double>(i) / parts))) return false;
         return true;
@@ -213,9 +267,10 @@ class Drag {
 
     // Keeps the digits that matter at the size of a pixel.
     void round() {
-        const std::vector<Influence> all = influences_at(point_);
-        for (std::size_t i = 0; i < values_.size(); ++i) {
-            if (values_[i] == parameters_[i].value) continue;
+        const std::vector<Influence> all = influences_at(now_.point);
+        const std::vector<double> exact = now_.values;
+        for (std::size_t i = 0; i < now_.values.size(); ++i) {
+            if (now_.values[i] == parameters_[i].value) continue;
             const double motion = glm::length(all[i].motion);
             const double finest = 1e-5 * parameters_[i].scale;
             const double step =
@@ -224,16 +279,17 @@ class Drag {
             // Dividing by a whole power of ten gives a number that is written with few digits.
             const double inverse = std::round(1 / unit);
             const double value =
-                unit < 1 ? std::round(values_[i] * inverse) / inverse : std::round(values_[i] / unit) * unit;
-            values_[i] = std::clamp(value, parameters_[i].low, parameters_[i].high);
+                unit < 1 ? std::round(now_.values[i] * inverse) / inverse : std::round(now_.values[i] / unit) * unit;
+            now_.values[i] = std::clamp(value, parameters_[i].low, parameters_[i].high);
         }
+        if (!object_.with(numbers(now_.values))) now_.values = exact;
     }
 
     const VariedObject& object_;
-    InterfacePoint point_;
     std::span<const DragParameter> parameters_;
     DragTarget target_;
-    std::vector<double> values_;
+    State now_;
+    double longest_change_ = std::numeric_limits<double>::infinity();  // in scales
     glm::dvec3 direction_{0}, aim_{0}, across_[2];
 };
 

@@ -150,7 +150,7 @@ std::string Grabs::drag(const std::string& request, const Shown& shown) {
     Json json;
     json["values"] = dragged.values;
     json["miss"] = std::isfinite(dragged.miss) ? Json(dragged.miss) : Json();
-    json["sticks"] = dragged.sticks;
+    json["follows"] = dragged.follows;
     return json.dump();
 }
 
