@@ -46,6 +46,7 @@ const studio = new Studio({
   camera: () => camera,
   radius: () => state?.radius ?? 1,
   lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  inspect: (event) => act.ask(event),
   changed: () => showErrors(),
   lost: (error) => { element("status").textContent = error.message; },
 });
