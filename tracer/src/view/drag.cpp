@@ -102,7 +102,7 @@ class Drag {
         const InterfaceSample s = object.interface_sample(p, now_.point.inside, now_.point.outside);
         const double slope = glm::length(s.gradient);
         if (!std::isfinite(s.value) || !(slope > 0)) return false;
-        for (const double reach : {0.1, 0.25, 0.5}) {
+        for (const double reach : {0.25, 0.5}) {
             const glm::dvec3 by = s.gradient * (reach * target_.pixel / slope);
             if (object.label(p - by) == now_.point.inside && object.label(p + by) == now_.point.outside) return true;
         }
