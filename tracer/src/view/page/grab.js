@@ -176,8 +176,7 @@ export class Grab {
     const changes = point.pointers.filter((pointer) => point.values[pointer] !== point.first[pointer]);
     const said = this.#panel.sentence(changes, point.values);
     if (!point.follows) this.#announcer.say("The surface cannot follow: choose other numbers, or a limit is reached", {isWrong: true});
-    else if (said && said !== point.said) this.#announcer.say(said);
-    point.said = said;
+    else this.#panel.say(said);
   }
   #showMark() {
     const at = this.#target ?? this.#point?.at;

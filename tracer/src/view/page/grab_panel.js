@@ -17,6 +17,7 @@ export class GrabPanel {
   #rows = new Map(); // by pointer: {name, checkbox, value}
   #locked = new Set(); // as chosen by hand; stays for the next point
   #only = null;
+  #said = make("p", {class: "hidden-text", role: "status"});
   catalogue = null;
 
   // `changed()` is called when another choice is made, and `closed()` when the panel is closed.
@@ -26,6 +27,7 @@ export class GrabPanel {
   }
   hide() {
     this.#panel.hidden = true;
+    this.#said.textContent = "";
     this.#rows.clear();
     this.#only = null;
   }
@@ -60,7 +62,7 @@ export class GrabPanel {
     });
     const all = make("button", {type: "button", class: "link", onclick: () => this.#chooseAll()}, "All");
     const close = make("button", {type: "button", class: "icon-button small", "aria-label": "Release the point", onclick: () => this.#act.closed()}, icon("close"));
-    this.#panel.replaceChildren(make("header", {}, make("h2", {}, "May change"), all, close), ...rows, ...[more].filter(Boolean));
+    this.#panel.replaceChildren(make("header", {}, make("h2", {}, "May change"), all, close), ...rows, ...[more].filter(Boolean), this.#said);
     this.#panel.hidden = false;
     this.showValues(point.values);
   }
@@ -71,6 +73,10 @@ export class GrabPanel {
   sentence(pointers, values) {
     return pointers.map((pointer) => this.#rows.get(pointer)).filter(Boolean).slice(0, 4)
       .map((row) => `${row.name.text} is ${row.value.value}`).join(", ");
+  }
+  // For screen readers.
+  say(text) {
+    if (text && text !== this.#said.textContent) this.#said.textContent = text;
   }
   #lock(pointer, isLocked) {
     this.#only = null;
