@@ -23,6 +23,7 @@ constexpr double farthest_back = 2;
 // the pointer must not lead to huge values.
 constexpr double longest_detour = 6;
 constexpr double most_miss = 0.5;
+constexpr double well_enough = 0.2;  // the share of an error that a step leaves
 
 class Drag {
   public:
@@ -118,10 +119,7 @@ class Drag {
     double close() const { return close_enough * target_.pixel; }
 
     std::vector<Influence> influences_at(const InterfacePoint& p) const {
-        std::vector<Influence> result;
-        for (const DragParameter& parameter : parameters_)
-            result.push_back(influence_of(object_, numbers(now_.values), p, parameter));
-        return result;
+        return influences_of(object_, numbers(now_.values), p, parameters_);
     }
     bool is_free(std::size_t i, double change) const {
         const DragParameter& p = parameters_[i];
@@ -190,11 +188,15 @@ class Drag {
 
     // Newton's method for a point that sticks to the surface.
     void stick() {
+        std::vector<Influence> all;
+        double last = 0;
         for (int i = 0; i < most_iterations; ++i) {
             const glm::dvec2 by = miss(now_.point.position);
             const double before = glm::length(by);
             if (before <= close()) return;
-            const std::vector<Influence> all = influences_at(now_.point);
+            // Derivatives are expensive, so they are kept while they serve well.
+            if (!(before < well_enough * last)) all = influences_at(now_.point);
+            last = before;
             if (i == 0) limit_change(all, before);
             const auto step = least_change(all, by);
             if (!step || !follow(all, *step, before)) return;
@@ -225,12 +227,16 @@ class Drag {
 
     // Newton's method for the surface to pass through a point.
     bool approach(const glm::dvec3& q) {
+        std::vector<Influence> all;
+        double last = 0;
         for (int i = 0; i < most_iterations; ++i) {
             const InterfaceSample s = sample(now_.values, q);
             const double slope = glm::length(s.gradient);
             if (!std::isfinite(s.value) || !(slope > 0)) return false;
             if (std::abs(s.value) <= close() * slope) return true;
-            const std::vector<Influence> all = influences_at({now_.point.inside, now_.point.outside, q});
+            if (!(std::abs(s.value) < well_enough * last))
+                all = influences_at({now_.point.inside, now_.point.outside, q});
+            last = std::abs(s.value);
             double squared = 0;
             for (std::size_t k = 0; k < all.size(); ++k)
                 if (is_free(k, -s.value * all[k].slope)) squared += std::pow(all[k].slope * parameters_[k].scale, 2);

@@ -94,11 +94,17 @@ bool is_usable(const InterfaceSample& s) {
     return std::isfinite(s.value);
 }
 
+InterfaceSample sample_of(const VariedObject& object, const NumberEdits& numbers, const InterfacePoint& point) {
+    const auto evaluator = object.with(numbers);
+    if (!evaluator) return {.value = std::numeric_limits<double>::quiet_NaN()};
+    return evaluator->interface_sample(point.position, point.inside, point.outside);
+}
+
 // Finds the numbers that f or q depends on.
 class Search {
   public:
     Search(const VariedObject& object, const InterfacePoint& point, std::span<const DragParameter> parameters)
-        : object_(object), point_(point), parameters_(parameters), base_(sample({})) {
+        : object_(object), point_(point), parameters_(parameters), base_(sample_of(object, {}, point)) {
         const double farthest = glm::length(point.position) + object.size();
         const auto evaluator = object.with({});
         noise_ = std::max(2e-9 * object.size(), evaluator ? 4 * evaluator->value_error(farthest) : 0.0);
@@ -110,11 +116,6 @@ class Search {
     }
 
   private:
-    InterfaceSample sample(const NumberEdits& numbers) const {
-        const auto evaluator = object_.with(numbers);
-        if (!evaluator) return {.value = std::numeric_limits<double>::quiet_NaN()};
-        return evaluator->interface_sample(point_.position, point_.inside, point_.outside);
-    }
     void divide(std::size_t begin, std::size_t end) {
         if (begin == end || !may_depend_on(begin, end)) return;
         if (end - begin == 1) {
@@ -134,7 +135,7 @@ class Search {
             const double step = amount * group_step / small_step * step_of(p, p.value);
             numbers[p.pointer] = p.value + (p.value + step <= p.high ? step : -step);
         }
-        const InterfaceSample s = sample(numbers);
+        const InterfaceSample s = sample_of(object_, numbers, point_);
         if (!is_usable(s)) return true;
         return std::abs(s.value - base_.value) > noise_ || glm::distance(s.inner, base_.inner) > noise_;
     }
@@ -157,26 +158,13 @@ glm::dvec3 motion_of(const InterfaceSample& at, double slope, const glm::dvec3& 
     return motion;
 }
 
-}  // namespace
-
-std::vector<DragParameter> drag_parameters(const Document& document, const studio::Vocabulary& vocabulary,
-                                           double size) {
-    Collector collector(size);
-    for (const studio::OutlineEntry& entry : studio::outline_of(document, vocabulary).entries) collector.add(entry);
-    return std::move(collector.found);
-}
-
+// `at` is the interface with the numbers.
 Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const InterfacePoint& point,
-                       const DragParameter& p) {
+                       const InterfaceSample& at, const DragParameter& p) {
     const double value = number_at(numbers, p), step = step_of(p, value);
-    const auto sample = [&](double to) -> InterfaceSample {
-        const auto evaluator = object.with(changed(numbers, p, to));
-        if (!evaluator) return {.value = std::numeric_limits<double>::quiet_NaN()};
-        return evaluator->interface_sample(point.position, point.inside, point.outside);
-    };
+    const auto sample = [&](double to) { return sample_of(object, changed(numbers, p, to), point); };
     double less = rounded(std::max(value - step, p.low)), more = rounded(std::min(value + step, p.high));
     InterfaceSample at_less = sample(less), at_more = sample(more);
-    const InterfaceSample at = sample(value);
     // A number at the edge of what its node accepts has a derivative on one side.
     if (!is_usable(at_less)) {
         less = rounded(value);
@@ -195,13 +183,29 @@ Influence influence_of(const VariedObject& object, const NumberEdits& numbers, c
     return {p, slope, motion, glm::length(motion) * p.scale / object.size()};
 }
 
+}  // namespace
+
+std::vector<DragParameter> drag_parameters(const Document& document, const studio::Vocabulary& vocabulary,
+                                           double size) {
+    Collector collector(size);
+    for (const studio::OutlineEntry& entry : studio::outline_of(document, vocabulary).entries) collector.add(entry);
+    return std::move(collector.found);
+}
+
+std::vector<Influence> influences_of(const VariedObject& object, const NumberEdits& numbers,
+                                     const InterfacePoint& point, std::span<const DragParameter> parameters) {
+    const InterfaceSample at = sample_of(object, numbers, point);
+    std::vector<Influence> result;
+    for (const DragParameter& p : parameters) result.push_back(influence_of(object, numbers, point, at, p));
+    return result;
+}
+
 std::vector<Influence> influences(const VariedObject& object, const InterfacePoint& point,
                                   std::span<const DragParameter> parameters) {
-    std::vector<Influence> result;
-    for (const std::size_t i : Search(object, point, parameters).found()) {
-        Influence one = influence_of(object, {}, point, parameters[i]);
-        if (one.strength > least_strength) result.push_back(std::move(one));
-    }
+    std::vector<DragParameter> found;
+    for (const std::size_t i : Search(object, point, parameters).found()) found.push_back(parameters[i]);
+    std::vector<Influence> result = influences_of(object, {}, point, found);
+    std::erase_if(result, [](const Influence& one) { return !(one.strength > least_strength); });
     std::ranges::stable_sort(result, [](const Influence& a, const Influence& b) { return a.strength > b.strength; });
     return result;
 }

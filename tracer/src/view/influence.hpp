@@ -67,9 +67,9 @@ struct Influence {
     double strength = 0;
 };
 
-/// The influence of one number, after `numbers` have been replaced.
-Influence influence_of(const VariedObject& object, const NumberEdits& numbers, const InterfacePoint& point,
-                       const DragParameter& parameter);
+/// The influences of numbers, after `numbers` have been replaced.
+std::vector<Influence> influences_of(const VariedObject& object, const NumberEdits& numbers,
+                                     const InterfacePoint& point, std::span<const DragParameter> parameters);
 
 /// The numbers that move a point, from the strongest to the weakest.
 std::vector<Influence> influences(const VariedObject& object, const InterfacePoint& point,

@@ -33,6 +33,10 @@ export class Grab {
     // Before the listeners that turn the camera.
     canvas.addEventListener("pointerdown", (event) => this.#down(event), {capture: true});
     canvas.addEventListener("keydown", (event) => this.#key(event), {capture: true});
+    // What else changes the scene, such as undo, makes the point's numbers out of date.
+    scene.addEventListener("change", () => {
+      if (this.#point && !this.isBusy && scene.text !== this.#point.text) this.release();
+    });
     new ResizeObserver(() => this.#showMark()).observe(canvas);
   }
   use(catalogue) {
@@ -123,7 +127,7 @@ export class Grab {
       const told = await grabAt(...at);
       const pointers = told.influences.map((one) => one.pointer);
       const values = Object.fromEntries(told.influences.map((one) => [one.pointer, one.value]));
-      this.#point = {...told, at, merge: newId("grab"), first: values, values, pointers, follows: true};
+      this.#point = {...told, at, merge: newId("grab"), first: values, values, pointers, follows: true, text: this.#scene.text};
       this.#panel.show(this.#point, this.#scene);
       this.#mark.dataset.follows = "true";
     } catch (error) {
@@ -159,6 +163,7 @@ export class Grab {
       if (changed.length > 0) {
         const operations = changed.map(([pointer, value]) => ({set: pointer, to: String(value)}));
         await this.#scene.perform({label: `Drag ${point.inside === "vacuum" ? point.outside : point.inside}`, operations, merge: point.merge});
+        point.text = this.#scene.text;
       }
     } catch (error) {
       this.#announcer.say(shortMessage(error), {isWrong: true});
