@@ -196,7 +196,8 @@ TEST_CASE("the surface follows the pointer within a pixel, for every number that
 namespace {
 
 // A ball and a box in front of a camera that looks along y.
-const char* const ball_and_box = R"({"version": 1, "phases": {"glass": {"diffuse": {}}, "wood": {"diffuse": {}}},
+const char* const ball_and_box =
+    R"({"version": 1, "phases": {"glass": {"diffuse": {"color": [1, 1, 1]}}, "wood": {"diffuse": {"color": [1, 1, 1]}}},
     "tree": {"over": [
         {"set": {"phase": "glass", "of": {"translate": {"by": [-1, 0, 0], "of": {"sphere": {"radius": 0.5}}}}}},
         {"set": {"phase": "wood", "of": {"rotate": {"axis": [0, 0, 1], "angle": 10, "of": {"translate": {"by": [1, 0, 0],
