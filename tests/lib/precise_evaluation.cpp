@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/evaluation/precise_evaluator.hpp"
@@ -11,8 +13,10 @@
 #include "phasetree/nodes/fields/plane.hpp"
 #include "phasetree/nodes/fields/sphere.hpp"
 #include "phasetree/nodes/fields/torus.hpp"
+#include "phasetree/nodes/fields/union.hpp"
 #include "phasetree/nodes/phased/set.hpp"
 #include "phasetree/nodes/warps/rotate.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/nodes/warps/twist.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
 #include "support/long_tests.hpp"
@@ -64,6 +68,43 @@ TEST_CASE("every kind of node has the components of floats, and the labels of se
         }
     }
     CHECK(points == 12 * kinds);
+}
+
+TEST_CASE("the interface of two phases has the gradient of forward mode, for every kind of node") {
+    for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(422, kind);
+        for (int n = 0; n < (long_tests() ? 40 : 2); ++n) {
+            const Phased object = kind.object(rng, 3);
+            const PreciseEvaluator precise(object);
+            const Bounds region = region_of_interest(bounds(object));
+            std::vector<Phase> phases;
+            for_each_phase(phasetree::phases(object).bits,
+                           [&](int i) { phases.push_back(Phase{static_cast<std::uint8_t>(i)}); });
+            for (int k = 0; k < 8; ++k) {
+                const dvec3 p(rng.in(region));
+                const Phase inside = phases.back(), outside = phases.front();
+                if (inside == outside) continue;
+                INFO(kind.name, " at ", p.x, ", ", p.y, ", ", p.z);
+                const InterfaceSample s = precise.interface_sample(p, inside, outside);
+                CHECK(s.value == 0.5 * precise.component(p, inside) - 0.5 * precise.component(p, outside));
+                const dvec3 forward = 0.5 * precise.gradient(p, inside) - 0.5 * precise.gradient(p, outside);
+                CHECK(glm::distance(s.gradient, forward) <= 1e-9 * (1 + glm::length(forward)));
+            }
+        }
+    }
+}
+
+TEST_CASE("an interface is evaluated in the space of the primitive that it comes from") {
+    const Field box = warped(Translate{.by = {1, 2, 3}}, warped(Rotate{.axis = {0, 0, 1}, .angle = 90}, Field(Box{})));
+    const PreciseEvaluator object(of_phase_1(Union{.of = {box, Sphere{.radius = 0.5f}}}));
+    const InterfaceSample s = object.interface_sample({1.125, 2.5, 3.25}, Phase{1}, vacuum);
+    // The box is turned from x to y, so its own x is the scene's y.
+    CHECK(glm::distance(s.inner, dvec3(0.5, -0.125, 0.25)) < 1e-6);
+    CHECK(glm::distance(s.inner_by_point * dvec3(0, 1, 0), dvec3(1, 0, 0)) < 1e-6);
+    CHECK(s.weight == doctest::Approx(1));
+    CHECK(std::abs(s.value) < 1e-6);
+    // An absent phase has no interface.
+    CHECK(std::isnan(object.interface_sample({0, 0, 0}, Phase{2}, vacuum).value));
 }
 
 TEST_CASE("distances are exact to doubles, and gradients of unit length") {

@@ -32,6 +32,51 @@ def entries(outline):
         yield from entries(entry["children"])
 
 
+class Dragging(unittest.TestCase):
+    """The middle of the ball on the left is at 33.7, 32 in the picture."""
+
+    BY = "/tree/under/1/set/of/translate/by"
+
+    def test_a_surface_is_grabbed_and_dragged(self):
+        with View() as view:
+            view.ready()
+            answer = view.post("grab", {"x": 33.7, "y": 32})
+            self.assertEqual(answer.status, 200, answer.body)
+            told = json.loads(answer.body)
+            self.assertEqual((told["inside"], told["outside"]), ("glass", "vacuum"))
+            pointers = [one["pointer"] for one in told["influences"]]
+            # The other ball has the same radius, but is somewhere else.
+            self.assertEqual(sorted(pointers), [RADIUS, *(f"{self.BY}/{i}" for i in range(3))])
+            answer = view.post("drag", {"grab": told["grab"], "x": 38.7, "y": 32, "chosen": [f"{self.BY}/0", f"{self.BY}/2"]})
+            self.assertEqual(answer.status, 200, answer.body)
+            dragged = json.loads(answer.body)
+            self.assertTrue(dragged["follows"])
+            self.assertLess(dragged["miss"], 0.5)
+            self.assertAlmostEqual(dragged["values"][f"{self.BY}/0"], -0.6 + 5 * told["pixel"], delta=0.005)
+            self.assertEqual(dragged["values"][RADIUS], 0.5)
+            # The text changes only by operations.
+            self.assertEqual(document(view)["text"], SCENE)
+
+    def test_what_cannot_be_dragged_is_refused_with_a_reason(self):
+        with View() as view:
+            view.ready()
+            for place, status in (({"x": 1, "y": 1}, 409), ({"x": -1, "y": 1}, 400), ({"x": 1}, 400), ({"x": 1, "y": 1, "z": 1}, 400),
+                                  ([], 400), ({"x": "1", "y": 1}, 400)):
+                self.assertEqual(view.post("grab", place).status, status, place)
+            self.assertIn(b"no surface", view.post("grab", {"x": 1, "y": 1}).body)
+            number = json.loads(view.post("grab", {"x": 33.7, "y": 32}).body)["grab"]
+            drag = {"grab": number, "x": 34, "y": 32, "chosen": []}
+            self.assertEqual(view.post("drag", drag).status, 200)
+            for change, status in (({"grab": 99}, 409), ({"grab": -1}, 400), ({"x": 1e9}, 400), ({"chosen": [1]}, 400), ({"chosen": "x"}, 400)):
+                self.assertEqual(view.post("drag", {**drag, **change}).status, status, change)
+            # Unknown numbers are ignored.
+            self.assertEqual(json.loads(view.post("drag", {**drag, "chosen": ["/version"]}).body)["values"][RADIUS], 0.5)
+            # Only the last points are kept.
+            for _ in range(4):
+                view.post("grab", {"x": 33.7, "y": 32})
+            self.assertEqual(view.post("drag", drag).status, 409)
+
+
 class Editing(unittest.TestCase):
     def test_an_operation_changes_the_text_the_file_and_the_picture(self):
         with View() as view:

@@ -96,6 +96,8 @@ class EditedDocument {
     /// Records what reading the scene found: an error, or none.
     void checked(std::uint64_t text_version, const std::optional<SceneError>& error);
 
+    /// A document of a text, with the program's options for reading it. Throws SceneError.
+    Document parsed(std::string text) const { return options_.parse(std::move(text)); }
     const Vocabulary& vocabulary() const { return vocabulary_; }
     const std::filesystem::path& file() const { return options_.file; }
 

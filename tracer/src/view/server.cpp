@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <charconv>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "phasetree/model/handle.hpp"
 #include "view/access.hpp"
 #include "view/connection.hpp"
+#include "view/grab.hpp"
 #include "view/page_files.hpp"
 #include "view/requests.hpp"
 #include "view/studio_answers.hpp"
@@ -34,6 +36,8 @@ constexpr const char* json = "application/json";
 
 // The names that accept POST, in addition to the studio's.
 constexpr std::string_view posted[] = {"change", "ask", "write", "write_numbers"};
+// What is posted only if the scene is in a file.
+constexpr std::string_view posted_for_files[] = {"grab", "drag"};
 constexpr std::uint64_t most_bytes_of_small_body = 64 * 1024;
 
 std::string type_of(std::string_view file) {
@@ -109,7 +113,9 @@ class Answers {
   public:
     Answers(Session& session, studio::EditedDocument* document, Access access, bool may_be_framed)
         : session_(session), access_(std::move(access)), may_be_framed_(may_be_framed) {
-        if (document) studio_.emplace(*document);
+        if (!document) return;
+        studio_.emplace(*document);
+        grabs_ = std::make_unique<Grabs>(*document);
     }
 
     // Called before the body is read. Returns whether the request has already been answered.
@@ -147,6 +153,10 @@ class Answers {
             } else if (name == "write_numbers") {
                 session_.write_numbers();
                 response.set_content("{}", json);
+            } else if (name == "grab") {
+                response.set_content(grabs_->grab(request.body, *shown), json);
+            } else if (name == "drag") {
+                response.set_content(grabs_->drag(request.body, *shown), json);
             } else if (shown->picture) {
                 const glm::vec2 place = read_place(request.body, *shown);
                 response.set_content(written(probe(*shown->picture, place)), json);
@@ -169,7 +179,9 @@ class Answers {
 
   private:
     bool is_posted(std::string_view name) const {
-        return std::ranges::find(posted, name) != std::end(posted) || (studio_ && StudioAnswers::is_posted(name));
+        if (std::ranges::find(posted, name) != std::end(posted)) return true;
+        return studio_ && (StudioAnswers::is_posted(name) ||
+                           std::ranges::find(posted_for_files, name) != std::end(posted_for_files));
     }
     // The page may not load anything from elsewhere or be shown in a foreign frame, and its address is not passed on.
     void set_headers(httplib::Response& response) const {
@@ -234,6 +246,7 @@ class Answers {
 
     Session& session_;
     std::optional<StudioAnswers> studio_;
+    std::unique_ptr<Grabs> grabs_;
     Access access_;
     bool may_be_framed_;
     mutable std::atomic<int> waiting_{0};
@@ -275,6 +288,7 @@ void serve(Session& session, const ServeOptions& options) {
         answers.post(request, response);
     };
     for (const std::string_view name : posted) server.Post(access.path() + std::string(name), post);
+    for (const std::string_view name : posted_for_files) server.Post(access.path() + std::string(name), post);
     for (const std::string_view name : StudioAnswers::posted) server.Post(access.path() + std::string(name), post);
     server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
         Answers::refuse(response, 500, "cannot answer the request: memory may have run out");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -22,6 +23,16 @@ struct PreciseSample {
     double own = 0;
     /// The second smallest component, s(p): within about this distance, the phase does not change.
     double interface_distance = 0;
+};
+
+/// An object near the interface of two of its phases. The interface is where f = (φ_inside − φ_outside) / 2 is zero.
+struct InterfaceSample {
+    double value = 0;        ///< f
+    glm::dvec3 gradient{0};  ///< of f, by reverse-mode differentiation of the program
+    /// The primitive whose distance f depends on most.
+    double weight = 0;               ///< the derivative of f by that distance; 0 if f depends on none
+    glm::dvec3 inner{0};             ///< the point in the primitive's own space
+    glm::dmat3 inner_by_point{1.0};  ///< its derivative by the point of evaluation; a column per coordinate of that
 };
 
 /// Evaluates the components Φ of an object in double precision.
@@ -55,6 +66,9 @@ class PreciseEvaluator {
     double component(const glm::dvec3& p, Phase) const;
     /// Its gradient, by forward-mode differentiation; zero if the object does not have the phase.
     glm::dvec3 gradient(const glm::dvec3& p, Phase) const;
+    /// The interface of two phases near a point. All members are NaN unless the object has both phases and the point is
+    /// usable.
+    InterfaceSample interface_sample(const glm::dvec3& p, Phase inside, Phase outside) const;
 
     /// The phases at many points. `phases` must be as long as `points`. Uses the threads of TBB's arena. `cancelled` is
     /// polled by any thread. Returns false if it returned true; some phases are then not written.

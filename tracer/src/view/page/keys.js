@@ -5,8 +5,8 @@ import {isTyping, make} from "./dom.js";
 const table = [
   ["Scene", [["Shift+A", "Add"], ["W", "Wrap the selection"], ["R", "Replace"], ["Ctrl+D", "Duplicate"], ["Delete", "Delete"], ["Ctrl+G", "Group"],
     ["Ctrl+Shift+G", "Remove the wrapper"], ["F2", "Rename"], ["Alt+↑ Alt+↓", "Move up or down in its list"], ["Ctrl+Z", "Undo"],
-    ["Ctrl+Shift+Z", "Redo"], ["Ctrl+E", "Show the text"], ["F", "Look at the selection"]]],
-  ["Picture", [["Drag", "Rotate"], ["Shift+drag", "Move"], ["Scroll", "Zoom"], ["Click", "Select"], ["Alt+click", "Inspect the point"],
+    ["Ctrl+Shift+Z", "Redo"], ["Ctrl+E", "Show the text"], ["F", "Look at the selection"], ["G", "Drag surfaces"]]],
+  ["Picture", [["Drag", "Rotate"], ["Shift+drag", "Move"], ["Scroll", "Zoom"], ["Click", "Select"], ["Alt+drag", "Drag the surface"], ["Alt+click", "Inspect the point"],
     ["Ctrl+drag", "Move the cut"], ["← ↑ → ↓", "Rotate; with Shift, move"], ["+ −", "Zoom"], ["[ ]", "Move the cut"], ["Enter", "Inspect the centre"],
     ["0", "Reset the camera"]]],
   ["Handles", [["Drag", "Change"], ["Shift", "Finer"], ["Ctrl", "Snap to round numbers, or to 15°"], ["Click", "Type the numbers"]]],
@@ -22,7 +22,7 @@ export function showKeys() {
     make("dl", {}, rows.flatMap(([keys, text]) => [make("dt", {}, keys.split(", ").flatMap((key) => [make("kbd", {}, key), " "])), make("dd", {}, text)]))))));
 }
 
-export function listenForKeys(actions, {toggleText, frame, wrapButton}) {
+export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButton}) {
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open], [popover]:popover-open")) return;
     const control = event.ctrlKey || event.metaKey, key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -48,6 +48,7 @@ export function listenForKeys(actions, {toggleText, frame, wrapButton}) {
       if (key === "w") return () => actions.wrapMenu(wrapButton);
       if (key === "r") return () => actions.replace();
       if (key === "f") return frame;
+      if (key === "g") return toggleGrab;
       if (key === "?") return showKeys;
       return null;
     })();

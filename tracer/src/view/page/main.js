@@ -51,6 +51,7 @@ const studio = new Studio({
     changes.make({time: seconds});
   },
   togglePlay: () => element("time-play").click(),
+  inspect: (event) => act.ask(event),
   changed: () => showErrors(),
   lost: (error) => { element("status").textContent = error.message; },
 });

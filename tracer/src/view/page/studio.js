@@ -3,6 +3,7 @@ import {Actions} from "./actions.js";
 import {Announcer} from "./announcer.js";
 import {Catalogue} from "./catalogue.js";
 import {SceneDocument} from "./document.js";
+import {Grab} from "./grab.js";
 import {Handles} from "./handles.js";
 import {Inspector} from "./inspector.js";
 import {listenForKeys, showKeys} from "./keys.js";
@@ -21,7 +22,7 @@ export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), seek(seconds), togglePlay(), changed() and lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -41,6 +42,8 @@ export class Studio {
     }});
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
     this.handles = new Handles(element("handles"), {view, scene: this.scene, failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true})});
+    this.grab = new Grab({canvas: view.canvas, mark: element("grab-mark"), panel: element("grab-panel"), button: element("grab"), scene: this.scene,
+      announcer: this.announcer, inspect: (event) => view.inspect(event)});
     this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem"), names: element("text-names")}, this.scene);
     this.timeline = new Timeline(element("timeline"), this.scene, {
       entry: () => this.actions.active, catalogue: () => this.#catalogue, seek: view.seek, togglePlay: view.togglePlay,
@@ -64,6 +67,7 @@ export class Studio {
     this.actions.catalogue = this.text.catalogue = this.handles.catalogue = this.#catalogue;
     this.outliner.use(this.#catalogue);
     this.inspector.use(this.#catalogue);
+    this.grab.use(this.#catalogue);
   }
   // Shows the scene at a time; `span` is the time from its first key to the last, or null.
   showTime(seconds, span) {
@@ -82,7 +86,7 @@ export class Studio {
       "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), frame: () => this.frame(),
     };
     for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", act);
-    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), wrapButton: element("wrap")});
+    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap")});
   }
   #toggleText() {
     const isOpen = this.text.toggle();
