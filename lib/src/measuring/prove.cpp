@@ -285,12 +285,16 @@ struct CheckStatement {
 
 }  // namespace measuring
 
+void check_statement(const Statement& s) {
+    std::visit(measuring::CheckStatement(), s);
+}
+
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& options) {
     if (!(options.resolution >= 0 && std::isfinite(options.resolution)))
         throw ModelError(fmt::format("the resolution must be a positive number, or 0, but is {}", options.resolution));
     if (!(options.seconds > 0))
         throw ModelError(fmt::format("the time must be a positive number of seconds, but is {}", options.seconds));
-    for (const Statement& s : statements) std::visit(measuring::CheckStatement(), s);
+    for (const Statement& s : statements) check_statement(s);
     return measuring::Prover(object, statements, options).run();
 }
 

@@ -89,6 +89,9 @@ struct ProveOptions {
     std::function<void(float)> progress{};  ///< receives a guess of the share of the work that is done
 };
 
+/// Throws ModelError if a statement has invalid phases, or a length out of its range.
+void check_statement(const Statement&);
+
 /// Decide statements about an object.
 ///
 /// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
