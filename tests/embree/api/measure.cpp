@@ -138,6 +138,8 @@ TEST_CASE("proofs are those of C++") {
     const std::array<double, count_of_phases> weights{0, 2, 1, 0, 0};
     volume.weights = weights.data();
     volume.atMost = 10;
+    PhasetreeStatement tight = statement(PHASETREE_STATEMENT_TIGHT_BOUNDS, 0);
+    tight.atMost = 1.5;
     const std::vector<PhasetreeStatement> statements{
         statement(PHASETREE_STATEMENT_PRESENT, metal),
         statement(PHASETREE_STATEMENT_CONNECTED, metal),
@@ -148,6 +150,7 @@ TEST_CASE("proofs are those of C++") {
         statement(PHASETREE_STATEMENT_WALL, glass, 0.2),
         volume,
         statement(PHASETREE_STATEMENT_NO_DEAD_NODES, 0),
+        tight,
     };
     const std::vector<Statement> same{
         IsPresent{Phase{3}},
@@ -159,6 +162,7 @@ TEST_CASE("proofs are those of C++") {
         IsThick{Phase{1}, 0.2},
         HasVolume{{{Phase{1}, 2.0}, {Phase{2}, 1.0}}, 1, 10},
         HasNoDeadNodes{},
+        HasTightBounds{1.5},
     };
     PhasetreeProveOptions options;
     phasetreeInitProveOptions(&options);
@@ -226,7 +230,7 @@ TEST_CASE("proving refuses wrong arguments, and can be cancelled") {
     expect_error(proved(statement(PHASETREE_STATEMENT_WALL, glass, nan)), invalid, "statement 0: the thickness");
     expect_error(proved(statement(PHASETREE_STATEMENT_CLOSED, glass)), invalid, "statement 0: \"closed\" needs walls");
     expect_error(proved(statement(PHASETREE_STATEMENT_VOLUME, 0)), invalid, "statement 0 has no phases");
-    expect_error(proved(statement(static_cast<PhasetreeStatementKind>(8), glass)), invalid, "statement 0 has kind 8");
+    expect_error(proved(statement(static_cast<PhasetreeStatementKind>(9), glass)), invalid, "statement 0 has kind 9");
     PhasetreeProveOptions options;
     phasetreeInitProveOptions(&options);
     options.resolution = -1;

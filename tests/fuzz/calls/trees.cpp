@@ -137,7 +137,7 @@ void Calls::measure_tree(PhasetreeTree of) {
     check_with(of, phasetreeMeasureTree(of, &measuring, phases.data(), c_.or_null(&all), c_.or_null(&end)));
     PhasetreeStatement statements[2];
     for (PhasetreeStatement& s : statements) {
-        phasetreeInitStatement(&s, static_cast<PhasetreeStatementKind>(c_.below(9)), c_.below(16));
+        phasetreeInitStatement(&s, static_cast<PhasetreeStatementKind>(c_.below(10)), c_.below(16));
         s.inside = c_.below(16);
         s.atLeast = static_cast<double>(c_.number());
         s.weights = c_.or_null(numbers.data());

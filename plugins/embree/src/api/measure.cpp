@@ -34,8 +34,7 @@ MeasureOptions checked(const PhasetreeMeasureOptions* given, const SceneTree& tr
         if (used.contains(phase)) options.densities.emplace_back(phase, o.densities[i]);
     }
     if (o.cancelled) options.cancelled = [o] { return o.cancelled(o.cancelledUserPtr); };
-    if (o.progress)
-        options.progress = [o](float done) { o.progress(o.progressUserPtr, static_cast<double>(done)); };
+    if (o.progress) options.progress = [o](float done) { o.progress(o.progressUserPtr, static_cast<double>(done)); };
     return options;
 }
 

@@ -25,8 +25,7 @@ ProveOptions converted(const PhasetreeProveOptions* given) {
     options.seconds = o.seconds;
     options.max_boxes = o.maxBoxes;
     if (o.cancelled) options.cancelled = [o] { return o.cancelled(o.cancelledUserPtr); };
-    if (o.progress)
-        options.progress = [o](float done) { o.progress(o.progressUserPtr, static_cast<double>(done)); };
+    if (o.progress) options.progress = [o](float done) { o.progress(o.progressUserPtr, static_cast<double>(done)); };
     return options;
 }
 
@@ -91,6 +90,8 @@ class Converter {
             }
             case PHASETREE_STATEMENT_NO_DEAD_NODES:
                 return HasNoDeadNodes{};
+            case PHASETREE_STATEMENT_TIGHT_BOUNDS:
+                return HasTightBounds{given_.atMost};
         }
         throw invalid("statement {} has kind {}, which does not exist", index_, static_cast<int>(given_.kind));
     }
@@ -136,8 +137,7 @@ PhasetreeError phasetreeProveStatements(PhasetreeTree tree, const PhasetreeState
             proofs[i] = returned(found[i], made);
             if (std::holds_alternative<HasVolume>(all[i])) proofs[i].measured = returned(found[i].measured);
             for (const Witness& w : found[i].witnesses) {
-                if (made < witness_capacity)
-                    witnesses[made] = {{w.point.x, w.point.y, w.point.z}, w.phase.index};
+                if (made < witness_capacity) witnesses[made] = {{w.point.x, w.point.y, w.point.z}, w.phase.index};
                 ++made;
             }
         }

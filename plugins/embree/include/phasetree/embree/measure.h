@@ -93,14 +93,16 @@ PHASETREE_API PhasetreeError phasetreeMeasureTree(PhasetreeTree tree, const Phas
 
 /* Kinds of statements. All of them require their phases to be somewhere. */
 typedef enum PhasetreeStatementKind {
-    PHASETREE_STATEMENT_PRESENT = 0,      /* the phase is somewhere */
-    PHASETREE_STATEMENT_CONNECTED = 1,    /* the phase is in one piece */
-    PHASETREE_STATEMENT_CLOSED = 2,       /* every path from `inside` to the space around crosses one of `phases` */
-    PHASETREE_STATEMENT_APART = 3,        /* the two phases do not touch, and are at least atLeast apart */
-    PHASETREE_STATEMENT_TOUCHING = 4,     /* the two phases touch somewhere */
-    PHASETREE_STATEMENT_WALL = 5,         /* the phase is nowhere thinner than atLeast */
-    PHASETREE_STATEMENT_VOLUME = 6,       /* the sum of volumes times weights is from atLeast to atMost */
-    PHASETREE_STATEMENT_NO_DEAD_NODES = 7 /* leaving out any node changes the phase of some point */
+    PHASETREE_STATEMENT_PRESENT = 0,       /* the phase is somewhere */
+    PHASETREE_STATEMENT_CONNECTED = 1,     /* the phase is in one piece */
+    PHASETREE_STATEMENT_CLOSED = 2,        /* every path from `inside` to the space around crosses one of `phases` */
+    PHASETREE_STATEMENT_APART = 3,         /* the two phases do not touch, and are at least atLeast apart */
+    PHASETREE_STATEMENT_TOUCHING = 4,      /* the two phases touch somewhere */
+    PHASETREE_STATEMENT_WALL = 5,          /* the phase is nowhere thinner than atLeast */
+    PHASETREE_STATEMENT_VOLUME = 6,        /* the sum of volumes times weights is from atLeast to atMost */
+    PHASETREE_STATEMENT_NO_DEAD_NODES = 7, /* leaving out any node changes the phase of some point */
+    /* the box of the tree's nodes is at most atMost times as long along each axis as the object */
+    PHASETREE_STATEMENT_TIGHT_BOUNDS = 8
 } PhasetreeStatementKind;
 
 /* A statement about a tree. Initialise it with phasetreeInitStatement. Members that a kind does not mention are
@@ -111,7 +113,7 @@ typedef struct PhasetreeStatement {
      * number for CLOSED, whose walls they are, and for VOLUME. */
     PhasetreePhaseSet phases;
     PhasetreePhaseSet inside; /* CLOSED: the phases inside the walls */
-    double atLeast, atMost;   /* APART and WALL: a distance, atLeast; VOLUME: both limits */
+    double atLeast, atMost;   /* APART and WALL: a distance, atLeast; VOLUME: both limits; TIGHT_BOUNDS: atMost */
     /* WALL: how far from a point of the phase the centre of a ball of diameter atLeast that lies in the phase may be;
      * 0 for atLeast, otherwise more than half of it. */
     double reach;
