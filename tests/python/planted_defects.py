@@ -24,7 +24,7 @@ from support import COMMAND, SCENES, gallery_scenes, without_comments
 
 LONG = bool(os.environ.get("PHASETREE_LONG_TESTS"))
 SHORT_SCENES = ("inlaid_spheres", "hourglass")
-KINDS = ("wall", "gap", "leak", "crumbs", "contact", "swallowed", "covered", "dead")
+KINDS = ("wall", "gap", "leak", "crumbs", "contact", "swallowed", "dead", "covered")
 # Sites smaller than this share of the object's longest side are not used, because finding a defect in them takes long.
 LEAST_SITE = 1 / 24
 SECONDS = 200
@@ -91,10 +91,10 @@ class Planted:
     def plant_all(self):
         sites = sites_of(self.object, len(KINDS))
         materials = [s for s in sites if s.phase != "vacuum"]
-        planted = []
+        planted, used = [], []
         for kind in KINDS:
             if kind == "covered":
-                if self.plant_covered(sites):
+                if self.plant_covered(used):
                     planted.append(kind)
                 continue
             needs_material = kind in ("wall", "gap", "contact", "swallowed", "dead")
@@ -103,6 +103,7 @@ class Planted:
                 continue
             site = choice[0]
             sites.remove(site)
+            used.append(site)
             if site in materials:
                 materials.remove(site)
             self.smallest = min(self.smallest, site.radius)
@@ -123,52 +124,52 @@ class Planted:
 
     def plant_gap(self, s):
         """A ball in a cavity that it should fill."""
-        self.over.append(filled("insert", ball(s.centre, 0.5 * s.radius)))
+        self.over.append(filled("planted_insert", ball(s.centre, 0.5 * s.radius)))
         self.cut.append(ball(s.centre, 0.9 * s.radius))
         gap = 0.4 * s.radius
-        self.expect("gap", {"touching": {"phases": ["insert", s.phase]}}, lambda o, w: not w)
+        self.expect("gap", {"touching": {"phases": ["planted_insert", s.phase]}}, lambda o, w: not w)
         self.expect(
             "gap",
-            {"apart": {"phases": ["insert", s.phase], "at_least": 1.6 * gap}},
-            lambda o, w: {n for _, n in w} == {"insert", s.phase} and distance(w[0], w[1]) < 1.6 * gap,
+            {"apart": {"phases": ["planted_insert", s.phase], "at_least": 1.6 * gap}},
+            lambda o, w: {n for _, n in w} == {"planted_insert", s.phase} and distance(w[0], w[1]) < 1.6 * gap,
         )
-        self.expect("gap", {"apart": {"phases": ["insert", s.phase], "at_least": 0.1 * gap}}, None)
+        self.expect("gap", {"apart": {"phases": ["planted_insert", s.phase], "at_least": 0.1 * gap}}, None)
 
     def plant_leak(self, s):
         """A vessel with a hole. Its content is closed in by the phases around the site together with it."""
         r = 0.95 * s.radius
         hole = block(s.centre + np.array([0, 0.6 * r, 0]), (0.6 * r, 1.2 * r, 0.6 * r))
-        self.over.append(filled("content", ball(s.centre, 0.5 * r)))
-        self.over.append(filled("vessel", {"difference": {"from": ball(s.centre, r), "subtract": [hole]}}))
-        closed = {"walls": ["vessel"], "around": "content"}
+        self.over.append(filled("planted_content", ball(s.centre, 0.5 * r)))
+        self.over.append(filled("planted_vessel", {"difference": {"from": ball(s.centre, r), "subtract": [hole]}}))
+        closed = {"walls": ["planted_vessel"], "around": "planted_content"}
         self.expect("leak", {"closed": closed}, is_leak)
-        self.expect("leak", {"connected": {"phase": "vessel"}}, None)
+        self.expect("leak", {"connected": {"phase": "planted_vessel"}}, None)
 
     def plant_crumbs(self, s):
         """Two balls of one phase that do not touch."""
         a, b = s.at(-0.55, 0, 0), s.at(0.55, 0, 0)
-        self.over.append(filled("crumbs", {"union": [ball(a, 0.35 * s.radius), ball(b, 0.35 * s.radius)]}))
+        self.over.append(filled("planted_crumbs", {"union": [ball(a, 0.35 * s.radius), ball(b, 0.35 * s.radius)]}))
         self.expect(
             "crumbs",
-            {"connected": {"phase": "crumbs"}},
+            {"connected": {"phase": "planted_crumbs"}},
             lambda o, w: len(w) == 2 and sorted(np.linalg.norm(p - a) < 0.35 * s.radius for p, _ in w) == [0, 1],
         )
-        self.expect("crumbs", {"present": {"phase": "crumbs"}}, None)
+        self.expect("crumbs", {"present": {"phase": "planted_crumbs"}}, None)
 
     def plant_contact(self, s):
         """A ball that touches the phase around it, although the two must be apart."""
-        self.over.append(filled("stone", ball(s.centre, 0.6 * s.radius)))
+        self.over.append(filled("planted_stone", ball(s.centre, 0.6 * s.radius)))
         self.expect(
             "contact",
-            {"apart": {"phases": ["stone", s.phase]}},
-            lambda o, w: {n for _, n in w} == {"stone", s.phase} and np.linalg.norm(w[0][0] - s.centre) < 3 * s.radius,
+            {"apart": {"phases": ["planted_stone", s.phase]}},
+            lambda o, w: {n for _, n in w} == {"planted_stone", s.phase} and np.linalg.norm(w[0][0] - s.centre) < 3 * s.radius,
         )
-        self.expect("contact", {"touching": {"phases": ["stone", s.phase]}}, None)
+        self.expect("contact", {"touching": {"phases": ["planted_stone", s.phase]}}, None)
 
     def plant_swallowed(self, s):
         """A ball below a phase that fills all of it."""
-        self.under.append(filled("swallowed", ball(s.centre, 0.7 * s.radius)))
-        self.expect("swallowed", {"present": {"phase": "swallowed"}}, lambda o, w: not w)
+        self.under.append(filled("planted_swallowed", ball(s.centre, 0.7 * s.radius)))
+        self.expect("swallowed", {"present": {"phase": "planted_swallowed"}}, lambda o, w: not w)
         self.expect("swallowed", {"present": {"phase": s.phase}}, None)
 
     def plant_covered(self, sites):
@@ -190,7 +191,7 @@ class Planted:
         name, centre, size = best
         margin = 0.01 * (high - low).max()
         self.covered = name
-        self.first = filled("cover", block(centre, size + 2 * margin))
+        self.first = filled("planted_cover", block(centre, size + 2 * margin))
         self.expect("covered", {"present": {"phase": name}}, lambda o, w: not w)
         return True
 
@@ -203,7 +204,7 @@ class Planted:
         scene = dict(absolute(self.scene, self.path.parent))
         phases = dict(scene["phases"])
         for name in ("insert", "vessel", "content", "crumbs", "stone", "swallowed", "cover"):
-            phases[name] = {"diffuse": {"color": [0.5, 0.5, 0.5]}}
+            phases["planted_" + name] = {"diffuse": {"color": [0.5, 0.5, 0.5]}}
         tree = scene.pop("tree")
         for key in ("expect", "phases"):
             scene.pop(key, None)
@@ -260,7 +261,7 @@ def is_thin(scene, point, phase, diameter):
 def is_leak(scene, witnesses):
     """Whether a path leads from a vessel's content to the space around the object without meeting the wall."""
     points = np.array([p for p, _ in witnesses])
-    if len(points) < 2 or witnesses[0][1] != "content" or witnesses[-1][1] != "vacuum":
+    if len(points) < 2 or witnesses[0][1] != "planted_content":
         return False
     low, high = (np.array(b, dtype=float) for b in scene.bounds)
     if np.all((low < points[-1]) & (points[-1] < high)):
@@ -270,7 +271,7 @@ def is_leak(scene, witnesses):
         points = np.array([*points, min(beyond, key=lambda p: np.linalg.norm(p - points[-1]))])
     steps = np.linspace(0, 1, 41)[:, None]
     path = np.concatenate([a + steps * (b - a) for a, b in zip(points[:-1], points[1:])])
-    return not np.any(scene.locate(path) == scene.index("vessel"))
+    return not np.any(scene.locate(path) == scene.index("planted_vessel"))
 
 
 class Result:

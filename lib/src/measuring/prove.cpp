@@ -295,37 +295,21 @@ class ThicknessSearch {
         }
         return proof.verdict;
     }
-    // First upwards, until a thickness is refuted; then in between.
+    // First upwards, until a thickness is refuted. Then both ends move towards each other as far as these boxes allow.
     void search(const Evidence& e, WallThickness& w) {
         if (e.is_nowhere(w.phase)) return;
         constexpr double growth = 1.4;
         const double longest = 2 * e.octree.whole().half_diagonal();
-        bool is_proved_so_far = true;
-        for (double t = w.low > 0 ? w.low * growth : 2 * e.octree.side(); t < std::min(w.high, longest); t *= growth) {
-            if (stopped()) return;
-            WallThickness tried = w;
-            const Verdict verdict = attempt(e, tried, t);
-            if (verdict == Verdict::proved && !is_proved_so_far) continue;  // a smaller one is open
-            w = tried;
-            is_proved_so_far = is_proved_so_far && verdict == Verdict::proved;
-            if (verdict == Verdict::refuted) break;
-        }
-        // Both ends move towards each other as far as these boxes allow.
-        constexpr int most_steps = 5;
-        double low = w.low, high = w.high;  // of what may still be decided
-        for (int step = 0; step < most_steps && low > 0 && std::isfinite(high) && high > close_enough * low; ++step) {
-            if (stopped()) return;
-            const double middle = std::sqrt(low * high);
-            switch (attempt(e, w, middle)) {
-                case Verdict::proved:
-                    low = middle;
-                    break;
-                case Verdict::refuted:
-                    high = middle;
-                    break;
-                case Verdict::undecided:
-                    step % 2 == 0 ? high = middle : low = middle;
-                    break;
+        for (double t = w.low > 0 ? w.low * growth : 2 * e.octree.side(); t < std::min(w.high, longest); t *= growth)
+            if (stopped() || attempt(e, w, t) == Verdict::refuted) break;
+        for (const Verdict wanted : {Verdict::proved, Verdict::refuted}) {
+            constexpr int most_steps = 4;
+            double low = std::max(w.low, e.octree.side()), high = w.high;
+            for (int step = 0; step < most_steps && std::isfinite(high) && high > close_enough * low; ++step) {
+                if (stopped()) return;
+                const double middle = std::sqrt(low * high);
+                const bool is_wanted = attempt(e, w, middle) == wanted;
+                (is_wanted == (wanted == Verdict::proved) ? low : high) = middle;
             }
         }
     }
