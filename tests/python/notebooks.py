@@ -40,8 +40,8 @@ def run_cell(source, names):
 
 
 class Notebooks(unittest.TestCase):
-    def test_there_are_four(self):
-        self.assertEqual([p.stem for p in NOTEBOOKS], ["animation", "first_steps", "hourglass", "study"])
+    def test_there_are_five(self):
+        self.assertEqual([p.stem for p in NOTEBOOKS], ["animation", "bottle", "first_steps", "hourglass", "study"])
 
     def test_cells_run(self):
         before = os.getcwd()

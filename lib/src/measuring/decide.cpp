@@ -6,7 +6,10 @@
 // connected in it.
 #include "measuring/decide.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -222,6 +225,18 @@ std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b)
     return std::vector{e.middle_of(e.octree.leaves[closest->first]), e.middle_of(e.octree.leaves[closest->second])};
 }
 
+Cube empty_cube() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+void unite(Cube& all, const Cube& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        all.low[i] = std::min(all.low[i], other.low[i]);
+        all.high[i] = std::max(all.high[i], other.high[i]);
+    }
+}
+
 }  // namespace
 
 bool Evidence::is_nowhere(Phase phase) const {
@@ -324,6 +339,44 @@ Proof decide(const Evidence& e, const AreTouching& s) {
     if (decide(e, AreApart{s.first, s.second, 0}).verdict == Verdict::proved)
         return {Verdict::refuted, "they do not touch", {}, 0, {}};
     return {};
+}
+
+Proof decide(const Evidence& e, const HasTightBounds& s, const Bounds& stated) {
+    // Boxes around everything that may be, and that certainly is, in a phase other than the vacuum.
+    Cube outer = empty_cube(), inner = outer;
+    for (const OctreeLeaf& leaf : e.octree.leaves) {
+        if ((leaf.possible & ~std::uint64_t{1}) == 0) continue;
+        const Cube cube = e.octree.cube(leaf);
+        unite(outer, cube);
+        if (leaf.is_certain()) unite(inner, cube);
+    }
+    double least = 0, most = 0, least_diagonal = 0, stated_diagonal = 0;
+    int axis = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double side = static_cast<double>(stated.high[i]) - static_cast<double>(stated.low[i]);
+        // What is beyond the stated box is only rounding.
+        const double outer_side = std::min(side, outer.high[k] - outer.low[k]),
+                     inner_side = inner.high[k] - inner.low[k];
+        if (side > outer_side * least) {
+            least = side / outer_side;
+            axis = i;
+        }
+        most = inner_side > 0 ? std::max(most, side / inner_side) : std::numeric_limits<double>::infinity();
+        stated_diagonal += side * side;
+        least_diagonal += outer_side * outer_side;
+    }
+    Proof proof;
+    if (least > s.at_most) {
+        proof.verdict = Verdict::refuted;
+        proof.reason = fmt::format(
+            "the box of the tree is {:.3g} times as long along {} as the object, so the default resolution is {:.3g} "
+            "times as coarse as necessary",
+            least, "xyz"[axis], std::sqrt(stated_diagonal / least_diagonal));
+    } else if (most <= s.at_most) {
+        proof.verdict = Verdict::proved;
+    }
+    return proof;
 }
 
 }  // namespace phasetree::measuring

@@ -29,6 +29,8 @@ Proof decide(const Evidence&, const IsClosed&);
 Proof decide(const Evidence&, const AreApart&);
 Proof decide(const Evidence&, const AreTouching&);
 Proof decide(const Evidence&, const IsThick&);
+/// `stated` is the box that follows from the tree's nodes.
+Proof decide(const Evidence&, const HasTightBounds&, const Bounds& stated);
 
 /// The indices of the leaves for which `is_wanted` holds.
 template <class IsWanted>

@@ -53,8 +53,9 @@ class Thickness {
     Proof run() {
         if (may_meet_.empty()) return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
         prove(may_meet_);
+        if (e_.is_stopped()) return {};
         if (open_.empty() && e_.points_of(PhaseSet::of(phase_))) return {Verdict::proved, "", {}, 0, {}};
-        for (const glm::vec3& p : candidates()) {
+        for (const glm::vec3& p : most_suspicious(candidates())) {
             if (e_.is_stopped()) break;
             if (is_thin_at(widened(p)))
                 return {Verdict::refuted, "no ball of this diameter is within reach", {{p, phase_}}, 0, {}};
@@ -63,10 +64,19 @@ class Thickness {
     }
 
   private:
-    // With this many open boxes, the phase is hardly thick enough, and a few of the boxes suffice to find out where it
-    // is not.
-    static constexpr std::size_t enough_open = 512;
-    static constexpr std::size_t most_candidates = 48;
+    // With this many open boxes, the phase is hardly thick enough. Others are then examined less thoroughly, only to
+    // find out where it is thinnest.
+    static constexpr std::size_t enough_open = 512, most_open = 1 << 16;
+    static constexpr std::size_t most_candidates = 2048, most_suspects = 48;
+
+    struct OpenBox {
+        std::uint32_t leaf;
+        double depth;  // of the deepest ball that was found near it
+    };
+    struct Candidate {
+        glm::vec3 point;
+        double depth;
+    };
 
     // A lower bound of the distance from the outside, from the components.
     double depth(const glm::vec3& p) const {
@@ -97,6 +107,7 @@ class Thickness {
     // The centre of a ball in the phase that is within reach of the whole box.
     bool find_centre(const Cube& box) {
         const double allowed = reach_ * (1 - 1e-9) - box.half_diagonal();
+        last_depth_ = 0;
         if (!(allowed >= 0)) return false;
         const Point middle = box.centre();
         if (last_centre_ && distance_between(*last_centre_, middle) <= allowed) return true;
@@ -123,6 +134,7 @@ class Thickness {
             if (rounded_to_float(next) == at) break;
             at = rounded_to_float(next);
         }
+        last_depth_ = best_depth;
         if (distance_between(widened(best), middle) > allowed || !(best_depth > 0.2 * radius_) || !is_centre(best))
             return false;
         last_centre_ = widened(best);
@@ -150,48 +162,60 @@ class Thickness {
         return part;
     }
     void prove(std::span<const std::uint32_t> leaves) {
-        if (open_.size() >= enough_open || e_.is_stopped()) {
-            open_.push_back(leaves.front());
-            return;
-        }
+        if (open_.size() >= most_open || e_.is_stopped()) return;
+        const bool is_covered_at_once = find_centre(cube_of(octree_, leaves));
+        const double depth = last_depth_;
+        if (is_covered_at_once) return;
         if (leaves.size() == 1) {
-            if (!is_covered(cube_of(octree_, leaves), 0)) open_.push_back(leaves.front());
+            if (open_.size() >= enough_open || !is_covered(cube_of(octree_, leaves), 0))
+                open_.push_back({leaves.front(), depth});
             return;
         }
-        if (find_centre(cube_of(octree_, leaves))) return;
         const std::size_t middle = leaves.size() / 2;
         prove(leaves.first(middle));
         prove(leaves.subspan(middle));
     }
 
     // Points of the phase in some of the open boxes.
-    std::vector<glm::vec3> candidates() const {
-        std::vector<glm::vec3> points;
+    std::vector<Candidate> candidates() const {
+        std::vector<Candidate> points;
         const std::size_t step = std::max<std::size_t>(1, open_.size() / most_candidates);
-        for (std::size_t i = 0; i < open_.size(); i += step) {
-            const OctreeLeaf& leaf = octree_.leaves[open_[i]];
-            const Cube cube = octree_.cube(leaf);
-            if (leaf.is_only(phase_.index)) {
-                points.push_back(rounded_to_float(cube.centre()));
-                continue;
-            }
-            std::optional<glm::vec3> deepest;
-            double least = 2 * static_cast<double>(octree_.value_error);
-            for (int k = 0; k < 9; ++k) {
-                Point p = cube.centre();
-                for (std::size_t axis = 0; axis < 3 && k < 8; ++axis)
-                    p[axis] += ((k >> axis) & 1 ? 0.29 : -0.29) * (cube.high[axis] - cube.low[axis]);
-                const glm::vec3 at = rounded_to_float(p);
-                const Phases<float> values = e_.evaluator.distances(at, Evaluator::thread_workspace());
-                const double d = values.has(phase_.index) ? -static_cast<double>(values[phase_.index]) : 0;
-                if (d > least) {
-                    least = d;
-                    deepest = at;
-                }
-            }
-            if (deepest) points.push_back(*deepest);
-        }
+        for (std::size_t i = 0; i < open_.size(); i += step)
+            if (const auto p = point_in(octree_.leaves[open_[i].leaf])) points.push_back({*p, open_[i].depth});
         return points;
+    }
+    // Most candidates are at edges, where the phase is nearly thick enough. So most suspects are those with the
+    // shallowest balls near them; the others are taken evenly.
+    static std::vector<glm::vec3> most_suspicious(std::vector<Candidate> all) {
+        std::vector<glm::vec3> chosen;
+        constexpr std::size_t evenly = most_suspects / 3;
+        const std::size_t step = std::max<std::size_t>(1, all.size() / evenly);
+        std::vector<glm::vec3> others;
+        for (std::size_t i = 0; i < all.size(); i += step) others.push_back(all[i].point);
+        std::ranges::stable_sort(all, {}, &Candidate::depth);
+        for (std::size_t i = 0; i < std::min(all.size(), most_suspects - evenly); ++i) chosen.push_back(all[i].point);
+        chosen.insert(chosen.end(), others.begin(), others.end());
+        return chosen;
+    }
+    // The deepest of some points of a leaf, if one is certainly in the phase.
+    std::optional<glm::vec3> point_in(const OctreeLeaf& leaf) const {
+        const Cube cube = octree_.cube(leaf);
+        if (leaf.is_only(phase_.index)) return rounded_to_float(cube.centre());
+        std::optional<glm::vec3> deepest;
+        double least = 2 * static_cast<double>(octree_.value_error);
+        for (int k = 0; k < 9; ++k) {
+            Point p = cube.centre();
+            for (std::size_t axis = 0; axis < 3 && k < 8; ++axis)
+                p[axis] += ((k >> axis) & 1 ? 0.29 : -0.29) * (cube.high[axis] - cube.low[axis]);
+            const glm::vec3 at = rounded_to_float(p);
+            const Phases<float> values = e_.evaluator.distances(at, Evaluator::thread_workspace());
+            const double d = values.has(phase_.index) ? -static_cast<double>(values[phase_.index]) : 0;
+            if (d > least) {
+                least = d;
+                deepest = at;
+            }
+        }
+        return deepest;
     }
     // An upper bound of the distance from the outside, or of `limit` if that is less.
     double distance_of_outside(const Point& p, double limit) const {
@@ -242,8 +266,9 @@ class Thickness {
     Cube whole_;
     std::vector<std::uint32_t> may_meet_, outside_;
     std::vector<std::uint32_t> not_in_;  // how many of the leaves before this one are not certainly in the phase
-    std::vector<std::uint32_t> open_;    // leaves for which no ball was found
+    std::vector<OpenBox> open_;          // those for which no ball was found
     std::optional<Point> last_centre_;
+    double last_depth_ = 0;  // of the deepest ball that find_centre() last found, within reach of the box or not
 };
 
 }  // namespace

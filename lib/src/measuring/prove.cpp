@@ -23,6 +23,12 @@ using Clock = std::chrono::steady_clock;
 constexpr int first_levels = 5;
 constexpr double boxes_along_longest_side = 256;
 
+double side_of_smallest_boxes(const TraceableObject& object, const ProveOptions& options) {
+    if (options.resolution > 0) return options.resolution;
+    const glm::dvec3 extent(object.bounds.extent());
+    return std::max({extent.x, extent.y, extent.z}) / boxes_along_longest_side;
+}
+
 class Prover {
   public:
     Prover(const Phased& object, std::span<const Statement> statements, const ProveOptions& options)
@@ -67,8 +73,8 @@ class Prover {
     void divide(double share) {
         begin_stage(share);
         const std::function<bool()> is_stopped = [this] { return stopped(); };
-        const int last = levels_for(traceable_, side());
-        for (int levels = std::min(first_levels, last); levels <= last && is_any_open() && !stopped(); ++levels) {
+        const int last = levels_for(traceable_, side_of_smallest_boxes(traceable_, options_));
+        for (int levels = std::min(first_levels, last); levels <= last && is_any_open(levels) && !stopped(); ++levels) {
             try {
                 const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
                 const Evidence evidence{octree, evaluator_, is_stopped};
@@ -76,20 +82,19 @@ class Prover {
                     if (is_open(i) && !std::holds_alternative<HasNoDeadNodes>(statements_[i])) decide_one(evidence, i);
             } catch (const DivisionStopped& e) {
                 if (e.is_for_boxes) give_up("more boxes are needed than allowed");
-                return;
+                break;
             }
             if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
         }
-    }
-    double side() const {
-        if (options_.resolution > 0) return options_.resolution;
-        const glm::dvec3 extent(traceable_.bounds.extent());
-        return std::max({extent.x, extent.y, extent.z}) / boxes_along_longest_side;
+        if (stopped()) give_up(is_cancelled_ ? "interrupted" : "time ran out", false);
     }
     bool is_open(std::size_t i) const { return proofs_[i].verdict == Verdict::undecided && proofs_[i].reason.empty(); }
-    // Whether boxes can still decide something: a statement that is not about volumes, or whether phases exist.
-    bool is_any_open() const {
+    // Whether boxes can still decide something: a statement that is not about volumes, or whether phases exist. Tight
+    // bounds alone are not worth many boxes.
+    bool is_any_open(int levels) const {
+        constexpr int levels_for_bounds = 7;
         for (std::size_t i = 0; i < statements_.size(); ++i) {
+            if (std::holds_alternative<HasTightBounds>(statements_[i]) && levels > levels_for_bounds) continue;
             const auto* volume = std::get_if<HasVolume>(&statements_[i]);
             if (std::holds_alternative<HasNoDeadNodes>(statements_[i])) continue;
             if (is_open(i) && (!volume || !are_present(*volume, present_[i]))) return true;
@@ -104,9 +109,13 @@ class Prover {
     static bool are_present(const HasVolume& s, PhaseSet present) {
         return std::ranges::all_of(s.weights, [&](const auto& w) { return present.contains(w.first); });
     }
-    void give_up(const std::string& reason) {
-        for (Proof& proof : proofs_)
-            if (proof.verdict == Verdict::undecided && proof.reason.empty()) proof.reason = reason;
+    // Later stages can still decide statements about volumes and nodes.
+    void give_up(const std::string& reason, bool is_last_stage = true) {
+        for (std::size_t i = 0; i < proofs_.size(); ++i) {
+            const bool has_later_stage = std::holds_alternative<HasVolume>(statements_[i]) ||
+                                         std::holds_alternative<HasNoDeadNodes>(statements_[i]);
+            if (is_open(i) && (is_last_stage || !has_later_stage)) proofs_[i].reason = reason;
+        }
     }
     void decide_one(const Evidence& evidence, std::size_t i) {
         if (const auto* volume = std::get_if<HasVolume>(&statements_[i])) {
@@ -117,6 +126,8 @@ class Prover {
             [&]<class S>(const S& statement) {
                 if constexpr (std::is_same_v<S, HasVolume> || std::is_same_v<S, HasNoDeadNodes>)
                     return Proof();  // elsewhere
+                else if constexpr (std::is_same_v<S, HasTightBounds>)
+                    return decide(evidence, statement, bounds(object_));
                 else
                     return decide(evidence, statement);
             },
@@ -233,6 +244,85 @@ class Prover {
     std::atomic<bool> is_stopped_{false}, is_cancelled_{false};
 };
 
+// Finds the thickness at which IsThick changes from proved to refuted.
+class ThicknessSearch {
+  public:
+    ThicknessSearch(const Phased& object, const ProveOptions& options)
+        : object_(object),
+          options_(options),
+          traceable_(prepare_to_trace(object)),
+          evaluator_(record(object)),
+          start_(Clock::now()) {
+        for_each_phase(phases(object).bits & ~PhaseSet::of(vacuum).bits,
+                       [&](int i) { found_.push_back({Phase{static_cast<std::uint8_t>(i)}}); });
+    }
+
+    std::vector<WallThickness> run() {
+        const FlushSubnormals flush;
+        const int last = levels_for(traceable_, side_of_smallest_boxes(traceable_, options_));
+        const std::function<bool()> is_stopped = [this] { return stopped(); };
+        const auto is_open = [](const WallThickness& w) { return !(w.high <= close_enough * w.low); };
+        for (int levels = std::min(first_levels, last); levels <= last && !stopped(); ++levels) {
+            if (std::ranges::none_of(found_, is_open)) break;
+            try {
+                const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
+                const Evidence evidence{octree, evaluator_, is_stopped};
+                for (WallThickness& w : found_)
+                    if (is_open(w) && !stopped()) search(evidence, w);
+            } catch (const DivisionStopped&) {
+                break;
+            }
+            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
+        }
+        if (options_.progress) options_.progress(1.f);
+        return found_;
+    }
+
+  private:
+    static constexpr double close_enough = 1.05;
+
+    bool stopped() {
+        if (options_.cancelled && options_.cancelled()) is_stopped_ = true;
+        if (std::chrono::duration<double>(Clock::now() - start_).count() >= options_.seconds) is_stopped_ = true;
+        return is_stopped_;
+    }
+    Verdict attempt(const Evidence& e, WallThickness& w, double thickness) const {
+        const Proof proof = decide(e, IsThick{w.phase, thickness});
+        if (proof.verdict == Verdict::proved) w.low = std::max(w.low, thickness);
+        if (proof.verdict == Verdict::refuted && !proof.witnesses.empty() && thickness < w.high) {
+            w.high = thickness;
+            w.place = proof.witnesses.front().point;
+        }
+        return proof.verdict;
+    }
+    // First upwards, until a thickness is refuted. Then both ends move towards each other as far as these boxes allow.
+    void search(const Evidence& e, WallThickness& w) {
+        if (e.is_nowhere(w.phase)) return;
+        constexpr double growth = 1.4;
+        const double longest = 2 * e.octree.whole().half_diagonal();
+        for (double t = w.low > 0 ? w.low * growth : 2 * e.octree.side(); t < std::min(w.high, longest); t *= growth)
+            if (stopped() || attempt(e, w, t) == Verdict::refuted) break;
+        for (const Verdict wanted : {Verdict::proved, Verdict::refuted}) {
+            constexpr int most_steps = 4;
+            double low = std::max(w.low, e.octree.side()), high = w.high;
+            for (int step = 0; step < most_steps && std::isfinite(high) && high > close_enough * low; ++step) {
+                if (stopped()) return;
+                const double middle = std::sqrt(low * high);
+                const bool is_wanted = attempt(e, w, middle) == wanted;
+                (is_wanted == (wanted == Verdict::proved) ? low : high) = middle;
+            }
+        }
+    }
+
+    const Phased& object_;
+    const ProveOptions& options_;
+    TraceableObject traceable_;
+    Evaluator evaluator_;
+    Clock::time_point start_;
+    std::vector<WallThickness> found_;
+    std::atomic<bool> is_stopped_{false};
+};
+
 // Rejects statements with invalid phases, or with lengths out of range.
 struct CheckStatement {
     void phase(Phase p) const {
@@ -279,19 +369,40 @@ struct CheckStatement {
         if (!(s.at_least <= s.at_most)) throw ModelError("the least volume must not be more than the greatest");
     }
     void operator()(const HasNoDeadNodes&) const {}
+    void operator()(const HasTightBounds& s) const {
+        if (!(s.at_most >= 1 && std::isfinite(s.at_most)))
+            throw ModelError(fmt::format("the factor must be a number of at least 1, but is {}", s.at_most));
+    }
 };
 
 }  // namespace
 
 }  // namespace measuring
 
-std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& options) {
+void check_statement(const Statement& s) {
+    std::visit(measuring::CheckStatement(), s);
+}
+
+namespace {
+
+void check(const ProveOptions& options) {
     if (!(options.resolution >= 0 && std::isfinite(options.resolution)))
         throw ModelError(fmt::format("the resolution must be a positive number, or 0, but is {}", options.resolution));
     if (!(options.seconds > 0))
         throw ModelError(fmt::format("the time must be a positive number of seconds, but is {}", options.seconds));
-    for (const Statement& s : statements) std::visit(measuring::CheckStatement(), s);
+}
+
+}  // namespace
+
+std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& options) {
+    check(options);
+    for (const Statement& s : statements) check_statement(s);
     return measuring::Prover(object, statements, options).run();
+}
+
+std::vector<WallThickness> wall_thicknesses(const Phased& object, const ProveOptions& options) {
+    check(options);
+    return measuring::ThicknessSearch(object, options).run();
 }
 
 }  // namespace phasetree

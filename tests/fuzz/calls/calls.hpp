@@ -86,6 +86,7 @@ class Calls {
     void count_tree();
     void ask_tree();
     void ask_tree_precisely(PhasetreeTree);
+    void measure_tree(PhasetreeTree);
 
     // geometries.cpp
     PhasetreeGeometryOptions options();

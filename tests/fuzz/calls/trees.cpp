@@ -1,6 +1,7 @@
 // Trees are created from texts, edited, reference-counted and queried.
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "fuzz/calls/calls.hpp"
 
@@ -97,6 +98,7 @@ void Calls::ask_tree() {
     check_with(of, phasetreeCarveTree(of, c_.below(16), &options, c_.or_null(planes), c_.or_null(&count),
                                       c_.or_null(&carved)));
     ask_tree_precisely(of);
+    measure_tree(of);
 }
 
 // Numbers of any size, and some that are not finite.
@@ -118,6 +120,38 @@ void Calls::ask_tree_precisely(PhasetreeTree of) {
     const auto stop = [](void*) { return true; };
     check_with(of, phasetreeFindCrossings(of, c_.or_null(&ray), c_.below(2), c_.or_null(&crossing),
                                           c_.rarely() ? +stop : nullptr, nullptr));
+}
+
+// With few boxes, because trees may be complex.
+void Calls::measure_tree(PhasetreeTree of) {
+    std::vector<double> numbers(PHASETREE_MAX_PHASES, static_cast<double>(c_.number()));
+    std::vector<PhasetreeMeasuredPhase> phases(PHASETREE_MAX_PHASES);
+    PhasetreeMeasureOptions measuring;
+    phasetreeInitMeasureOptions(&measuring);
+    measuring.tolerance = c_.rarely() ? static_cast<double>(c_.number()) : 0.5;
+    measuring.maxBoxes = c_.below(100);
+    measuring.densities = c_.or_null(numbers.data());
+    PhasetreeBody all;
+    PhasetreeMeasureEnd end;
+    check_with(of, phasetreeMeasureTree(of, c_.rarely() ? &measuring : nullptr, nullptr, &all, &end));
+    check_with(of, phasetreeMeasureTree(of, &measuring, phases.data(), c_.or_null(&all), c_.or_null(&end)));
+    PhasetreeStatement statements[2];
+    for (PhasetreeStatement& s : statements) {
+        phasetreeInitStatement(&s, static_cast<PhasetreeStatementKind>(c_.below(10)), c_.below(16));
+        s.inside = c_.below(16);
+        s.atLeast = static_cast<double>(c_.number());
+        s.weights = c_.or_null(numbers.data());
+    }
+    PhasetreeProveOptions proving;
+    phasetreeInitProveOptions(&proving);
+    proving.resolution = c_.rarely() ? static_cast<double>(c_.number()) : 0;
+    proving.maxBoxes = c_.below(200);
+    proving.seconds = 0.01;
+    PhasetreeProof proofs[2];
+    PhasetreeWitness witnesses[3];
+    std::size_t witness_count = 0;
+    check_with(of, phasetreeProveStatements(of, c_.or_null(statements), c_.below(3), &proving, c_.or_null(proofs),
+                                            c_.or_null(witnesses), c_.below(4), c_.or_null(&witness_count)));
 }
 
 }  // namespace phasetree::fuzz

@@ -31,7 +31,7 @@ struct MeasureCommand {
     double seconds = 30;
     std::optional<std::string> unit;
     std::vector<std::string> densities;
-    bool as_json = false;
+    bool finds_thickness = false, as_json = false;
 };
 
 // For areas: the maximum shares of the time for preparing the object and for tracing lines.
@@ -59,6 +59,16 @@ AreaResult areas_of(const SceneFile& file, const Document& document, const Scene
     options.seconds = share_of_areas * chosen.seconds;
     options.cancelled = [] { return interrupted(); };
     return estimate_areas(prepared->cells().bounds(), embree::line_tracer(prepared->scene()), options);
+}
+
+std::vector<WallThickness> thicknesses_of(const Document& document, const SceneTree& tree,
+                                          const MeasureCommand& chosen) {
+    ProveOptions options;
+    options.seconds = chosen.seconds;
+    options.cancelled = [] { return interrupted(); };
+    LateProgress progress(ProgressOutput::standard_error(false), "finding thin walls");
+    options.progress = [&](float done) { progress.tell(done); };
+    return made_of_tree(document, [&] { return wall_thicknesses(tree.object, options); });
 }
 
 int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
@@ -90,8 +100,15 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     options.seconds =
         std::max(chosen.seconds - seconds_since(start), (1 - share_of_preparing - share_of_areas) * chosen.seconds);
     MeasureResult result = made_of_tree(document, [&] { return measure(tree.object, options); });
+    std::vector<WallThickness> walls;
+    if (chosen.finds_thickness) walls = thicknesses_of(document, tree, chosen);
     convert_to_metres(result, areas, unit);
-    const MeasureReport report{file.shown(), tree.phases, result, areas};
+    for (WallThickness& w : walls) {
+        w.low *= unit.metres;
+        w.high *= unit.metres;
+        if (w.place) *w.place *= static_cast<float>(unit.metres);
+    }
+    const MeasureReport report{file.shown(), tree.phases, result, areas, walls};
     if (chosen.as_json)
         print_json(report);
     else
@@ -128,6 +145,8 @@ void add_measure(CLI::App& app, Run& run) {
                  "Stop after this time, whatever is known by then (default: 30s)");
     add_length_unit(*command, options->unit);
     add_densities(*command, options->densities);
+    command->add_flag("--thickness", options->finds_thickness,
+                      "Also find how thin each phase is where it is thinnest; takes up to --time once more");
     command->add_flag("--json", options->as_json, "Print JSON");
     command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });
 }

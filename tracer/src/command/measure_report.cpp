@@ -47,6 +47,12 @@ void print_inertia(const Body& body, bool has_density) {
         print(fmt::format("inertia {}{}", axes[i], axes[j]), body.inertia[i][j], has_density ? "kg m²" : "m⁵");
 }
 
+void print_thickness(const WallThickness& w) {
+    if (!w.place) return put("  {:<18}at least {:.5g} m everywhere\n", "thickness", w.low);
+    put("  {:<18}from {:.5g} to {:.5g} m where it is thinnest, at ({:.6g}, {:.6g}, {:.6g})\n", "thickness", w.low,
+        w.high, w.place->x, w.place->y, w.place->z);
+}
+
 void print_phase(const MeasureReport& report, const MeasuredPhase& p) {
     put("\n{}\n", report.names[p.phase]);
     print("volume", p.body.volume, "m³");
@@ -58,6 +64,8 @@ void print_phase(const MeasureReport& report, const MeasuredPhase& p) {
     for (const AreaResult::OfPhase& a : report.areas.phases)
         if (a.phase == p.phase)
             put("  {:<18}{:>14.5g} {:<6} standard error {:.2g}\n", "area", a.area, "m²", a.standard_error);
+    for (const WallThickness& w : report.walls)
+        if (w.phase == p.phase) print_thickness(w);
 }
 
 Json json_of(const Measured& m) {
@@ -67,6 +75,13 @@ Json json_of(const Measured& m) {
 
 Json json_of(const std::array<Measured, 3>& all) {
     return {json_of(all[0]), json_of(all[1]), json_of(all[2])};
+}
+
+// The limits are null if nothing is proved.
+Json json_of(const WallThickness& w) {
+    Json json{{"low", w.low > 0 ? Json(w.low) : Json()}, {"high", w.place ? Json(w.high) : Json()}};
+    json["at"] = w.place ? Json{w.place->x, w.place->y, w.place->z} : Json();
+    return json;
 }
 
 void add_body(Json& json, const Body& body, bool has_density) {
@@ -116,6 +131,8 @@ void print_json(const MeasureReport& report) {
         phase["box"] = {{"low", json_of(p.box_low)}, {"high", json_of(p.box_high)}};
         for (const AreaResult::OfPhase& a : report.areas.phases)
             if (a.phase == p.phase) phase["area"] = {{"estimate", a.area}, {"standard_error", a.standard_error}};
+        for (const WallThickness& w : report.walls)
+            if (w.phase == p.phase) phase["thickness"] = json_of(w);
         list.push_back(phase);
     }
     if (m.all) add_body(json["all"], *m.all, true);

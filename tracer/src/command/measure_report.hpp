@@ -6,6 +6,7 @@
 #include "phasetree/io/tree.hpp"
 #include "phasetree/measuring/areas.hpp"
 #include "phasetree/measuring/measure.hpp"
+#include "phasetree/measuring/prove.hpp"
 
 namespace phasetree::tracer {
 
@@ -14,6 +15,7 @@ struct MeasureReport {
     const PhaseNames& names;
     const MeasureResult& measures;
     const AreaResult& areas;
+    const std::vector<WallThickness>& walls;  // empty unless they were asked for
 };
 
 void print_table(const MeasureReport&);

@@ -39,8 +39,8 @@ struct PlacedEffect {
 };
 
 std::string name_of_statement(const Statement& s) {
-    constexpr std::array names{"present",  "connected", "closed", "apart",
-                               "touching", "wall",      "volume", "no_dead_nodes"};
+    constexpr std::array names{"present", "connected", "closed",        "apart",       "touching",
+                               "wall",    "volume",    "no_dead_nodes", "tight_bounds"};
     return names[s.index()];
 }
 
@@ -122,6 +122,16 @@ void warn_of_dead_nodes(const std::vector<PlacedEffect>& effects, const NodePlac
     for (const auto& [effect, place] : effects)
         if (effect.is_dead == Verdict::proved)
             say("{}:{}:{}: warning: {}\n", place.file, place.line, place.column, removal_text(effect, places));
+}
+
+void warn_of_loose_bounds(const std::string& scene, const Document& document, const Proof& proof) {
+    if (proof.verdict != Verdict::refuted) return;
+    std::string place = scene;
+    if (const std::optional<Value> tree = document.root().find("tree")) {
+        const SceneError e = document.error(*tree, "");
+        place = fmt::format("{}:{}:{}", scene, e.line(), e.column());
+    }
+    say("{}: warning: {}\n", place, proof.reason);
 }
 
 Json json_of(const PlacedEffect& placed, const PhaseNames& names) {
@@ -209,7 +219,8 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     if (!is_expected) expected = usual_expectations(tree);
     std::vector<Statement> statements;
     for (const Expectation& e : expected) statements.push_back(e.statement);
-    // Dead nodes are looked for in any case, for warnings.
+    // Loose bounds and dead nodes are looked for in any case, for warnings.
+    statements.emplace_back(HasTightBounds());
     statements.emplace_back(HasNoDeadNodes());
     const InterruptGuard guard;
     LateProgress progress(ProgressOutput::standard_error(false), "proving");
@@ -223,6 +234,7 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     for (std::size_t i = 0; i < expected.size(); ++i) findings.push_back({expected[i], proofs[i]});
     const std::vector<PlacedEffect> effects = placed_effects(proofs.back().nodes, places);
     warn_of_dead_nodes(effects, places);
+    warn_of_loose_bounds(file.shown(), document, proofs[expected.size()]);
     if (chosen.as_json)
         print_json(file.shown(), document, findings, effects, tree.phases);
     else

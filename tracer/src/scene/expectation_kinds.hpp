@@ -185,8 +185,21 @@ struct NoDeadNodesParameters {
     MadeStatement made(const ExpectationContext&) const;
 };
 
+struct TightBoundsParameters {
+    static constexpr KindInfo info{
+        "tight_bounds",
+        "The box that follows from the bounds of the tree's nodes is not much longer along any axis than the object."};
+    double at_most = 2;
+
+    template <class V>
+    static void parameters(V&& v) {
+        v(&TightBoundsParameters::at_most, Parameter{"at_most", "", "The factor, at least 1.", limits::positive, true});
+    }
+    MadeStatement made(const ExpectationContext&) const;
+};
+
 using ExpectationKinds =
     TypeList<PresentParameters, ConnectedParameters, ClosedParameters, ApartParameters, TouchingParameters,
-             WallParameters, VolumeParameters, MassParameters, NoDeadNodesParameters>;
+             WallParameters, VolumeParameters, MassParameters, NoDeadNodesParameters, TightBoundsParameters>;
 
 }  // namespace phasetree::tracer

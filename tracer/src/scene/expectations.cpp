@@ -150,6 +150,12 @@ MadeStatement NoDeadNodesParameters::made(const ExpectationContext&) const {
     return {HasNoDeadNodes{}};
 }
 
+MadeStatement TightBoundsParameters::made(const ExpectationContext&) const {
+    if (!(at_most >= 1))
+        throw ParameterError("at_most", fmt::format("\"at_most\" must be at least 1, but is {}", at_most));
+    return {HasTightBounds{at_most}};
+}
+
 std::vector<Expectation> read_expectations(const Document& document, const ExpectationContext& context) {
     std::vector<Expectation> all;
     const std::optional<Value> list = document.root().find("expect");

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -57,8 +58,14 @@ struct HasVolume {
 };
 /// Leaving out any one node of the tree changes the label of some point; see node_effects().
 struct HasNoDeadNodes {};
-using Statement =
-    std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume, HasNoDeadNodes>;
+/// The box that follows from the bounds of the tree's nodes is at most `at_most` times as long along each axis as the
+/// smallest box around the object. A larger box makes the default resolution of rays and proofs coarser by the same
+/// factor.
+struct HasTightBounds {
+    double at_most = 2;  ///< at least 1
+};
+using Statement = std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume,
+                               HasNoDeadNodes, HasTightBounds>;
 
 /// A point, and the phase that certainly is there.
 struct Witness {
@@ -90,6 +97,9 @@ struct ProveOptions {
     std::function<void(float)> progress{};  ///< receives a guess of the share of the work that is done
 };
 
+/// Throws ModelError if a statement has invalid phases, or a length out of its range.
+void check_statement(const Statement&);
+
 /// Decide statements about an object.
 ///
 /// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
@@ -116,5 +126,22 @@ struct ProveOptions {
 /// other statements, then the rest, at least a quarter, for HasVolume again. Throws ModelError if the object is empty
 /// or unbounded, or if an argument is out of its range.
 std::vector<Proof> prove(const Phased& object, std::span<const Statement> statements, const ProveOptions& = {});
+
+/// How thin a phase is where it is thinnest, in the sense of IsThick with the default reach.
+struct WallThickness {
+    Phase phase;
+    double low = 0;  ///< the phase is proved to be nowhere thinner; 0 if nothing is proved
+    double high = std::numeric_limits<double>::infinity();  ///< the phase is proved to be thinner than this at `place`
+    std::optional<glm::vec3> place{};                       ///< a point of the phase; nullopt if `high` is infinite
+};
+
+/// Find the smallest thickness of each phase, and where it is.
+///
+/// Tries one thickness after another in smaller and smaller boxes, until `high` is at most 5 % more than `low`, or to the
+/// limits of the options. As for IsThick, a thin fin within reach of a thick part may go unnoticed.
+///
+/// Returns one element for each phase but the vacuum, in ascending order. Threads, errors and progress are as for
+/// prove().
+std::vector<WallThickness> wall_thicknesses(const Phased& object, const ProveOptions& = {});
 
 }  // namespace phasetree

@@ -43,6 +43,7 @@
 #include "phasetree/embree/common.h"
 #include "phasetree/embree/geometry.h"
 #include "phasetree/embree/hit.h"
+#include "phasetree/embree/measure.h"
 #include "phasetree/embree/mesh.h"
 #include "phasetree/embree/point.h"
 #include "phasetree/embree/precise.h"
