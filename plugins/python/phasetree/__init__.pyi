@@ -2794,6 +2794,38 @@ class materials:
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
         """
     @staticmethod
+    def thin_glass(ior: float | None = ..., color: Sequence[float] | str | Texture | None = ..., thickness: float | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+        r"""Window pane, foil: glass so thin that light goes straight through. All reflections between its two faces count. Only meshes can have it; a pane is a single layer of triangles, not a closed box.
+
+            R = 2 r/(1 + r)
+
+        ior: Refractive index relative to vacuum. What counts is its ratio to that around it. (number; at least 0.1 and at most 10; default 1.5)
+        color: Colour of white light that crosses the glass once, perpendicularly and without reflections; default white. Slanted light crosses more glass. (colour or texture; default none)
+        thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
+        color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
+        roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+        """
+    @staticmethod
+    def thin_diffuse(color: Sequence[float] | str | Texture, transmission: Sequence[float] | str | Texture, bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+        r"""Leaf, paper, lampshade: a sheet that reflects light diffusely, and transmits some of it diffusely to the other side. It is the same from both sides. Only meshes can have it.
+
+        color: Reflectance. (colour or texture)
+        transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+        normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+        """
+    @staticmethod
+    def two_sided(front: Material, back: Material) -> Material:
+        r"""Playing card, lined fabric, banknote: an opaque mesh with different materials on its sides. The front is the side of the mesh's normals; without normals, that from which the corners of a triangle are in counter-clockwise order. Neither material may be clear, thin or emit light.
+
+        front: Material of the front. (opaque material)
+        back: Material of the back. (opaque material)
+        """
+    @staticmethod
     def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
         r"""A mix of two materials: iron and rust, paint and the metal under it. Neither may be clear or emit light.
 
@@ -2917,6 +2949,38 @@ def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float
     color: Reflectance; default black. (colour or texture; default none)
     spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
+    """
+
+def thin_glass(ior: float | None = ..., color: Sequence[float] | str | Texture | None = ..., thickness: float | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+    r"""Window pane, foil: glass so thin that light goes straight through. All reflections between its two faces count. Only meshes can have it; a pane is a single layer of triangles, not a closed box.
+
+        R = 2 r/(1 + r)
+
+    ior: Refractive index relative to vacuum. What counts is its ratio to that around it. (number; at least 0.1 and at most 10; default 1.5)
+    color: Colour of white light that crosses the glass once, perpendicularly and without reflections; default white. Slanted light crosses more glass. (colour or texture; default none)
+    thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
+    color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
+    roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+    """
+
+def thin_diffuse(color: Sequence[float] | str | Texture, transmission: Sequence[float] | str | Texture, bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+    r"""Leaf, paper, lampshade: a sheet that reflects light diffusely, and transmits some of it diffusely to the other side. It is the same from both sides. Only meshes can have it.
+
+    color: Reflectance. (colour or texture)
+    transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
+    normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
+    """
+
+def two_sided(front: Material, back: Material) -> Material:
+    r"""Playing card, lined fabric, banknote: an opaque mesh with different materials on its sides. The front is the side of the mesh's normals; without normals, that from which the corners of a triangle are in counter-clockwise order. Neither material may be clear, thin or emit light.
+
+    front: Material of the front. (opaque material)
+    back: Material of the back. (opaque material)
     """
 
 def mix(first: Material, second: Material, amount: float | Number | None = ...) -> Material:
@@ -3245,8 +3309,8 @@ class meshes:
         smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
-    def gltf(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., imported: bool | None = ...) -> Mesh:
-        r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and its subfolders), with materials, images, normal maps, opacity and vertex colours. The y axis of glTF becomes z. Skins are deformed by their joints, and morph targets are applied with the weights of their node or mesh; animations are ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of texture coordinates per material, with any transforms. Clear materials are ignored, because meshes are opaque; KHR_materials_transmission identifies them, and `phasetree import` makes them phases. Other supported extensions: KHR_texture_transform, KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if phasetree was built with their libraries. A file that requires another extension is rejected if the picture would be affected; otherwise a warning lists what is missing. Limits: 20 million triangles, counted once per instance; 2,000 materials; images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 million in total; 1 GiB per file.
+    def gltf(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., imported: bool | None = ..., panes: bool | None = ...) -> Mesh:
+        r"""The triangles of a glTF 2.0 file (.glb, or .gltf with files in its folder and its subfolders), with materials, images, normal maps, opacity and vertex colours. The y axis of glTF becomes z. Skins are deformed by their joints, and morph targets are applied with the weights of their node or mesh; animations are ignored. The alpha of images and vertices is used in the modes MASK and BLEND. Images may use two sets of texture coordinates per material, with any transforms. Materials with KHR_materials_transmission become "thin_glass" if they have no volume; those with a KHR_materials_volume are ignored, because meshes have no interior, and `phasetree import` makes them phases. Other supported extensions: KHR_texture_transform, KHR_mesh_quantization, KHR_node_visibility, EXT_mesh_gpu_instancing, KHR_materials_ior and KHR_materials_emissive_strength. KHR_draco_mesh_compression and EXT_meshopt_compression are supported if phasetree was built with their libraries. A file that requires another extension is rejected if the picture would be affected; otherwise a warning lists what is missing. Limits: 20 million triangles, counted once per instance; 2,000 materials; images in PNG or JPEG of at most 4096 × 4096 pixels each and 256 million in total; 1 GiB per file.
 
         file: The file. (name of a file)
         material: Material for the whole mesh, including clear parts and holes, instead of the materials in the file. (opaque material; default none)
@@ -3254,6 +3318,7 @@ class meshes:
         rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
         translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
         imported: Whether this scene has the file's clear materials as phases and its lights in "lights", as `phasetree import` writes it; then no warning reports that they are missing here. (true or false; default false)
+        panes: With "imported": whether clear materials without a volume are not phases, but "thin_glass" in this mesh. (true or false; default false)
         """
     @staticmethod
     def floor(material: Material, height: float | None = ..., size: float | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ...) -> Mesh:

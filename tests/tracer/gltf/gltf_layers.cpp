@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/thin_material.hpp"
 #include "phasetree_support/temporary_directory.hpp"
 #include "scene/read_parts.hpp"
 #include "tracer/gltf/gltf_corner.hpp"
@@ -207,10 +208,15 @@ TEST_CASE("what transmits light without a volume is a pane, and what transmits i
     CHECK(is_near(color_at(leaf.color, place), {0.375f, 0.1875f, 0.5625f}));
     CHECK(is_near(color_at(leaf.transmission, place), {0.1f, 0.2f, 0.05f}));
     CHECK_FALSE(is_near(1.01f * color_at(leaf.transmission, place), {0.1f, 0.2f, 0.05f}));
-    const Mix spotted = std::get<Mix>(
+    // The factor's image is in the alpha channel; this one has none, which counts as 1.
+    const ThinDiffuse whole = std::get<ThinDiffuse>(
         part_with(
             R"("KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1, "diffuseTransmissionTexture": {"index": 0}})")
             .material);
+    CHECK(color_at(whole.color, place) == glm::vec3(0));
+    // Where an image says how much is transmitted, it mixes an opaque material and a sheet that only transmits.
+    const Mix spotted = std::get<Mix>(gltf::with_diffuse_transmission(
+        Diffuse(), TintedMeshImage(), ConstantTexture{glm::vec3(0.5f)}, MeshImageNumber{.range = {0, 1}}));
     CHECK(std::holds_alternative<Diffuse>(spotted.of->first));
     CHECK(std::holds_alternative<ThinDiffuse>(spotted.of->second));
 }
