@@ -148,7 +148,7 @@ std::string message_of(const Phased& object, const MeasureOptions& options) {
 
 TEST_CASE("intervals contain volumes, centres of mass and moments of inertia in closed form") {
     Random rng(2024);
-    for (int i = 0; i < (long_tests() ? 800 : 24); ++i) {
+    for (int i = 0; i < (long_tests() ? 1000 : 24); ++i) {
         const Known known = random_solid(rng, i % 8);
         const glm::vec3 axis = rng.direction(), by = 3.f * rng.direction();
         const bool is_turned = i >= 8;

@@ -23,7 +23,7 @@ import phasetree as pt
 from support import COMMAND, SCENES, gallery_scenes, without_comments
 
 LONG = bool(os.environ.get("PHASETREE_LONG_TESTS"))
-SHORT_SCENES = ("inlaid_spheres", "hourglass")
+SHORT_SCENES = ("jade", "two_pears")
 KINDS = ("wall", "gap", "leak", "crumbs", "contact", "swallowed", "dead", "covered")
 # Sites smaller than this share of the object's longest side are not used, because finding a defect in them takes long.
 LEAST_SITE = 1 / 24

@@ -38,7 +38,7 @@ MeasureOptions checked(const PhasetreeMeasureOptions* given, const SceneTree& tr
     return options;
 }
 
-PhasetreeBody returned(const Body& body) {
+PhasetreeBody body_of(const Body& body) {
     PhasetreeBody to;
     to.volume = returned(body.volume);
     to.mass = returned(body.mass);
@@ -53,7 +53,7 @@ PhasetreeMeasuredPhase of_volume(const Measured& volume) {
     Body body;
     body.volume = body.mass = volume;
     PhasetreeMeasuredPhase to;
-    to.body = returned(body);
+    to.body = body_of(body);
     for (std::size_t i = 0; i < 3; ++i) to.boxLow[i] = to.boxHigh[i] = returned(Measured());
     return to;
 }
@@ -77,13 +77,13 @@ PhasetreeError phasetreeMeasureTree(PhasetreeTree tree, const PhasetreeMeasureOp
         for (std::size_t i = 1; i < data.tree.phases.names.size(); ++i) phases[i] = of_volume({0, 0, 0});
         for (const MeasuredPhase& p : result.phases) {
             PhasetreeMeasuredPhase& to = phases[p.phase.index];
-            to.body = returned(p.body);
+            to.body = body_of(p.body);
             for (std::size_t i = 0; i < 3; ++i) {
                 to.boxLow[i] = returned(p.box_low[i]);
                 to.boxHigh[i] = returned(p.box_high[i]);
             }
         }
-        if (all) *all = result.all ? returned(*result.all) : PhasetreeBody{};
+        if (all) *all = result.all ? body_of(*result.all) : PhasetreeBody{};
         if (end) *end = static_cast<PhasetreeMeasureEnd>(result.end);
     });
 }
