@@ -17,7 +17,7 @@ namespace test_dead_nodes {
 using namespace phasetree;
 using namespace phasetree::tests;
 using simple::ball, simple::glass, simple::iron, simple::Point, simple::set, simple::water;
-using Random = simple::Random;
+using Random = simple::UniformReals;
 
 namespace {
 

@@ -44,7 +44,8 @@ struct Vessel {
     Point half;
     double wall;
 
-    explicit Vessel(Random& random) : is_ball(random(0, 1) < 0.5), half(random(0.7, 1.2)), wall(random(0.16, 0.24)) {
+    explicit Vessel(UniformReals& random)
+        : is_ball(random(0, 1) < 0.5), half(random(0.7, 1.2)), wall(random(0.16, 0.24)) {
         if (!is_ball) half = {half.x, half.x * random(0.7, 1), half.x * random(0.7, 1)};
     }
     Field outer() const { return is_ball ? ball({}, half.x) : block(half); }
@@ -54,7 +55,7 @@ struct Vessel {
         return is_ball ? is_in_ball(p, {}, half.x - wall) : is_in_block(p, half - wall);
     }
     // The middle of the wall somewhere, away from edges, and the direction from inside to outside there.
-    std::pair<Point, Point> somewhere_in_wall(Random& random) const {
+    std::pair<Point, Point> somewhere_in_wall(UniformReals& random) const {
         if (is_ball) {
             const Point d = random.direction();
             return {d * (half.x - 0.5 * wall), d};
@@ -104,7 +105,7 @@ bool is_thin_by_samples(const Subject& s, const Point& p, Phase phase, double di
     const double reach = diameter, radius = diameter / 2, step = diameter / 6;
     if (s.label(p) != static_cast<int>(phase.index)) return false;
     std::vector<Point> directions;
-    Random random{std::mt19937(7)};
+    UniformReals random{std::mt19937(7)};
     for (int i = 0; i < 200; ++i) directions.push_back(random.direction());
     for (double x = -reach; x <= reach; x += step)
         for (double y = -reach; y <= reach; y += step)
@@ -142,7 +143,7 @@ int count_of_defects() {
 TEST_CASE("a sound vessel is closed, connected, thick and full") {
     for (int i = 0; i < (long_tests() ? 12 : 3); ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(i))};
         const Vessel v(random);
         const Subject s = vessel_without(v, {}, false);
         const std::vector<Proof> proofs =
@@ -159,7 +160,7 @@ TEST_CASE("a sound vessel is closed, connected, thick and full") {
 TEST_CASE("holes in the wall are refuted with a path through them") {
     for (int i = 0; i < count_of_defects(); ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(100 + i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(100 + i))};
         const Vessel v(random);
         const auto [centre, outwards] = v.somewhere_in_wall(random);
         // A ball that is larger than the wall is thick.
@@ -176,7 +177,7 @@ TEST_CASE("holes in the wall are refuted with a path through them") {
 TEST_CASE("dents that leave too thin a wall are refuted with a point in it") {
     for (int i = 0; i < count_of_defects() / 2; ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(200 + i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(200 + i))};
         const Vessel v(random);
         const auto [centre, outwards] = v.somewhere_in_wall(random);
         // A large ball from outside leaves a third of the wall or less.
@@ -193,7 +194,7 @@ TEST_CASE("dents that leave too thin a wall are refuted with a point in it") {
 TEST_CASE("drops that are separate pieces are refuted with a point in each of two") {
     for (int i = 0; i < count_of_defects(); ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(300 + i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(300 + i))};
         const double radius = random(0.4, 0.8), drop = random(0.12, 0.3), gap = random(0.08, 0.3);
         const bool is_apart = i % 3 != 2;
         // Along an axis, the seams of a bridge have a direction in which the distance falls.
@@ -221,7 +222,7 @@ TEST_CASE("drops that are separate pieces are refuted with a point in each of tw
 TEST_CASE("gaps that are too small are refuted with two points, and others are proved") {
     for (int i = 0; i < count_of_defects(); ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(400 + i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(400 + i))};
         const double a = random(0.3, 0.8), b = random(0.3, 0.8), gap = random(0.2, 0.4);
         const Point at = random.direction() * (a + gap + b);
         const Subject s{Over{.of = {set(glass, ball({}, a)), set(iron, ball(at, b))}},
@@ -246,7 +247,7 @@ TEST_CASE("gaps that are too small are refuted with two points, and others are p
 TEST_CASE("phases that others swallow are nowhere") {
     for (int i = 0; i < 2 * count_of_defects(); ++i) {
         CAPTURE(i);
-        Random random{std::mt19937(static_cast<unsigned>(500 + i))};
+        UniformReals random{std::mt19937(static_cast<unsigned>(500 + i))};
         const double radius = random(0.5, 1), hidden = random(0.1, 0.4);
         const Point at = random.direction() * random(0, 0.9 * (radius - hidden));
         const bool is_hidden = i % 4 != 3;
@@ -322,7 +323,7 @@ TEST_CASE("a thin wall is found in boxes much larger than what it lacks") {
 }
 
 TEST_CASE("time, boxes and cancellation leave statements undecided, with the reason") {
-    Random random{std::mt19937(1)};
+    UniformReals random{std::mt19937(1)};
     const Subject s = vessel_without(Vessel(random), {}, false);
     const std::vector<Statement> statements{IsThick{glass, 1e-4}};
     ProveOptions options;

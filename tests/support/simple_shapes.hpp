@@ -27,7 +27,7 @@ inline Phased set(Phase phase, const Field& of) {
     return Set{.phase = phase, .of = of};
 }
 
-struct Random {
+struct UniformReals {
     std::mt19937 engine;
     double operator()(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine() >> 8) / static_cast<double>(1 << 24));
