@@ -22,7 +22,7 @@ from .scene_objects import SceneObjects
 class Translation:
     """A scene whose objects are in a glTF file, and whose other parts are below. It no longer needs Blender."""
 
-    path: str  # of the scene file to be
+    path: str  # of the scene file that will be written
     glb: str  # path of the glTF file
     parts: dict  # of the scene file: camera, lights, background
     settings: dict  # "render" of the scene file
@@ -150,7 +150,7 @@ def imported(glb, path, translation, media, command, notes, cancelled):
     for mesh in document.get("meshes", ()):
         mesh["gltf"]["imported"] = True  # the lights are in the scene file
     for name, medium in media.items():
-        if name in document.get("phases", ()):  # open surfaces of the material are not
+        if name in document.get("phases", ()):  # only closed objects became phases; open surfaces did not
             materials.complete_phase(document["phases"][name]["clear"], medium)
     return document, done.report
 
