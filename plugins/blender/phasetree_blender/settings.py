@@ -10,7 +10,7 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
     samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, max=16777216, soft_max=4096)
     seed: IntProperty(name="Seed", description="Seed of the random numbers; another seed gives other noise", default=0, min=0)
     max_depth: IntProperty(
-        name="Max Interactions",
+        name="Max Surfaces",
         description="Maximum number of surfaces and scattering events per path; 0 for the default, 65536", default=0, min=0, max=1048576,
     )  # fmt: skip
     caustics: BoolProperty(

@@ -200,7 +200,7 @@ def note_object(item, notes):
         notes.unsupported("hair is left out")
     rays = ("camera", "diffuse", "glossy", "transmission", "shadow")
     if item.lightgroup:
-        notes.unsupported("its light group is ignored: glowing surfaces are in the group of everything else")
+        notes.unsupported("its light group is ignored: the light of glowing surfaces is in none of the groups' passes")
     hidden = [name for name in rays if not getattr(item, f"visible_{name}", True)]
     if hidden:
         notes.unsupported(f"it is visible to all rays, although ray visibility excludes {', '.join(hidden)}")

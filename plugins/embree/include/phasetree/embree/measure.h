@@ -193,8 +193,8 @@ static inline void phasetreeInitProveOptions(PhasetreeProveOptions* options) {
  *               of a vessel may have hundreds.
  * witnessCount  receives the number of all points, which may exceed witnessCapacity. May be NULL.
  *
- * PHASETREE_ERROR_INVALID_ARGUMENT  a statement has an unknown kind, the wrong phases or a length out of its range (the
- *                                   message names it), or an option is out of its range
+ * PHASETREE_ERROR_INVALID_ARGUMENT  an option is out of its range, or a statement has an unknown kind, the wrong phases
+ *                                   or a length out of its range; the message names it.
  * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded, or too far from the origin for its size */
 PHASETREE_API PhasetreeError phasetreeProveStatements(PhasetreeTree tree, const PhasetreeStatement* statements,
                                                       size_t count, const PhasetreeProveOptions* options,
