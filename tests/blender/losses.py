@@ -131,7 +131,7 @@ class Losses(BlenderTest):
         os.environ["PATH"] = str(self.folder)
         try:
             for command, wanted in (
-                ("", "the command `phasetree`, which does the rendering, was not found. Build it with `bash tracer/quickstart.sh`"),
+                ("", "the command `phasetree`, which does the rendering, was not found. Build it with"),
                 (str(self.folder / "nothing"), "nothing is not a program; correct the file in the add-on's preferences"),
                 ("/bin/false", "phasetree ended without a message"),
             ):

@@ -11,7 +11,8 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
     seed: IntProperty(name="Seed", description="Seed of the random numbers; another seed gives other noise", default=0, min=0)
     max_depth: IntProperty(
         name="Max Surfaces",
-        description="Maximum number of surfaces and scattering events per path; 0 for the default, 65536", default=0, min=0, max=1048576,
+        description="Maximum number of surfaces and scattering events per path; 0 for the default, 65536",
+        default=0, min=0, max=1048576,
     )  # fmt: skip
     caustics: BoolProperty(
         name="Caustics",

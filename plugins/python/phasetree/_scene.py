@@ -236,8 +236,9 @@ class Scene(Value):
         progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
 
         planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
-        command. denoise: True for the best method available, "oidn", or "regression", whose result does not
-        depend on the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G" and "noisy.B".
+        command. denoise: True for the best method available, "oidn", or "regression", whose result does not depend on
+        the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G"
+        and "noisy.B".
 
         time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
         time ends the render. at: the time in seconds at which animated values are evaluated.

@@ -406,7 +406,7 @@ class Object(Value):
         return self._evaluator.phi(array, len(self.phases)).reshape(*shape, len(self.phases))
 
     def gradient(self, points, phase=None):
-        """The gradient of the distance to a phase, at points. By default, the phase is that in which each point lies."""
+        """The gradient of the distance to a phase, at points. By default, of the phase in which each point lies."""
         array, shape = _points(points)
         return self._evaluator.gradient(array, self.index(phase) if phase is not None else -1).reshape(*shape, 3)
 
@@ -501,9 +501,9 @@ class Object(Value):
         If a ray's phase differs from that at its origin, there is a crossing at t = 0. limit: the largest t, a number
         or one per ray.
 
-        Phases thinner than `precise_resolution` along the ray may be missed, and so may phases that the ray only grazes.
-        `after` of a crossing is always `before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need
-        `prepare`. Raises Error if the object is empty or unbounded.
+        Phases thinner than `precise_resolution` along the ray may be missed, and so may phases that the ray only
+        grazes. `after` of a crossing is always `before` of the next. Rays that are not finite have no crossings. Uses
+        all cores and does not need `prepare`. Raises Error if the object is empty or unbounded.
         """
         arrays, _ = self._precise_rays(origins, directions, phases, limit)
         return Crossings(*self._precise.crossings(*arrays))
@@ -550,9 +550,9 @@ class Object(Value):
         Each number comes with an interval that certainly contains it, unless a rounding error of a distance exceeds
         half of `Object.resolution`.
 
-        tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds:
-        measuring also ends after this time, by default never. densities: a dict from phases, or their names, to
-        densities, for masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
+        tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
+        also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
+        masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
         guess of the fraction done, up to 1.
 
         Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if

@@ -33,7 +33,7 @@ const cut = new Cut({
 const time = new Time({
   section: element("time"),
   slider: element("time-slider"),
-  said: element("time-said"),
+  status: element("time-said"),
   play: element("time-play"),
 }, (change) => changes.make(change));
 
