@@ -50,7 +50,7 @@ class CommandLine(unittest.TestCase):
         done = self.blender(self.drink, "-E", "PHASETREE", "--python-expr", small, "-o", "//drink_", "-F", "PNG", "-f", "1")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.folder / "drink_0001.png").is_file(), done.stdout)
-        self.assertNotIn("phasetree:", done.stdout)  # nothing is lost
+        self.assertNotIn("phasetree:", done.stdout)  # everything is supported
         self.assertEqual(self.left_over(), [])
         # What the tutorial says of the phases.
         shown = re.findall(r"```text\n(.*?)```", TUTORIAL.read_text(encoding="utf-8"), re.S)

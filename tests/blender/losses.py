@@ -1,4 +1,4 @@
-"""What is lost is reported, and what is broken gives a message."""
+"""What is unsupported is reported, and what is broken gives a message."""
 
 import math
 import os
@@ -121,7 +121,7 @@ class Losses(BlenderTest):
         tree.links.new(other.outputs["Color"], bsdf.inputs["Roughness"])
         notes = self.check()[0]
         self.assertIn('"Anisotropic" is ignored, because "Roughness" is an image', notes)
-        self.assertIn('the image of "Metallic" is ignored, because it lies on the mesh otherwise', notes)
+        self.assertIn('the image of "Metallic" is ignored, because its mapping differs from that of', notes)
         mapping.inputs["Rotation"].default_value = (1, 0, 0)
         self.assertIn("Mapping at Image Texture is ignored; it may only move, scale, and rotate about z", self.check()[0])
 
@@ -131,7 +131,7 @@ class Losses(BlenderTest):
         os.environ["PATH"] = str(self.folder)
         try:
             for command, wanted in (
-                ("", "the command `phasetree`, which renders, was not found. Build it with `bash tracer/quickstart.sh`"),
+                ("", "the command `phasetree`, which does the rendering, was not found. Build it with"),
                 (str(self.folder / "nothing"), "nothing is not a program; correct the file in the add-on's preferences"),
                 ("/bin/false", "phasetree ended without a message"),
             ):
@@ -188,7 +188,7 @@ class NewNames(unittest.TestCase):
         # A level of 1 doubles the reflectance: 0.08 instead of 0.04.
         self.assertAlmostEqual(self.surface(Specular_IOR_Level=1.0)[0].ior, (1 + 0.08**0.5) / (1 - 0.08**0.5))
         _, notes = self.surface(Coat_Weight=1.0, Coat_IOR=1.6, Coat_Tint=(1, 0, 0, 1), Subsurface_Weight=0.5)
-        for text in ('"Coat IOR" is ignored; it is 1.5', '"Coat Tint" is ignored', '"Subsurface Weight" is ignored'):
+        for text in ('"Coat IOR" is ignored; 1.5 is used instead', '"Coat Tint" is ignored', '"Subsurface Weight" is ignored'):
             self.assertIn(f"not supported: {text}", notes)
         self.assertEqual(len(notes.splitlines()), 3, notes)
 

@@ -127,7 +127,7 @@ class Media(BlenderTest):
         self.scene.unit_settings.scale_length = 0.01
         _, scene = self.export()
         self.assertEqual(scene["phases"]["Milk"], {"clear": {"ior": 1.35, "medium": "whole_milk", "scale": 10.0}})
-        self.assertIn("gives way to the measured medium whole_milk", self.notes())
+        self.assertIn("is overridden by the measured medium whole_milk", self.notes())
         self.assertGreater(self.combined().std(), 0.01)
 
     def test_measured_indices(self):

@@ -351,7 +351,7 @@ TEST_CASE("statements that make no sense are errors") {
     CHECK(error(IsThick{glass, 1, 0.5}) == "the reach must be more than half of the thickness, 0.5, but is 0.5");
     CHECK(error(IsThick{vacuum, 1}) == "the vacuum has no walls");
     CHECK(error(AreApart{glass, glass}) == "the two phases of a statement must differ");
-    CHECK(error(AreApart{glass, vacuum, -1}) == "the distance must be a finite, not negative number, but is -1");
+    CHECK(error(AreApart{glass, vacuum, -1}) == "the distance must be a finite, non-negative number, but is -1");
     CHECK(error(IsClosed{PhaseSet::of(glass), PhaseSet::of(glass)}) ==
           "a phase cannot be both a wall and inside the walls");
     CHECK(error(IsClosed{PhaseSet::of(vacuum), PhaseSet::of(glass)}) ==

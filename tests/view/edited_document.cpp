@@ -51,7 +51,7 @@ class Desk {
     std::string text() { return *document().state()->text; }
     // Looks at the file as the server does.
     void look() {
-        for (int i = 0; i < 3; ++i) document().look_at_file();
+        for (int i = 0; i < 3; ++i) document().poll_file();
     }
     std::uint64_t set(const std::string& pointer, const std::string& to, std::uint64_t base,
                       const std::optional<std::string>& merge = {}) {
@@ -120,7 +120,7 @@ TEST_CASE("what another program saves is a step") {
     desk.write("{\"a\": 5}");
     desk.look();
     CHECK(desk.text() == "{\"a\": 5}");
-    CHECK(desk.document().state()->undo == "Edited outside");
+    CHECK(desk.document().state()->undo == "Change made in another program");
     // An invalid text is shown, and repairing it belongs to the same step.
     desk.write("{\"a\": ");
     desk.look();

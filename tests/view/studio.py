@@ -145,7 +145,7 @@ class Editing(unittest.TestCase):
             other = SCENE.replace('"radius": 0.5', '"radius": 0.25')
             threading.Timer(0.3, lambda: view.file.write_text(other, encoding="utf-8")).start()
             told = document(view, version)
-            self.assertEqual((told["text"], told["undo"]), (other, "Edited outside"))
+            self.assertEqual((told["text"], told["undo"]), (other, "Change made in another program"))
 
     def test_a_request_for_an_older_version_is_a_conflict_if_it_may_mean_something_else(self):
         with View() as view:

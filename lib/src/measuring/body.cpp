@@ -70,7 +70,7 @@ Measured measured(double low, double high, double estimate) {
     return {low, high, std::clamp(std::isfinite(estimate) ? estimate : 0, low, high)};
 }
 
-// Besides the additions, each term has an error of less than 2¹⁵ units: see part_below().
+// Besides the additions, the error of each term is less than 2¹⁵ · 2⁻⁵³ times its magnitude: see part_below().
 MomentBounds::MomentBounds(const PhaseSums& sums, std::size_t additions) : estimate(sums.estimate) {
     const double error = (static_cast<double>(additions) + 0x1p15) * unit * (1 + 1e-6);
     for (std::size_t k = 0; k < low.size(); ++k) {

@@ -4,10 +4,10 @@
 // Rounding errors, in units of 2⁻⁵³: In the unit cube, all coordinates are in [0, 1]. Errors of the linear function and
 // of vertices on the plane move the plane by less than 60 units, which changes no moment by more than 100. There are at
 // most 18 tetrahedra. Each determinant has six terms of at most 1, with at most eight roundings each, so the error of a
-// volume is less than 10, that of a moment by less than 25, and the sum of the moments by less than 500. The map to the
-// box measures coordinates from the box's low corner. |low| + size is at most three times the largest absolute
-// coordinate, so the error of a second moment is at most 9 · 600 units, relative to what part_below() compares it with,
-// and 5400 · 2⁻⁵³ < 10⁻¹².
+// volume is less than 10, that of a moment less than 25, and that of the sum of the moments less than 500. The map to
+// the box measures coordinates from the box's low corner. |low| + size is at most three times the largest absolute
+// coordinate, so the error of a second moment is at most 9 · 600 units, relative to the box's volume times the largest
+// absolute value of the integrand, as in part_below(); and 5400 · 2⁻⁵³ < 10⁻¹².
 #include "measuring/cut_box.hpp"
 
 #include <algorithm>

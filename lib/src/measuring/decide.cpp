@@ -1,9 +1,9 @@
 // Decides statements from the adjacency of boxes alone.
 //
-// *Sets of boxes.* A box is *in* a phase if the whole box certainly is. Otherwise it *may meet* the phase, unless it
-// certainly does not. Points that are connected through boxes that are in a phase and share faces are connected in the
-// phase. Points that are not connected through boxes that may meet the phase and share at least a point are not
-// connected in it.
+// *Sets of boxes.* A box is *in* a phase if all of it certainly is. It *may meet* the phase unless it certainly
+// contains none of it. If a chain of boxes in the phase, each sharing a face with the next, joins two points, the phase
+// connects them. If no chain of boxes that may meet the phase, each touching the next, joins two points, the phase does
+// not connect them.
 #include "measuring/decide.hpp"
 
 #include <fmt/format.h>
@@ -203,8 +203,8 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
     return points;
 }
 
-// A point of each phase, joined by a path without other phases. Of all pairs of such points that are centres of boxes,
-// this is about the closest.
+// A point of each phase, joined by a path without other phases: approximately the closest pair of such points that are
+// centres of boxes.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
     DisjointSets groups =
@@ -330,7 +330,7 @@ Proof decide(const Evidence& e, const AreApart& s) {
     if (!closer) return {};
     const auto [a, b] =
         closest_points(e.octree.cube(e.octree.leaves[closer->first]), e.octree.cube(e.octree.leaves[closer->second]));
-    return {Verdict::refuted, "they are closer", {{a, s.first}, {b, s.second}}, 0, {}};
+    return {Verdict::refuted, "they are closer than required", {{a, s.first}, {b, s.second}}, 0, {}};
 }
 
 Proof decide(const Evidence& e, const AreTouching& s) {

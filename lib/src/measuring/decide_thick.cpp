@@ -45,9 +45,9 @@ class Thickness {
           whole_(e.octree.whole()),
           may_meet_(leaves_where(octree_, [&](const OctreeLeaf& l) { return l.is_possible(s.phase.index); })),
           outside_(leaves_where(octree_, [&](const OctreeLeaf& l) { return !l.is_possible(s.phase.index); })),
-          not_in_(octree_.leaves.size() + 1, 0) {
+          doubtful_before_(octree_.leaves.size() + 1, 0) {
         for (std::size_t i = 0; i < octree_.leaves.size(); ++i)
-            not_in_[i + 1] = not_in_[i] + (octree_.leaves[i].is_only(phase_.index) ? 0 : 1);
+            doubtful_before_[i + 1] = doubtful_before_[i] + (octree_.leaves[i].is_only(phase_.index) ? 0 : 1);
     }
 
     Proof run() {
@@ -64,8 +64,8 @@ class Thickness {
     }
 
   private:
-    // With this many open boxes, the phase is hardly thick enough. Others are then examined less thoroughly, only to
-    // find out where it is thinnest.
+    // With this many open boxes, the phase is probably too thin somewhere. Others are then examined less thoroughly,
+    // only to find out where it is thinnest.
     static constexpr std::size_t enough_open = 512, most_open = 1 << 16;
     static constexpr std::size_t most_candidates = 2048, most_suspects = 48;
 
@@ -90,7 +90,7 @@ class Thickness {
     }
     // Whether the ball is in the phase, judging by the boxes that it meets; these are in [begin, end).
     bool is_ball_in(const Point& centre, std::size_t begin, std::size_t end) const {
-        if (not_in_[end] == not_in_[begin]) return true;
+        if (doubtful_before_[end] == doubtful_before_[begin]) return true;
         const OctreeLeaf &first = octree_.leaves[begin], &last = octree_.leaves[end - 1];
         if (octree_.around(first.key, last.key, octree_.size_of(last)).distance(centre) >= radius_) return true;
         if (end - begin == 1) return false;
@@ -265,8 +265,9 @@ class Thickness {
     double radius_, reach_;
     Cube whole_;
     std::vector<std::uint32_t> may_meet_, outside_;
-    std::vector<std::uint32_t> not_in_;  // how many of the leaves before this one are not certainly in the phase
-    std::vector<OpenBox> open_;          // those for which no ball was found
+    // For each leaf, how many of the leaves before it are not certainly in the phase.
+    std::vector<std::uint32_t> doubtful_before_;
+    std::vector<OpenBox> open_;  // those for which no ball was found
     std::optional<Point> last_centre_;
     double last_depth_ = 0;  // of the deepest ball that find_centre() last found, within reach of the box or not
 };

@@ -207,8 +207,8 @@ Division::Division(const Node& parent, const MeasureContext& context, Worker& wo
 }
 
 // The phase whose component is negative at the centre of a box. Returns nullopt if there is none, or if a component is
-// not a number. In that case, a result of pruning that the box is in a single phase is not used, because it is unknown
-// in which.
+// not a number. Then, if pruning finds that the box lies in a single phase, this is ignored, because it is not known
+// which phase.
 std::optional<Phase> Division::phase_at_centre(std::size_t i) const {
     const ValuesAtPoint centre{values_.registers, values_.slot, i};
     std::optional<Phase> found;

@@ -57,7 +57,7 @@ struct ExaminedBox {
     Node node;
     std::optional<Phase> only{};         ///< the phase that contains all of the box, if it is known
     std::span<PhaseInBox> phases{};      ///< otherwise, those that may be there
-    std::span<double> mean_component{};  ///< for each of these, about the mean of its component in the box
+    std::span<double> mean_component{};  ///< for each of these, an estimate of the mean of its component in the box
     std::span<int> votes{};              ///< for each of these, how many of eight points in the box are in it
     bool can_be_divided = true;          ///< whether smaller boxes may say more
 };

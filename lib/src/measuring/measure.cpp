@@ -238,7 +238,7 @@ class Measurement {
         return m.high[0] - m.low[0];
     }
     bool is_precise(Phase p) const { return width(p) <= allowed(p); }
-    // Whether most of the doubt is where smaller boxes would not help, and is too much to reach the tolerance.
+    // Whether the doubt that smaller boxes cannot reduce is most of the total, and by itself exceeds the tolerance.
     bool is_at_end(Phase p) const {
         const double final_doubt = total_[p].final_doubt;
         return final_doubt > allowed(p) && width(p) < 1.5 * final_doubt;

@@ -110,7 +110,7 @@ class Removals {
         try {
             found_.push_back({NodeEffect{item, handle}, Handle(std::move(copy))});
         } catch (const ModelError&) {
-            // The node has another list of as many items.
+            // Rejected: the node has a second list that must have as many items.
         }
     }
     // Replaces the node by one of its operands.
@@ -130,7 +130,7 @@ class Removals {
     std::vector<Removal> found_;
 };
 
-// Makes trees in which one node is another one. Only the nodes above it are recreated.
+// Makes copies of a tree in which one node is replaced. Only its ancestors are recreated.
 class Replacement {
   public:
     Replacement(const AnyNode& from, const AnyNode& to) { set(address_of(from), to); }
@@ -193,7 +193,7 @@ class Reached {
         const AnyNode* only = nullptr;
         for (const Removal* r : by_parent_[handle.node()]) {
             const NodeEffect& e = r->effect;
-            // Where either operand can be left out, one stays.
+            // If each of two operands is dead only while the other stays, report just one of them.
             if (only && e.kept && e.is_dead == Verdict::proved) continue;
             effects_.push_back(e);
             if (e.is_dead != Verdict::proved) continue;
@@ -250,7 +250,7 @@ std::vector<NodeEffect> node_effects(const Phased& object, const NodeEffectsOpti
             r.effect.is_dead = same.verdict;
             r.effect.change = same.change;
         } catch (const ModelError&) {
-            // A node above it rejects what is left; then nothing can be said.
+            // An ancestor is invalid without the node, so its effect stays undecided.
         }
         if (options.progress) options.progress(static_cast<float>(++done) / static_cast<float>(removals.size()));
     });

@@ -25,10 +25,10 @@ constexpr int most_levels = 14;
 constexpr double least_side_of_box = 16;
 // The cube is divided into at least this many boxes in doubt before threads share them, unless there are fewer.
 constexpr std::size_t enough_boxes = 128;
-// How much longer the cube is than the object, and where the object begins in it. Faces of objects often have round
-// coordinates; these fractions keep faces of boxes away from them.
-constexpr double longer = 0.0271;
-constexpr std::array<double, 3> begin{0.0131, 0.0157, 0.0119};
+// By which fraction the cube's side exceeds the object's longest side, and the object's offset in the cube as fractions
+// of that side. Faces of objects often have round coordinates; these fractions keep faces of boxes away from them.
+constexpr double cube_excess = 0.0271;
+constexpr std::array<double, 3> offset_in_cube{0.0131, 0.0157, 0.0119};
 
 // Moves the bits of a number three places apart.
 std::uint64_t spread(std::uint64_t v) {
@@ -49,11 +49,11 @@ double longest_side(const TraceableObject& object) {
 }
 
 Bounds cube_around(const TraceableObject& object) {
-    const double side = longest_side(object) * (1 + longer);
+    const double side = longest_side(object) * (1 + cube_excess);
     Bounds cube;
     for (int i = 0; i < 3; ++i) {
-        const double low =
-            static_cast<double>(object.bounds.low[i]) - begin[static_cast<std::size_t>(i)] * longest_side(object);
+        const double low = static_cast<double>(object.bounds.low[i]) -
+                           offset_in_cube[static_cast<std::size_t>(i)] * longest_side(object);
         cube.low[i] = static_cast<float>(low);
         cube.high[i] = static_cast<float>(low + side);
     }
@@ -125,7 +125,7 @@ class OctreeDivision {
             }
             items = std::move(next);
         }
-        // The points and the falls of `first` are kept.
+        // parts[0] holds the certain points and falls found so far; each item gets a part of its own after it.
         parts.resize(items.size() + 1);
         tbb::parallel_for(std::size_t{0}, items.size(), [&](std::size_t i) {
             Found& part = parts[i + 1];
@@ -360,7 +360,7 @@ PhaseOctree divided(const Phased& object, const TraceableObject& traceable, int 
 }
 
 int levels_for(const TraceableObject& object, double side) {
-    const double whole = longest_side(object) * (1 + longer);
+    const double whole = longest_side(object) * (1 + cube_excess);
     const double finest = std::max(side, least_side_of_box * static_cast<double>(object.resolution));
     int levels = 1;
     while (levels < most_levels && std::ldexp(whole, -levels) > finest) ++levels;

@@ -25,10 +25,11 @@ struct Cube {
 struct OctreeLeaf {
     static constexpr std::uint32_t no_falls = 0xffffffff;
 
-    std::uint64_t key = 0;           ///< of its low corner: the bits of x, y and z in turn, x last
-    std::uint64_t possible = 0;      ///< bits of phases; a single bit if the box is certainly in one phase
-    std::uint64_t listed = 0;        ///< bits of the phases for which there are falls; they were possible at first
-    std::uint32_t falls = no_falls;  ///< index of PhaseInBox::falls of the first of them; the others follow
+    std::uint64_t key = 0;       ///< Morton code of its low corner; the lowest bit is of x
+    std::uint64_t possible = 0;  ///< bits of phases; a single bit if the box is certainly in one phase
+    std::uint64_t listed = 0;    ///< bits of the phases that were possible before PhaseOctree::narrow()
+    /// Index in PhaseOctree::falls of the entry for the first listed phase; those of the others follow.
+    std::uint32_t falls = no_falls;
     std::uint8_t level = 0;
 
     bool is_possible(int phase) const { return (possible >> phase) & 1; }
@@ -48,7 +49,7 @@ struct PhaseOctree {
     int levels = 0;
     std::array<std::vector<float>, 3> lines;  ///< coordinates of the sides of the smallest boxes along each axis
     std::vector<OctreeLeaf> leaves;
-    std::vector<std::uint8_t> falls;
+    std::vector<std::uint8_t> falls;  ///< PhaseInBox::falls of the listed phases of each leaf
     std::array<std::optional<CertainPoint>, Phase::capacity> deepest;  ///< a point of each phase, if one is known
     float value_error = 0;  ///< an upper bound of the rounding error of any component
 
@@ -78,17 +79,17 @@ struct PhaseOctree {
         for (int i = 0; i < 27; ++i)
             if (i != 13) beside(leaf, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, f);
     }
+    /// Like around_leaf(), but for half of the directions, so that most pairs of adjacent leaves are visited once when
+    /// this is called for all leaves.
+    template <class F>
+    void around_leaf_once(const OctreeLeaf& leaf, F&& f) const {
+        for (int i = 0; i < 13; ++i) beside(leaf, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, f);
+    }
 
     /// Excludes phases from boxes by what neighbouring boxes contain. Suppose that a phase's component does not rise in
     /// a box towards one of its faces. Then a point of the phase in the box can move through this face without leaving
     /// the phase. So if no box on the other side can contain the phase, this box does not contain it either.
     void narrow();
-
-    /// The same for half of the directions, so that not every pair of leaves is visited from both of its leaves.
-    template <class F>
-    void around_leaf_once(const OctreeLeaf& leaf, F&& f) const {
-        for (int i = 0; i < 13; ++i) beside(leaf, {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}, f);
-    }
 
   private:
     bool is_excluded(const OctreeLeaf&, int phase) const;
@@ -132,7 +133,7 @@ struct PhaseOctree {
 
 /// Thrown by divided() when it is stopped, or when there are more boxes than allowed.
 struct DivisionStopped {
-    bool is_for_boxes = false;
+    bool exceeded_max_boxes = false;
 };
 
 /// Divides the cube around an object to this many levels. `is_stopped` is called from any thread.

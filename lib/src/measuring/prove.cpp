@@ -81,7 +81,7 @@ class Prover {
                 for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
                     if (is_open(i) && !std::holds_alternative<HasNoDeadNodes>(statements_[i])) decide_one(evidence, i);
             } catch (const DivisionStopped& e) {
-                if (e.is_for_boxes) give_up("more boxes are needed than allowed");
+                if (e.exceeded_max_boxes) give_up("more boxes are needed than allowed");
                 break;
             }
             if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
@@ -125,7 +125,7 @@ class Prover {
         Proof proof = std::visit(
             [&]<class S>(const S& statement) {
                 if constexpr (std::is_same_v<S, HasVolume> || std::is_same_v<S, HasNoDeadNodes>)
-                    return Proof();  // elsewhere
+                    return Proof();  // decided by decide_volumes() or decide_nodes()
                 else if constexpr (std::is_same_v<S, HasTightBounds>)
                     return decide(evidence, statement, bounds(object_));
                 else
@@ -153,7 +153,8 @@ class Prover {
         proof.verdict = dead > 0 ? Verdict::refuted : open > 0 ? Verdict::undecided : Verdict::proved;
         if (dead > 0) proof.reason = fmt::format("{} of {} nodes change no label", dead, nodes.size());
         if (dead == 0 && open > 0)
-            proof.reason = fmt::format("it is unknown whether {} of {} nodes change a label", open, nodes.size());
+            proof.reason =
+                fmt::format("for {} of {} nodes, it is not known whether they change a label", open, nodes.size());
         for (std::size_t i = 0; i < statements_.size(); ++i)
             if (std::holds_alternative<HasNoDeadNodes>(statements_[i])) proofs_[i] = proof;
     }
@@ -219,7 +220,7 @@ class Prover {
             conclude(s, i);
             if (proof.verdict != Verdict::undecided) return;
             const bool is_within = sum.low >= s.at_least && sum.high <= s.at_most;
-            if (is_within) return;  // it is open whether the phases are somewhere
+            if (is_within) return;  // within the limits; only the presence of the phases is still undecided
             if (measured.end == MeasureEnd::precision) {
                 proof.reason = "32-bit coordinates allow no narrower interval";
                 return;
@@ -336,7 +337,7 @@ struct CheckStatement {
     void length(double v, bool is_zero_allowed, const char* what) const {
         if (!(v >= 0 && std::isfinite(v) && (is_zero_allowed || v > 0)))
             throw ModelError(fmt::format("{} must be {} number, but is {}", what,
-                                         is_zero_allowed ? "a finite, not negative" : "a finite, positive", v));
+                                         is_zero_allowed ? "a finite, non-negative" : "a finite, positive", v));
     }
     void operator()(const IsPresent& s) const { phase(s.phase); }
     void operator()(const IsConnected& s) const { phase(s.phase); }

@@ -45,7 +45,7 @@ class ValueNumbers {
                 }
                 key.data = std::bit_cast<std::uint32_t>(constants_[in.data]);
             } else if (in.op >= Op::first_primitive) {
-                key.data = in.data;  // recorded once
+                key.data = in.data;  // equal constants share an offset, because each is recorded once
             }
             numbers[i] = known_.emplace(key, static_cast<std::uint32_t>(known_.size() + 1)).first->second;
         }

@@ -24,7 +24,7 @@ void sort_unique(std::vector<T>& list) {
 SliceVertices::SliceVertices(const SliceGrid& grid, const Evaluator& evaluator, std::vector<GridSquare>& squares,
                              const SliceOptions& options)
     : grid_(grid), evaluator_(evaluator), options_(options) {
-    // An edge with different ends is in doubt, so both squares beside it are too. Still, make sure.
+    // Both squares beside an edge with different labels should already be in doubt. Add any that rounding has left out.
     do {
         set_labels(squares);
         set_edges(squares);

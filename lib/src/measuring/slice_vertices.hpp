@@ -30,7 +30,8 @@ class SliceVertices {
     Phase label_at(float u, float v) const;
 
   private:
-    /// A corner's number. An edge from it along a row has twice this number; one along a column, one more.
+    /// The number of a corner or an edge. Corners are numbered row by row. The edge from corner n along its row is
+    /// number 2n, the one along its column 2n + 1.
     using Number = std::uint64_t;
     Number corner(std::uint32_t column, std::uint32_t row) const { return Number{row} * (grid_.count() + 1) + column; }
     glm::vec2 position(Number corner) const;

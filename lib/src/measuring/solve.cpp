@@ -25,7 +25,7 @@ constexpr double first_tolerance = 0.1;
 // The finest tolerance. 32-bit coordinates usually end a measurement earlier.
 constexpr double finest_tolerance = 1e-9;
 // From one measurement of a number to the next, the tolerance is multiplied by a factor between these two.
-constexpr double least_step = 1.0 / 2, greatest_step = 1.0 / 64;
+constexpr double min_factor = 1.0 / 64, max_factor = 1.0 / 2;
 // Numbers are rounded to decimals that are at most this share of the bracket apart.
 constexpr double share_of_digit = 1.0 / 64;
 
@@ -149,7 +149,7 @@ class Solver {
         const double needed = reach > 0 ? 0.8 * std::abs(gap) / reach : 0;
         // The interval may be much narrower than the tolerance required.
         if (m.estimate > 0) c.tolerance = std::min(c.tolerance, (m.high - m.low) / m.estimate);
-        c.tolerance = std::max(c.tolerance * std::clamp(needed, greatest_step, least_step), finest_tolerance);
+        c.tolerance = std::max(c.tolerance * std::clamp(needed, min_factor, max_factor), finest_tolerance);
     }
 
     // The first measurements, of both ends of the bracket.
@@ -188,8 +188,8 @@ class Solver {
         return low.at + (share > 0 && share < 1 ? share : 0.5) * (high.at - low.at);
     }
     // The numbers to be tried: the middle, and others in case the measure there is close to the target. In a narrow
-    // bracket, first a number beside the solution such that no second step is needed on this side. It is as far from
-    // the solution as possible, because that takes the least precision.
+    // bracket, first a number near the estimated solution: close enough that, once decided, this end of the bracket is
+    // final, but otherwise as far from the solution as possible, because that takes the least precision.
     std::vector<Candidate> candidates(double tolerance) const {
         struct Place {
             double share, penalty;

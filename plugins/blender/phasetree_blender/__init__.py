@@ -14,8 +14,8 @@ try:
     import numpy  # noqa: F401
 except ImportError as error:
     raise ImportError(
-        "phasetree: Blender's Python has no NumPy. Blender from blender.org has it; for Debian's, install python3-numpy, and "
-        "start Blender outside of virtual environments"
+        "phasetree: Blender's Python has no NumPy. Blender from blender.org includes it. With Debian's "
+        "Blender, install python3-numpy and do not start Blender from a virtual environment"
     ) from error
 
 from . import compatible_panels, engine, operators, panels, preferences, settings, trees_ui

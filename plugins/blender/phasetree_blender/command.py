@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from .notes import TranslationError
 
 MISSING = (
-    "the command `phasetree`, which renders, was not found. Build it with `bash tracer/quickstart.sh` in the sources of "
-    "phasetree, and set its file in Edit > Preferences > Add-ons > phasetree, or put it on PATH"
+    "the command `phasetree`, which does the rendering, was not found. Build it with `bash tracer/quickstart.sh` in the "
+    "sources of phasetree, and set its path in Edit > Preferences > Add-ons > phasetree, or put it on PATH"
 )
 
 
@@ -69,7 +69,7 @@ def import_glb(command, glb, scene, closes_gaps, cancelled=lambda: False):
 
 
 def message_of(stderr, path):
-    """An error message of the command without its own name and that of a temporary file."""
+    """The error message of the command, without its program name and the name of a temporary file."""
     text = "\n".join(line for line in stderr.splitlines() if not re.match(r"[\w ]+: +\d+%", line)).strip()
     return re.sub(rf"^(phasetree: )?(cannot import )?({re.escape(path)}: )?", "", text) or "phasetree ended without a message"
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-# Panels of EEVEE that show what every engine needs. Others of its panels are settings of EEVEE.
+# EEVEE panels that any engine can use. The rest are settings of EEVEE itself.
 OF_EEVEE = {
     "EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_volume",
     "EEVEE_WORLD_PT_surface", "EEVEE_WORLD_PT_volume", "DATA_PT_EEVEE_light",

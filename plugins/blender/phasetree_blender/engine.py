@@ -25,7 +25,9 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
     bl_use_shading_nodes_custom = False
 
     _meanings = {}  # of the scene that is rendered: for Cryptomatte
-    export_path = ""  # if set, a render only writes this scene file: Blender evaluates objects as for a render only then
+    # If set, a render writes this scene file instead of rendering. Export runs as a render because Blender evaluates objects
+    # with render settings only during one.
+    export_path = ""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         for made in passes_of(renderlayer):
@@ -40,7 +42,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
                 notes.information("the render was cancelled")
             except TranslationError as error:
                 notes.error(str(error))
-            except Exception as error:  # so that a mistake of this add-on is a message
+            except Exception as error:  # report bugs of this add-on instead of failing silently
                 traceback.print_exc()
                 notes.error(f"internal error of the add-on: {error!r}; the console has details")
         last_report.keep(depsgraph.scene.name, notes, phases)
@@ -168,7 +170,7 @@ class PhasetreeRenderEngine(bpy.types.RenderEngine):
             self.report({"ERROR"}, f"phasetree: {errors[0]}")
         losses = len(notes.of_kind(Kind.UNSUPPORTED)) + len(notes.of_kind(Kind.APPROXIMATE))
         if losses:
-            self.report({"WARNING"}, f"phasetree: lost or approximate: {losses}; see Render properties > Report")
+            self.report({"WARNING"}, f"phasetree: unsupported or approximated: {losses}; see Render properties > Report")
 
 
 def checkpoint_of(depsgraph):

@@ -1,4 +1,5 @@
-"""Reads the OpenEXR files that phasetree writes: one part, lines of floats, without compression or by ZIP."""
+"""Reads the OpenEXR files that phasetree writes: single-part scan-line files of floats, uncompressed or
+with ZIP compression."""
 
 import struct
 import zlib

@@ -19,14 +19,17 @@ def tell(operator, scene):
     for note in errors:
         operator.report({"ERROR"}, note.text)
     if not errors:
-        operator.report({"INFO"}, f"Notes: {len(notes)}; see Render properties > Report" if notes else "Nothing is lost")
+        message = f"Notes: {len(notes)}; see Render properties > Report" if notes else "Everything is supported"
+        operator.report({"INFO"}, message)
     return {"CANCELLED"} if errors else {"FINISHED"}
 
 
 class PHASETREE_OT_check(bpy.types.Operator):
     bl_idname = "phasetree.check"
     bl_label = "Check Scene"
-    bl_description = "Report what of this scene is lost or approximated, and which clear object wins where two overlap"
+    bl_description = (
+        "Report which parts of the scene are unsupported or approximated, and which clear object keeps the space of an overlap"
+    )
 
     def execute(self, context):
         notes, phases = Notes(), ""

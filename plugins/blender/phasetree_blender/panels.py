@@ -135,9 +135,9 @@ class PHASETREE_PT_report(PhasetreePanel, bpy.types.Panel):
         self.layout.operator("phasetree.check")
         report = last_report.of(context.scene.name)
         if report is None:
-            draw_text(self.layout, "Render or check the scene to see what is lost or approximate.")
+            draw_text(self.layout, "Render or check the scene to see what is unsupported or approximated.")
         elif not report.notes:
-            self.layout.label(text="Nothing is lost.", icon="CHECKMARK")
+            self.layout.label(text="Everything is supported.", icon="CHECKMARK")
         else:
             draw_notes(self.layout, report.notes)
 
@@ -171,7 +171,7 @@ class PHASETREE_PT_light_groups(PhasetreePanel, bpy.types.Panel):
 
 
 class LightGroupPanel(PhasetreePanel):
-    """The light group of what has one."""
+    """The light group of a light or a world."""
 
     bl_label = "Light Group"
 

@@ -14,7 +14,7 @@ class PhasetreePreferences(bpy.types.AddonPreferences):
 
     command: bpy.props.StringProperty(
         name="Command",
-        description="File of the command phasetree. If empty, PHASETREE_COMMAND or else the program on PATH is used",
+        description="Path of the command phasetree. If empty, PHASETREE_COMMAND or else the program on PATH is used",
         subtype="FILE_PATH",
     )
 

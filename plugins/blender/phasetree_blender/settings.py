@@ -10,8 +10,10 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
     samples: IntProperty(name="Samples", description="Samples per pixel", default=64, min=1, max=16777216, soft_max=4096)
     seed: IntProperty(name="Seed", description="Seed of the random numbers; another seed gives other noise", default=0, min=0)
     max_depth: IntProperty(
-        name="Max Surfaces", description="Maximum number of surfaces per path; 0 for no limit", default=0, min=0, max=1048576
-    )
+        name="Max Surfaces",
+        description="Maximum number of surfaces and scattering events per path; 0 for the default, 65536",
+        default=0, min=0, max=1048576,
+    )  # fmt: skip
     caustics: BoolProperty(
         name="Caustics",
         description="Use photons for light that reaches surfaces through clear objects or by metal. Without them, point "
@@ -25,7 +27,7 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
     denoise: BoolProperty(name="Denoise", description="Denoise the finished picture")
     closes_gaps: BoolProperty(
         name="Close Gaps",
-        description="Let a liquid flow to the glass where a thin gap separates them along a tenth of a surface or more",
+        description="Extend a liquid to the glass across a thin gap along a tenth of a surface or more",
         default=True,
     )
     update_interval: FloatProperty(
@@ -56,12 +58,12 @@ class PhasetreeSceneSettings(bpy.types.PropertyGroup):
         default="CENTER",
     )
     motion_steps: IntProperty(
-        name="Steps", description="Times at which the places of moving objects are read; more follow curved paths", default=3,
-        min=2, soft_max=9, max=65,
+        name="Steps", description="Number of times at which positions of moving objects are read; more follow curves better",
+        default=3, min=2, soft_max=9, max=65,
     )  # fmt: skip
     viewport_scale: IntProperty(
         name="Viewport Scale",
-        description="Resolution of the rendered viewport, as a share of its pixels",
+        description="Resolution of the rendered viewport, in percent of its width and height",
         default=50,
         min=5,
         max=100,
@@ -103,7 +105,7 @@ class PhasetreeObjectSettings(bpy.types.PropertyGroup):
         items=(
             ("AUTOMATIC", "Automatic", "Solid, liquid or gas by the name of the object, its material or the index"),
             ("SOLID", "Solid", "Keeps its space where it overlaps a liquid or a gas"),
-            ("LIQUID", "Liquid", "Gives way to solids and gases that overlap it, and flows to the glass across thin gaps"),
+            ("LIQUID", "Liquid", "Yields to solids and gases that overlap it, and is extended to the glass across thin gaps"),
             ("GAS", "Gas", "Keeps its space where it overlaps a liquid, such as a bubble"),
             ("OPAQUE", "Opaque", "Rendered as an opaque mesh, although its material is clear"),
         ),
@@ -122,7 +124,7 @@ def items_of(first, names):
 class PhasetreeMaterialSettings(bpy.types.PropertyGroup):
     medium: EnumProperty(
         name="Medium",
-        description="What light is absorbed and scattered by within a clear object",
+        description="The medium inside a clear object, which absorbs and scatters light",
         items=items_of(
             ("NODES", "From Volume", "The material's volume shader"),
             "apple chicken1 chicken2 cream ketchup marble potato skim_milk skin1 skin2 spectralon whole_milk",
@@ -131,8 +133,12 @@ class PhasetreeMaterialSettings(bpy.types.PropertyGroup):
     )
     glass: EnumProperty(
         name="Index",
-        description="A substance whose measured index spreads colours like a prism, for smooth clear objects",
-        items=items_of(("NODES", "From Surface", "The number of the shader"), "bk7 diamond f2 fused_silica sapphire sf11 water"),
+        description="A substance with a measured index for each wavelength, which disperses light like a prism. Only for smooth "
+        "clear objects",
+        items=items_of(
+            ("NODES", "From Surface", "The index of refraction given in the shader"),
+            "bk7 diamond f2 fused_silica sapphire sf11 water",
+        ),
         default="NODES",
     )
 

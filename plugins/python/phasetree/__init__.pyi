@@ -3019,7 +3019,7 @@ class textures:
 
         color: Colour of the ground. (colour; at least 0 and at most 1; default [0.82, 0.8, 0.77])
         vein: Colour of the veins. (colour; at least 0 and at most 1; default [0.2, 0.21, 0.24])
-        scale: Mean distance of the veins. (number in m; positive; default 1)
+        scale: Mean distance between veins. (number in m; positive; default 1)
         seed: Seed of the pattern. (whole number; zero or more; default 0)
         """
     @staticmethod

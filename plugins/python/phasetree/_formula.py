@@ -49,8 +49,8 @@ class Expression(Value):
 
     It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
     negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
-    are evaluated in single precision. Making the field determines an upper bound on the slope, by which the formula is
-    divided.
+    are evaluated in the precision of the call: double in locate, crossings and so on, otherwise single. When the field
+    is made, an upper bound on the slope is determined, and the formula is divided by it.
     """
 
     __slots__ = ("_bounds", "_field", "_height", "_of", "_what")

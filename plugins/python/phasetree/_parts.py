@@ -1,5 +1,5 @@
-"""Parts of a scene other than objects: materials, textures, numbers, normal maps, voxels, lights, meshes, cameras and
-image settings."""
+"""Parts of a scene other than objects: materials, textures, number textures, normal maps, voxels, lights, meshes,
+cameras and image settings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _CHECKED_AS = {
 
 
 class Part(Value):
-    """A material, texture, number, normal map, voxel grid, light, mesh or camera, or the image settings.
+    """A material, texture, number texture, normal map, voxel grid, light, mesh or camera, or the image settings.
 
     Consists of a kind and its parameters, which have been checked.
     """
@@ -96,7 +96,7 @@ kinds = _chapters
 
 
 def module_name(chapter):
-    """The name of the module that has a chapter's functions."""
+    """The name of the module with the functions for a chapter of the scene reference."""
     return {"Number textures": "numbers"}.get(chapter, chapter.lower())
 
 

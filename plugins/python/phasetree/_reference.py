@@ -186,9 +186,9 @@ def moves(value):
 
 
 def check_still(value, what):
-    """Rejects keys where they would be lost.
+    """Rejects keyframes ("keys") where they would be lost.
 
-    The library reads a tree at one time, so its nodes cannot keep keys.
+    The library reads a tree at one time, so its nodes cannot keep keyframes.
     """
     if moves(value):
         raise Error(

@@ -35,8 +35,9 @@ class Image:
     """A picture: linear Rec.709 radiance, and optional planes.
 
     pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) each, by the names of their
-    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the offset of the pixels in
-    the whole picture and the size of that picture; None if not cropped. attributes: further EXR attributes, such as the
+    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the position of this
+    picture's first pixel in the uncropped picture, and the size of the uncropped picture; None if not cropped. (This is
+    not the form that Scene.render takes.) attributes: further EXR attributes, such as the
     names in a Cryptomatte.
     """
 
@@ -235,8 +236,9 @@ class Scene(Value):
         progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
 
         planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
-        command. denoise: True, "regression" (the same bits everywhere) or "oidn". Image.planes then has the picture
-        before denoising as "noisy.R", "noisy.G" and "noisy.B".
+        command. denoise: True for the best method available, "oidn", or "regression", whose result does not depend on
+        the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G"
+        and "noisy.B".
 
         time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
         time ends the render. at: the time in seconds at which animated values are evaluated.
@@ -397,7 +399,7 @@ def load(path):
     """Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
 
     Objects taken from another scene file are read from there and become part of this scene. Trees and transforms are
-    read at time 0, with a warning if they have keys; everything else keeps its keys.
+    read at time 0, with a warning if they have keyframes ("keys"); everything else keeps its keyframes.
     """
     path = path_text(path)
     text = _phasetree.text_of_file(path)

@@ -13,7 +13,7 @@ from phasetree._trees import Object
 
 
 class Solution(NamedTuple):
-    """A number for which a measure has a value, and what is certain about it; see solve.
+    """The result of solve: the number at which a volume or mass has the given value, with its guaranteed bounds.
 
     The arrays hold [low, high, estimate]: the measure certainly lies between the first two.
     """
@@ -31,15 +31,16 @@ class Solution(NamedTuple):
 def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seconds=None, progress=None):
     """Finds the number between `low` and `high` for which a phase has a given volume or mass. Returns a Solution.
 
-    make: a function that returns the object for a number. target: the volume, in cubed units of length; with
-    densities, the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the
-    target. phase: a Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names,
-    to densities; phases that are not in it have no mass. tolerance: the width of the final bracket, by default a
-    thousandth of the first. seconds: a limit of the time. progress: called with "solving" and a guess of the
+    make: a function that returns the object for a number. target: the volume, in cubed units of length; with densities,
+    the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the target. phase: a
+    Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names, to densities;
+    phases that are not in it have no mass (unlike in Object.measure). tolerance: the width of the final bracket, by
+    default a thousandth of the first. seconds: a time limit. progress: called with "solving" and a guess of the
     fraction done.
 
-    The bracket is halved repeatedly. An end moves only if the certain interval of the measure proves on which side of
-    the target it is. So the final bracket certainly contains a crossing; there may be others.
+    The bracket is halved repeatedly. An end of the bracket is moved only if the guaranteed interval of the measure
+    proves on which side of the target the measure lies. So the final bracket certainly contains a crossing; there may
+    be others.
 
     Raises Error if both ends are on the same side, or if an argument is out of its range.
     """

@@ -289,8 +289,11 @@ def _name_of_phase(value):
 class Object(Value):
     """An object of several phases. Every point is in exactly one of them. Immutable.
 
-    Methods join objects, because the order matters: a.over(b), a.under(b), a.contact(b, …). Arrays identify phases by
-    their index in `phases`.
+    Objects are joined with methods rather than operators, because the order matters: a.over(b), a.under(b),
+    a.contact(b, …). Arrays identify phases by their index in `phases`.
+
+    label, trace and intersect are in single precision. locate, crossings and next_crossing are the same in double
+    precision.
     """
 
     __slots__ = ("_evaluator_", "_handle", "_precise_", "_precise_evaluator_", "_prepared_", "phases")
@@ -403,7 +406,7 @@ class Object(Value):
         return self._evaluator.phi(array, len(self.phases)).reshape(*shape, len(self.phases))
 
     def gradient(self, points, phase=None):
-        """The gradient at points of the distance to a phase; by default, to the phase in which each point is."""
+        """The gradient of the distance to a phase, at points. By default, of the phase in which each point lies."""
         array, shape = _points(points)
         return self._evaluator.gradient(array, self.index(phase) if phase is not None else -1).reshape(*shape, 3)
 
@@ -417,8 +420,8 @@ class Object(Value):
     def prepare(self, quality="medium", resolution=0, progress=None):
         """Builds the cells in which rays are traced. If this is not called, the first ray builds them.
 
-        quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
-        certain to be found. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
+        quality: "low" builds faster and traces more slowly. resolution: phases thinner than this along a ray may be
+        missed. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
         progress: called with "preparing" and the fraction done, up to 1.
         """
         if quality not in ("low", "medium"):
@@ -434,7 +437,7 @@ class Object(Value):
 
     @property
     def resolution(self):
-        """The smallest thickness along a ray at which a phase is certain to be found."""
+        """Phases thinner than this along a ray may be missed. A grazing ray may also miss slightly thicker ones."""
         return self._prepared.resolution
 
     def trace(self, origins, directions):
@@ -465,7 +468,7 @@ class Object(Value):
 
     @property
     def precise_resolution(self):
-        """The thickness of a phase along a ray that `crossings` and `next_crossing` are certain to find."""
+        """Phases thinner than this along a ray may be missed by `crossings` and `next_crossing`."""
         return self._precise.resolution
 
     def locate(self, points):
@@ -498,9 +501,9 @@ class Object(Value):
         If a ray's phase differs from that at its origin, there is a crossing at t = 0. limit: the largest t, a number
         or one per ray.
 
-        Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is
-        always `before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need
-        `prepare`. Raises Error if the object is empty or unbounded.
+        Phases thinner than `precise_resolution` along the ray may be missed, and so may phases that the ray only
+        grazes. `after` of a crossing is always `before` of the next. Rays that are not finite have no crossings. Uses
+        all cores and does not need `prepare`. Raises Error if the object is empty or unbounded.
         """
         arrays, _ = self._precise_rays(origins, directions, phases, limit)
         return Crossings(*self._precise.crossings(*arrays))
@@ -544,12 +547,12 @@ class Object(Value):
     def measure(self, tolerance=1e-3, seconds=None, densities=None, progress=None):
         """Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
-        Each number comes with an interval that certainly contains it, apart from rounding errors that exceed half a
-        resolution.
+        Each number comes with an interval that certainly contains it, unless a rounding error of a distance exceeds
+        half of `Object.resolution`.
 
-        tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds:
-        measuring also ends after this time, by default never. densities: a dict from phases, or their names, to
-        densities, for masses; phases that are not in it have a density of 1. progress: called with "measuring" and a
+        tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
+        also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
+        masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
         guess of the fraction done, up to 1.
 
         Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
@@ -571,11 +574,11 @@ class Object(Value):
         statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
         phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
         need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
-        seconds: a limit of the time, by default none. progress: called with "proving" and a guess of the fraction done,
+        seconds: a time limit, by default none. progress: called with "proving" and a guess of the fraction done,
         up to 1.
 
-        Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half of
-        `resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded.
+        Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of
+        `Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded.
         """
         densities = [(i, p.density) for i, p in enumerate(self.phases) if p.density is not None]
         text = json.dumps({"expect": list(statements)}, ensure_ascii=False, default=_name_of_phase)

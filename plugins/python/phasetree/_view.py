@@ -127,7 +127,8 @@ def view(what, *, width=None, samples=None, threads=0, port=0, open=None):
 
     An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of
     the picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to
-    open the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error.
+    open the page in the browser; by default True, except in notebooks, which embed the page. Raises
+    pt.Error if it cannot be shown, and RuntimeError if the port is unavailable.
     """
     made = View(what, width, samples, threads, port)
     if "ipykernel" not in sys.modules if open is None else open:

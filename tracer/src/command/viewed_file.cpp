@@ -105,11 +105,11 @@ view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& e
     const auto [version, document] = current_document(file, edited, desired);
     try {
         view::ViewedScene scene = read_viewed(file, document, kept, files, desired);
-        if (desired.numbers.empty()) edited.checked(version, {});
+        if (desired.numbers.empty()) edited.record_check(version, {});
         return scene;
     } catch (const SceneError& e) {
         // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
-        if (desired.numbers.empty()) edited.checked(version, e);
+        if (desired.numbers.empty()) edited.record_check(version, e);
         throw;
     }
 }

@@ -79,7 +79,8 @@ struct FileParts {
                         "list of instances",
                         R"({"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/instance"}})"});
         v(&P::meshes,
-          PartParameter{{"meshes", "", "Opaque meshes in addition to the object, or on their own.", limits::any, true},
+          PartParameter{{"meshes", "", "Meshes in addition to the object, or on their own: opaque, or thin like panes.",
+                         limits::any, true},
                         "list of meshes",
                         R"({"type": "array", "items": {"$ref": "#/definitions/mesh"}})"});
         v(&P::lights, PartParameter{{"lights", "", "Light sources. An image needs at least one.", limits::any, true},

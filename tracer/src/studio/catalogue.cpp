@@ -64,7 +64,7 @@ Json kind_json(const CatalogueKind& kind, const std::optional<std::filesystem::p
     json["kind"] = kind.name;
     json["chapter"] = kind.chapter;
     json["type"] = kind.type;
-    json["keyed"] = kind.is_keyed;
+    json["keyed"] = kind.is_written_with_name;
     json["title"] = title_of(kind);
     json["help"] = help_of(kind);
     const std::string picture = picture_of(kind);

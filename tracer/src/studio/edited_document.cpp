@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_recent = 64;
 constexpr std::size_t most_bytes_of_recent = std::size_t{64} << 20;
-constexpr const char* label_of_outside = "Edited outside";
+constexpr const char* label_of_outside = "Change made in another program";
 
 // The bytes of a file. Throws SceneError as reading a document does.
 std::string text_of(const std::filesystem::path& file) {
@@ -57,9 +57,9 @@ std::shared_ptr<const DocumentState> EditedDocument::state() const {
 }
 
 std::shared_ptr<const DocumentState> EditedDocument::state_after(std::uint64_t version,
-                                                                 std::chrono::milliseconds most) const {
+                                                                 std::chrono::milliseconds timeout) const {
     std::unique_lock lock(mutex_);
-    published_.wait_for(lock, most, [&] { return is_stopped_ || state_->version > version; });
+    published_.wait_for(lock, timeout, [&] { return is_stopped_ || state_->version > version; });
     return state_;
 }
 
@@ -112,7 +112,7 @@ void EditedDocument::commit() {
 }
 
 // Takes over what another program has saved.
-void EditedDocument::absorb_file() {
+void EditedDocument::adopt_file() {
     const WatchedFiles now = known_.now();
     if (now == known_) return;
     known_ = now;
@@ -133,7 +133,7 @@ void EditedDocument::absorb_file() {
     commit();
 }
 
-void EditedDocument::look_at_file() {
+void EditedDocument::poll_file() {
     const std::unique_lock lock(editing_, std::try_to_lock);
     if (!lock.owns_lock()) return;
     const WatchedFiles now = known_.now();
@@ -142,7 +142,7 @@ void EditedDocument::look_at_file() {
         return;
     }
     // Read a file only after two checks with the same state, because some programs save in several steps.
-    if (std::exchange(seen_, now) == now) absorb_file();
+    if (std::exchange(seen_, now) == now) adopt_file();
 }
 
 void EditedDocument::save_text() {
@@ -214,7 +214,7 @@ std::string EditedDocument::with_operations(const EditRequest& request) {
 
 std::uint64_t EditedDocument::edit(const EditRequest& request) {
     const std::lock_guard lock(editing_);
-    absorb_file();
+    adopt_file();
     check_base(request);
     std::string text;
     try {
@@ -235,7 +235,7 @@ std::uint64_t EditedDocument::edit(const EditRequest& request) {
 std::uint64_t EditedDocument::edit(const std::string& label,
                                    const std::function<std::string(const Document&)>& change) {
     const std::lock_guard lock(editing_);
-    absorb_file();
+    adopt_file();
     const auto present = state();
     if (present->unreadable) throw *present->unreadable;
     std::string text = change(present->document ? *present->document : options_.parse(history_->text()));
@@ -253,7 +253,7 @@ std::uint64_t EditedDocument::edit(const std::string& label,
 
 std::uint64_t EditedDocument::step(bool (History::*move)()) {
     const std::lock_guard lock(editing_);
-    absorb_file();
+    adopt_file();
     if (!((*history_).*move)()) return state()->version;
     return finish();
 }
@@ -268,14 +268,14 @@ std::uint64_t EditedDocument::redo() {
 
 std::uint64_t EditedDocument::save() {
     const std::lock_guard lock(editing_);
-    absorb_file();
+    adopt_file();
     save_text();
     const auto after = state();
     if (!after->is_saved) throw OutputError(after->save_error);
     return after->version;
 }
 
-void EditedDocument::checked(std::uint64_t text_version, const std::optional<SceneError>& error) {
+void EditedDocument::record_check(std::uint64_t text_version, const std::optional<SceneError>& error) {
     const auto present = state();
     if (present->text_version != text_version) return;
     const auto what = [](const std::optional<SceneError>& e) { return e ? std::string(e->what()) : std::string(); };

@@ -77,11 +77,12 @@ class EditedDocument {
     void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
 
     std::shared_ptr<const DocumentState> state() const;
-    /// Waits until the version exceeds `version`, until the time is over, or until stop().
-    std::shared_ptr<const DocumentState> state_after(std::uint64_t version, std::chrono::milliseconds most) const;
+    /// Waits until the version exceeds `version`, until the timeout, or until stop().
+    std::shared_ptr<const DocumentState> state_after(std::uint64_t version, std::chrono::milliseconds timeout) const;
     void stop();
 
-    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError.
+    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the request
+    /// does not fit the current text: see EditRequest::base.
     std::uint64_t edit(const EditRequest& request);
     /// Changes the text by a function of the document. Throws SceneError if the file cannot be read.
     std::uint64_t edit(const std::string& label, const std::function<std::string(const Document&)>& change);
@@ -90,11 +91,11 @@ class EditedDocument {
     /// Writes the text into the file. Throws OutputError.
     std::uint64_t save();
 
-    /// Notices when another program has saved the file. Call this periodically.
-    void look_at_file();
+    /// Adopts the text when another program has saved the file. Call this periodically.
+    void poll_file();
 
     /// Records what reading the scene found: an error, or none.
-    void checked(std::uint64_t text_version, const std::optional<SceneError>& error);
+    void record_check(std::uint64_t text_version, const std::optional<SceneError>& error);
 
     /// A document of a text, with the program's options for reading it. Throws SceneError.
     Document parsed(std::string text) const { return options_.parse(std::move(text)); }
@@ -109,7 +110,7 @@ class EditedDocument {
     };
 
     // All require `editing_`.
-    void absorb_file();
+    void adopt_file();
     void commit();
     void save_text();
     std::string with_operations(const EditRequest& request);

@@ -18,7 +18,7 @@ class History {
     const std::string& text() const { return text_; }
 
     /// Makes a new text the current one, which discards what could be redone. A step with the same `merge` key as the
-    /// step before extends that step, unless something was undone in between. A text that is the same is no step.
+    /// step before extends that step, unless something was undone in between. An unchanged text adds no step.
     void add(std::string text, std::string label, const std::optional<std::string>& merge = {});
 
     /// Return whether there was anything to undo or redo.

@@ -98,7 +98,7 @@ Container container_of(const Document& document, Value value) {
     return result;
 }
 
-bool Container::is_broken(std::string_view text) const {
+bool Container::is_multiline(std::string_view text) const {
     for (std::size_t i = 0; i <= items.size(); ++i)
         if (has_line_break(gap(i).of(text))) return true;
     return false;

@@ -35,18 +35,18 @@ inline bool has_line_break(std::string_view text) {
     return text.find_first_of("\r\n") != std::string_view::npos;
 }
 
-/// An array's items or an object's members: from the key or the value to the end of the value.
+/// The extents of an array's items or an object's members. A member extends from its key to the end of its value.
 struct Container {
     bool is_object = false;
     std::size_t open = 0, close = 0;  ///< offsets of the brackets
     std::vector<Span> items{};
 
-    /// The bytes before the i-th item and after the one before; before the closing bracket if i is the number of items.
+    /// The bytes between item i − 1, or the opening bracket, and item i, or the closing bracket.
     Span gap(std::size_t i) const {
         return {i == 0 ? open + 1 : items[i - 1].end, i == items.size() ? close : items[i].begin};
     }
-    /// Whether items are on lines of their own.
-    bool is_broken(std::string_view text) const;
+    /// Whether the items are on lines of their own.
+    bool is_multiline(std::string_view text) const;
 };
 
 /// `value` must be an array or an object.

@@ -92,7 +92,7 @@ class Insertion {
         };
         const std::size_t n = container_.items.size();
         if (n == 0) return into_empty(item);
-        if (!container_.is_broken(text_)) return into_line(i, item);
+        if (!container_.is_multiline(text_)) return into_line(i, item);
         Place place = place_at(text_, container_.open);
         place.indentation = item_indentation(place);
         place.column = place.indentation.size();
@@ -151,7 +151,7 @@ class Insertion {
                         {{inside, place.line_ending + inner.indentation + item(inner) + place.line_ending + outer}});
     }
 
-    // Whether only a key precedes the container on its line, so that the document is one of several lines.
+    // Whether only a key precedes the container on its line. If so, the document is laid out over several lines.
     bool is_first_on_line() const {
         const std::size_t column = column_at(text_, container_.open);
         if (column == container_.open) return false;  // the first line of the text
@@ -313,7 +313,7 @@ std::string apply(const Document& document, const RenameKey& o, const Vocabulary
     const std::string& text = document.text();
     std::vector<Replacement> replacements{{span_of_value(text, value.key_offset()), json_string(o.to)}};
     if (o.references) {
-        const std::optional<Named> named = named_by(o.pointer);
+        const std::optional<ReferenceKind> named = declared_at(o.pointer);
         if (!named)
             throw document.error(value.key_offset(),
                                  "only phases and shapes are referred to by name; rename the key alone");

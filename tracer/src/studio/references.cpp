@@ -18,10 +18,11 @@ void add_phases(const OutlineParameter& p, std::string_view name, std::vector<st
     }
 }
 
-void add_references(const OutlineEntry& entry, Named what, std::string_view name, std::vector<std::size_t>& found) {
-    if (what == Named::shape && entry.kind == "reference" && entry.label == name)
+void add_references(const OutlineEntry& entry, ReferenceKind what, std::string_view name,
+                    std::vector<std::size_t>& found) {
+    if (what == ReferenceKind::shape && entry.kind == "reference" && entry.label == name)
         found.push_back(entry.value->offset());
-    if (what == Named::phase) {
+    if (what == ReferenceKind::phase) {
         for (const OutlineParameter& p : entry.parameters) add_phases(p, name, found);
         // An object replaces materials of phases by name.
         if (entry.type == "placed_object")
@@ -33,14 +34,14 @@ void add_references(const OutlineEntry& entry, Named what, std::string_view name
 
 }  // namespace
 
-std::optional<Named> named_by(std::string_view pointer) {
+std::optional<ReferenceKind> declared_at(std::string_view pointer) {
     const PointerTokens tokens = pointer_tokens(pointer);
     if (tokens.size() != 2) return std::nullopt;
-    if (tokens[0] == "phases") return Named::phase;
-    return tokens[0] == "shapes" ? std::optional(Named::shape) : std::nullopt;
+    if (tokens[0] == "phases") return ReferenceKind::phase;
+    return tokens[0] == "shapes" ? std::optional(ReferenceKind::shape) : std::nullopt;
 }
 
-std::vector<std::size_t> references_to(const Document& document, Named what, std::string_view name,
+std::vector<std::size_t> references_to(const Document& document, ReferenceKind what, std::string_view name,
                                        const Vocabulary& vocabulary) {
     std::vector<std::size_t> found;
     const Outline outline = outline_of(document, vocabulary);

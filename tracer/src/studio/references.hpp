@@ -12,14 +12,14 @@
 
 namespace phasetree::tracer::studio {
 
-/// What scene files refer to by names.
-enum class Named { phase, shape };
+/// What a name in a scene file refers to.
+enum class ReferenceKind { phase, shape };
 
-/// What a pointer declares: "/phases/glass" and "/shapes/ball". nullopt for anything else.
-std::optional<Named> named_by(std::string_view pointer);
+/// What is declared at a pointer such as "/phases/glass" or "/shapes/ball". nullopt for anything else.
+std::optional<ReferenceKind> declared_at(std::string_view pointer);
 
 /// The offsets of all strings and keys that refer to a name, except for its declaration.
-std::vector<std::size_t> references_to(const Document& document, Named what, std::string_view name,
+std::vector<std::size_t> references_to(const Document& document, ReferenceKind what, std::string_view name,
                                        const Vocabulary& vocabulary);
 
 }  // namespace phasetree::tracer::studio

@@ -1,4 +1,4 @@
-// Complete scenes from which a person starts, embedded into the program by the build (tracer/cmake/embed_files.cmake).
+// Complete scenes to start from, embedded into the program by the build (tracer/cmake/embed_files.cmake).
 #pragma once
 
 #include <span>

@@ -9,10 +9,10 @@ namespace phasetree::tracer::studio {
 
 namespace {
 
-// A value that is more sensible than what the type of a parameter suggests. Parameters of named kinds are written even
-// if they are optional.
+// A better initial value for a parameter than its type suggests. If an entry names the kind, the parameter is written
+// even if it is optional.
 struct Preferred {
-    std::string_view kind;  // its name, its type and its name as in "texture/field", or empty for all
+    std::string_view kind;  // "name" or "type/name", such as "texture/field"; empty for all kinds
     std::string_view parameter, text;
 };
 
@@ -214,7 +214,7 @@ double within(const KindParameter& p, double preferred) {
     return preferred <= low ? (high < 1e8 ? 0.5 * (low + high) : low + 1) : 0.5 * (low + high);
 }
 
-// `is_first_phase` is whether no parameter before names a phase.
+// `is_first_phase`: no earlier parameter names a phase.
 std::string value_of(const KindParameter& p, bool is_first_phase) {
     if (p.control == "slot") return slot_text(*p.slot);
     if (p.control == "phase") return in_quotes(is_first_phase ? phase_placeholder : other_phase_placeholder);
@@ -255,7 +255,7 @@ std::string template_of(const CatalogueKind& kind) {
         if (!text.empty()) parameters += fmt::format("{}\"{}\": {}", parameters.empty() ? "" : ", ", p.name, text);
     }
     parameters = "{" + parameters + "}";
-    return kind.is_keyed ? fmt::format("{{\"{}\": {}}}", kind.name, parameters) : parameters;
+    return kind.is_written_with_name ? fmt::format("{{\"{}\": {}}}", kind.name, parameters) : parameters;
 }
 
 }  // namespace phasetree::tracer::studio

@@ -1,4 +1,4 @@
-// An instance of each kind, from which a person starts.
+// An instance of each kind to start from.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace phasetree::tracer::studio {
 
-/// Names in templates that stand for others.
+/// Placeholders in templates, to be replaced by names of the scene.
 inline constexpr std::string_view phase_placeholder = "<phase>";
 inline constexpr std::string_view other_phase_placeholder = "<other phase>";
 inline constexpr std::string_view file_placeholder = "<file>";
 inline constexpr std::string_view object_placeholder = "<object>";
 
-/// A JSON text of the kind that is about one unit large, with the kind's name if it is written with it. Names are
-/// placeholders.
+/// JSON of an instance of the kind, about one unit in size: {"name": {…}} if the kind is written with its name,
+/// otherwise {…}. Names in it are placeholders.
 std::string template_of(const CatalogueKind& kind);
 
 }  // namespace phasetree::tracer::studio

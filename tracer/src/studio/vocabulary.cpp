@@ -34,7 +34,7 @@ void add_alternatives(const Json& schema, std::vector<Json>& all) {
     for (const Json& one : schema["anyOf"]) add_alternatives(one, all);
 }
 
-// Definitions of the schema whose kinds belong to a type of another name.
+// The type whose kinds a definition of the schema lists. It usually has the definition's name.
 std::string type_of_reference(const std::string& reference) {
     if (reference == "expectation") return "statement";
     return reference == "phase" ? "material" : reference;
@@ -57,7 +57,7 @@ std::string control_of_number(const KindParameter& p) {
     return p.unit == "degrees" ? "angle" : "number";
 }
 
-// An array of three numbers: what they are is said by the unit and the words of the type.
+// The control for an array of three numbers, inferred from the unit, the limits and the wording of the reference.
 std::string control_of_vector(const KindParameter& p) {
     const bool has_any_length = p.help.find("any length") != std::string::npos;
     if (p.type.find("not all zero") != std::string::npos || has_any_length) return "direction";
@@ -149,7 +149,7 @@ KindParameter parameter_of(const ParameterPage& page, const std::string& chapter
 // The type of a chapter's kinds, and whether they are written with their names.
 struct ChapterType {
     std::string_view stem, type;
-    bool is_keyed;
+    bool is_written_with_name;
 };
 
 // A chapter missing here makes the constructor throw, and so fails every test of the studio.
@@ -190,7 +190,7 @@ CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
     kind.picture = page.example.starts_with("../") ? page.example.substr(3)
                    : page.example.empty()          ? ""
                                                    : "reference/" + page.example;
-    kind.is_keyed = type.is_keyed;
+    kind.is_written_with_name = type.is_written_with_name;
     for (const ParameterPage& p : page.parameters) kind.parameters.push_back(parameter_of(p, chapter));
     const auto is_required = [](const KindParameter& p) { return p.is_required; };
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
@@ -199,7 +199,7 @@ CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
     return kind;
 }
 
-// Warps are described for objects; those of fields take a field.
+// The reference describes warps of objects. Makes the kind for fields, whose child is a field.
 CatalogueKind of_fields(CatalogueKind kind) {
     kind.type = "field";
     for (KindParameter& p : kind.parameters)
@@ -248,7 +248,7 @@ const CatalogueKind* Vocabulary::only(std::string_view type) const {
     const auto names = by_type_.find(type);
     if (names == by_type_.end() || names->second.size() != 1) return nullptr;
     const CatalogueKind& kind = kinds_[names->second.begin()->second];
-    return kind.is_keyed ? nullptr : &kind;
+    return kind.is_written_with_name ? nullptr : &kind;
 }
 
 }  // namespace phasetree::tracer::studio

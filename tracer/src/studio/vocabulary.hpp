@@ -30,8 +30,9 @@ struct KindParameter {
     bool low_is_open = false, high_is_open = false;
     std::vector<std::string> choices;
     bool is_required = false;
-    bool may_be_keyed = false;     ///< whether it may change with time
-    std::optional<SlotType> slot;  ///< what the parameter is made of, or, for other controls, what it may be instead
+    bool may_be_keyed = false;  ///< whether it may change with time
+    /// The type of the values that the parameter holds (control "slot"), or that may replace its plain value.
+    std::optional<SlotType> slot;
 };
 
 /// One of the kinds of a type.
@@ -42,7 +43,7 @@ struct CatalogueKind {
     std::string summary, equation, section;
     std::string picture;  ///< its path relative to scenes, without extension; may be empty
     /// Whether values are written {"name": {parameters}}. Otherwise they are written {parameters}.
-    bool is_keyed = true;
+    bool is_written_with_name = true;
     /// Whether the only required parameter, a list or a text, may be written instead of the parameters.
     bool list_alone = false;
     std::vector<KindParameter> parameters;

@@ -301,7 +301,7 @@ void serve(Session& session, const ServeOptions& options) {
     options.serving(access.url());
     while (!options.is_over()) {
         session.look_at_files();
-        if (options.document) options.document->look_at_file();
+        if (options.document) options.document->poll_file();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     session.stop();

@@ -60,9 +60,9 @@ std::shared_ptr<const Shown> Session::shown() const {
     return shown_;
 }
 
-std::shared_ptr<const Shown> Session::shown_after(std::uint64_t version, std::chrono::milliseconds most) const {
+std::shared_ptr<const Shown> Session::shown_after(std::uint64_t version, std::chrono::milliseconds timeout) const {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, most, [&] { return stopped_ || shown_->version > version; });
+    changed_.wait_for(lock, timeout, [&] { return stopped_ || shown_->version > version; });
     return shown_;
 }
 

@@ -82,7 +82,7 @@ class Session {
     std::shared_ptr<const Shown> shown() const;
     /// Waits until the version of what is shown exceeds `version`, until the timeout, or until stop(), and returns
     /// what is shown.
-    std::shared_ptr<const Shown> shown_after(std::uint64_t version, std::chrono::milliseconds most) const;
+    std::shared_ptr<const Shown> shown_after(std::uint64_t version, std::chrono::milliseconds timeout) const;
     /// Ends all waiting and working permanently.
     void stop();
 

@@ -21,7 +21,7 @@ class StudioAnswers {
     static bool is_posted(std::string_view name);
     static bool is_answered(std::string_view name);
     /// Returns false if there is no such page.
-    bool get(std::string_view name, std::uint64_t after, std::chrono::milliseconds most,
+    bool get(std::string_view name, std::uint64_t after, std::chrono::milliseconds timeout,
              httplib::Response& response) const;
     void post(std::string_view name, const std::string& body, httplib::Response& response) const;
 

@@ -62,7 +62,7 @@ def view(position, forward, up):
 
 
 def focus_of(data, position, forward, notes):
-    """The parameters of the lens that blur."""
+    """The parameters for depth of field."""
     dof = data.dof
     if not dof.use_dof or dof.aperture_fstop <= 0:
         return {}

@@ -61,7 +61,8 @@ def values_of(channel):
 
 
 def png_of_numbers(*channels):
-    """A PNG whose channels are arrays (height, width) of numbers from 0 to 1, or None for 1. All get the largest size."""
+    """A PNG whose channels are arrays (height, width) of numbers from 0 to 1, or None for 1. Channels are resampled to the
+    largest height and width among them."""
     height, width = (max(c.shape[axis] for c in channels if c is not None) for axis in (0, 1))
     rgba = np.full((height, width, 4), 255, dtype=np.uint8)
     for number, values in enumerate(channels):
@@ -72,7 +73,7 @@ def png_of_numbers(*channels):
 
 
 def linear(colors):
-    """Linear numbers of sRGB's."""
+    """Converts sRGB-encoded values to linear ones."""
     return np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
 
 

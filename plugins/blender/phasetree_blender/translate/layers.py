@@ -53,7 +53,7 @@ def read_coat(node, surface, notes):
         weight *= OLD_COAT
         notes.approximate('"Clearcoat" lacks the wide tails that its highlights have in Blender 3')
     if abs(constant(node, "Coat IOR", 1.5, notes) - 1.5) > 1e-6:
-        notes.unsupported('"Coat IOR" is ignored; it is 1.5')
+        notes.unsupported('"Coat IOR" is ignored; 1.5 is used instead')
     if constant(node, "Coat Tint", WHITE, notes) != WHITE:
         notes.unsupported('"Coat Tint" is ignored')
     roughness = min(max(constant(node, "Clearcoat Roughness", 0.03, notes), 0.0), 1.0)
@@ -79,7 +79,7 @@ def read_sheen(node, surface, notes):
 
 
 def read_film(node, surface, notes):
-    """A thin film. The importer reads it of clear materials, too."""
+    """A thin film. `phasetree import` supports it on clear materials, too."""
     thickness = constant(node, "Thin Film Thickness", 0.0, notes)  # in nanometres
     if thickness <= 0:
         return

@@ -1,4 +1,4 @@
-"""Lights. A watt per steradian and square metre of Blender is a radiance of 1."""
+"""Lights. A radiance of 1 W/(sr m²) in Blender is a radiance of 1 in phasetree."""
 
 import math
 
@@ -51,7 +51,7 @@ def light_without_group(item, matrix, notes):
 
 
 def area(light, matrix, color, notes):
-    """A rectangle. One edge of phasetree's is horizontal, or along x if it faces up or down."""
+    """A rectangle. In phasetree, one of its edges is horizontal, and parallel to x if it faces up or down."""
     x, y = matrix.col[0].xyz, matrix.col[1].xyz
     forward = -matrix.col[2].xyz.normalized()
     width = light.size * x.length

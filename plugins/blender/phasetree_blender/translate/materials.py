@@ -15,7 +15,7 @@ GREY = (0.8, 0.8, 0.8)
 
 @dataclass
 class Surface:
-    """A material by glTF's numbers."""
+    """A material, described by the parameters of glTF's material model."""
 
     color: tuple = GREY
     alpha: float = 1.0
@@ -137,8 +137,8 @@ def read_metallic_and_roughness(node, surface, transmission, notes):
     surface.is_clear = transmission >= 0.5 and surface.metallic < 0.5
     roughness = None if surface.is_clear else textures.channel_at(sockets.socket(node, "Roughness"), notes)
     surface.roughness = constant(node, "Roughness", 0.5, notes) if roughness is None else 1.0
-    if roughness and metallic and not roughness.texture.lies_like(metallic.texture):
-        notes.unsupported('the image of "Metallic" is ignored, because it lies on the mesh otherwise than that of "Roughness"')
+    if roughness and metallic and not roughness.texture.has_same_mapping(metallic.texture):
+        notes.unsupported('the image of "Metallic" is ignored, because its mapping differs from that of "Roughness"')
         metallic, surface.metallic = None, sockets.plain(sockets.socket(node, "Metallic").default_value)
     surface.roughness_image, surface.metallic_image = roughness, metallic
     surface.uv_maps.update(channel.texture.uv_map for channel in (roughness, metallic) if channel)
@@ -185,7 +185,7 @@ def read_normals(node, surface, notes):
         return
     surface.uv_maps.add(image.uv_map)
     if not image.transform.keeps_directions():
-        notes.approximate("the bumps of a normal map turn with its Mapping")
+        notes.approximate("rotating the Mapping of a normal map also rotates its normals")
     surface.normal_image, surface.normal_strength = image, constant(maps, "Strength", 1.0, notes)
 
 
@@ -256,7 +256,7 @@ def medium_of(surface, material, millimetres, notes):
     medium, settings = dict(surface.scattering), material.phasetree
     if settings.medium != "NODES":
         if medium or surface.absorption:
-            notes.information(f"its volume shader gives way to the measured medium {settings.medium.lower()}")
+            notes.information(f"its volume shader is overridden by the measured medium {settings.medium.lower()}")
         medium = {"medium": settings.medium.lower(), "scale": millimetres}
     if settings.glass != "NODES":
         if surface.roughness > 0 or "KHR_materials_iridescence" in surface.extensions:

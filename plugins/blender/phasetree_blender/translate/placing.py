@@ -112,7 +112,7 @@ class Placing:
         return True
 
     def _note_solid(self, shape, what, notes):
-        """Whether an opaque shape can be a solid of one phase. Notes what is lost."""
+        """Whether an opaque shape can be a solid of one phase. Notes what is unsupported."""
         slots = shape.used_slots()
         surface = self._surface(shape)
         why = (

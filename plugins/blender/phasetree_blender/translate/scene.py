@@ -22,7 +22,7 @@ from .scene_objects import SceneObjects
 class Translation:
     """A scene whose objects are in a glTF file, and whose other parts are below. It no longer needs Blender."""
 
-    path: str  # of the scene file to be
+    path: str  # of the scene file that will be written
     glb: str  # path of the glTF file
     parts: dict  # of the scene file: camera, lights, background
     settings: dict  # "render" of the scene file
@@ -150,7 +150,7 @@ def imported(glb, path, translation, media, command, notes, cancelled):
     for mesh in document.get("meshes", ()):
         mesh["gltf"]["imported"] = True  # the lights are in the scene file
     for name, medium in media.items():
-        if name in document.get("phases", ()):  # open surfaces of the material are not
+        if name in document.get("phases", ()):  # only closed objects became phases; open surfaces did not
             materials.complete_phase(document["phases"][name]["clear"], medium)
     return document, done.report
 
@@ -200,7 +200,7 @@ def note_object(item, notes):
         notes.unsupported("hair is left out")
     rays = ("camera", "diffuse", "glossy", "transmission", "shadow")
     if item.lightgroup:
-        notes.unsupported("its light group is ignored: glowing surfaces are in the group of everything else")
+        notes.unsupported("its light group is ignored: the light of glowing surfaces is in none of the groups' passes")
     hidden = [name for name in rays if not getattr(item, f"visible_{name}", True)]
     if hidden:
         notes.unsupported(f"it is visible to all rays, although ray visibility excludes {', '.join(hidden)}")

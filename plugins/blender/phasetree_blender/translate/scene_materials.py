@@ -17,7 +17,7 @@ class MaterialFiles:
     def color(self, texture, notes):
         """A `mesh_image` of colours, or None."""
         found = self._file(texture.image.original.as_pointer(), lambda: images.png_or_jpeg(texture.image))
-        return self._laid(found, texture, notes)
+        return self._with_mapping(found, texture, notes)
 
     def number(self, channel, notes, low=0.0, high=1.0):
         """A `mesh_image` of numbers, or None."""
@@ -27,7 +27,7 @@ class MaterialFiles:
             return None if values is None else (images.png_of_numbers(values, values, values), "image/png")
 
         key = (channel.texture.image.original.as_pointer(), channel.number)
-        made = self._laid(self._file(key, content), channel.texture, notes)
+        made = self._with_mapping(self._file(key, content), channel.texture, notes)
         if made and (low, high) != (0.0, 1.0):
             made["mesh_image"]["range"] = [low, high]
         return made
@@ -45,7 +45,7 @@ class MaterialFiles:
         return self._written[key]
 
     @staticmethod
-    def _laid(file, texture, notes):
+    def _with_mapping(file, texture, notes):
         if file is None:
             notes.unsupported(f'the image "{texture.image.name}" cannot be read and is ignored')
             return None
@@ -62,7 +62,7 @@ def material_of(surface, files, notes):
     if surface.mixture:
         first, second, amount = surface.mixture
         if not isinstance(amount, float):
-            amount = files.number(amount, notes) or amount.otherwise
+            amount = files.number(amount, notes) or amount.fallback
         return {"mix": {"first": material_of(first, files, notes), "second": material_of(second, files, notes), "amount": amount}}
     color = surface.color_image and files.color(surface.color_image, notes) or list(surface.color)
     bumps = {}
@@ -78,13 +78,13 @@ def material_of(surface, files, notes):
     alpha = surface.roughness**2
     if surface.metallic == 1 and not surface.metallic_image and not surface.extensions and not light:
         if surface.roughness_image:
-            alpha = files.number(surface.roughness_image, notes) or surface.roughness_image.otherwise ** 2
+            alpha = files.number(surface.roughness_image, notes) or surface.roughness_image.fallback ** 2
         return {"conductor": {"reflectance": color, "roughness": alpha, **bumps}}
     roughness, metallic = surface.roughness, surface.metallic
     if surface.roughness_image:
-        roughness = files.number(surface.roughness_image, notes) or surface.roughness_image.otherwise
+        roughness = files.number(surface.roughness_image, notes) or surface.roughness_image.fallback
     if surface.metallic_image:
-        metallic = files.number(surface.metallic_image, notes) or surface.metallic_image.otherwise
+        metallic = files.number(surface.metallic_image, notes) or surface.metallic_image.fallback
     layers = layers_of(surface, notes)
     if light:
         layers.update(emission_radiance=radiance, emission_color=light)

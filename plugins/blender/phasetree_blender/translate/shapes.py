@@ -6,7 +6,7 @@ import numpy as np
 
 # Objects that Blender can convert to meshes.
 WITH_MESHES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-# Objects with something to see that is lost.
+# Types of visible objects that are not supported.
 UNSUPPORTED = {
     "VOLUME": "volumes", "POINTCLOUD": "point clouds", "CURVES": "hair curves", "GPENCIL": "grease pencil strokes",
     "GREASEPENCIL": "grease pencil strokes",

@@ -13,7 +13,8 @@ class TextureFiles:
     def texture(self, texture, notes):
         """A material's reference to a texture, or None if its image cannot be read."""
         image = texture.image
-        return self._laid(texture, self._write(image.original.as_pointer(), lambda: images.png_or_jpeg(image), image, notes))
+        written = self._write(image.original.as_pointer(), lambda: images.png_or_jpeg(image), image, notes)
+        return self._with_mapping(texture, written)
 
     def metallic_and_roughness(self, surface, notes):
         """A reference to a texture whose green is the roughness and whose blue is how metallic the surface is."""
@@ -21,13 +22,13 @@ class TextureFiles:
         texture = next(channel for channel in channels if channel).texture
         if has_gltf_layout(surface) and (found := self.texture(texture, notes)):
             return found
-        key = tuple(channel and (channel.texture.image.original.as_pointer(), channel.number, channel.otherwise)
+        key = tuple(channel and (channel.texture.image.original.as_pointer(), channel.number, channel.fallback)
                     for channel in channels)  # fmt: skip
 
         def content():
             return images.png_of_numbers(None, *(numbers_of(channel, notes) for channel in channels)), "image/png"
 
-        return self._laid(texture, self._write(key, content, texture.image, notes))
+        return self._with_mapping(texture, self._write(key, content, texture.image, notes))
 
     def _write(self, key, content, image, notes):
         if key not in self._written:
@@ -38,7 +39,7 @@ class TextureFiles:
         return self._written[key]
 
     @staticmethod
-    def _laid(texture, written):
+    def _with_mapping(texture, written):
         if written is None or texture.transform == Transform():
             return written
         t = texture.transform
@@ -53,7 +54,7 @@ def numbers_of(channel, notes):
     values = images.values_of(channel)
     if values is None:
         note_unreadable(channel.texture.image, notes)
-        return np.full((1, 1), channel.otherwise)
+        return np.full((1, 1), channel.fallback)
     return values
 
 

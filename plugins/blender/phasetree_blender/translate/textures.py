@@ -1,4 +1,4 @@
-"""Image Texture nodes as textures of glTF: which image, how it lies on the mesh, and which of its channels."""
+"""Image Texture nodes as textures of glTF: which image, its mapping, and which of its channels."""
 
 import math
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class Texture:
     uv_map: str = ""  # a name; "" is the active one
     transform: Transform = Transform()
 
-    def lies_like(self, other):
+    def has_same_mapping(self, other):
         return (self.uv_map, self.transform) == (other.uv_map, other.transform)
 
 
@@ -39,7 +39,7 @@ class Channel:
 
     texture: Texture
     number: int
-    otherwise: float  # the value if the image cannot be read
+    fallback: float  # the value if the image cannot be read
 
 
 SEPARATED = {"Red": 0, "Green": 1, "Blue": 2, "R": 0, "G": 1, "B": 2}
@@ -71,17 +71,17 @@ def channel_at(socket, notes):
     origin = sockets.source(socket)
     if origin is None:
         return None
-    number, otherwise = None, sockets.plain(socket.default_value)
+    number, fallback = None, sockets.plain(socket.default_value)
     if origin.node.bl_idname in ("ShaderNodeSeparateColor", "ShaderNodeSeparateRGB"):
         if getattr(origin.node, "mode", "RGB") != "RGB":
             return None
         number, socket = SEPARATED[origin.name], origin.node.inputs[0]
     texture = texture_at(socket, notes)
-    return None if texture is None else Channel(texture, number, otherwise)
+    return None if texture is None else Channel(texture, number, fallback)
 
 
 def placement_of(node, notes):
-    """The UV map and the transform that the nodes at the vector of an Image Texture stand for."""
+    """The UV map and the transform given by the nodes linked to the Vector input of an Image Texture."""
     origin, matrix = sockets.source(node.inputs["Vector"]), np.identity(3)
     while origin is not None and origin.node.bl_idname == "ShaderNodeMapping":
         mapping = matrix_of(origin.node, notes)
@@ -121,7 +121,8 @@ def matrix_of(node, notes):
 
 
 def transform_of(matrix):
-    """A transform of Blender's texture coordinates as that of glTF's, where v points down; None if there is none."""
+    """Converts a transform of Blender's texture coordinates to one of glTF's, in which v points down; None if glTF cannot
+    express it."""
     if np.array_equal(matrix, np.identity(3)):
         return Transform()
     flip = np.array([[1, 0, 0], [0, -1, 1], [0, 0, 1]])

@@ -47,7 +47,7 @@ def scatter(node, notes):
 
 
 def principled(node, notes):
-    """Absorbs what it does not scatter, less the square root of the absorption colour, as Cycles does."""
+    """The absorption is density · (1 − color) · (1 − √absorption color), as in Cycles."""
     color, density = color_and_density(node, notes)
     kept = np.sqrt(np.maximum(np.array(constant(node, "Absorption Color", (0.0, 0.0, 0.0), notes)), 0))
     for name in ("Emission Strength", "Blackbody Intensity"):

@@ -103,7 +103,7 @@ Color trace(const World& world, RTCRayHit ray) {
         const Material& material = world.materials[entered];
         const Color color{light * material.color[0], light * material.color[1], light * material.color[2]};
         if (!material.is_clear) return shade(ray.hit, color);
-        // Less light passes where the surface slants.
+        // Less light passes at grazing angles.
         const float length = std::hypot(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z) *
                              std::hypot(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
         const float cosine =

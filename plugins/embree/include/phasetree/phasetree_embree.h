@@ -16,6 +16,11 @@
  * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
+ * Sides. The two phases at an interface are called phaseLeft and phaseEntered for a hit (PhasetreeHit), from and to in
+ * double precision (precise.h), and here and there for the closest interface (point.h). tIn and pointIn are on the
+ * first side, tOut and pointOut on the second. RTCHit.Ng points to the side that the ray comes from; the normal of a
+ * PhasetreePreciseCrossing points the other way.
+ *
  * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL. If the
  * error is not PHASETREE_ERROR_NONE, nothing has changed, the outputs are untouched, and phasetreeGetErrorMessage()
  * says which argument is wrong and why. No C++ exception leaves the library. No argument makes it abort, except invalid

@@ -24,7 +24,7 @@ struct MarbleTexture {
         using P = MarbleTexture;
         v(&P::color, ColourParameter{{"color", "", "Colour of the ground.", limits::fraction, true}});
         v(&P::vein, ColourParameter{{"vein", "", "Colour of the veins.", limits::fraction, true}});
-        v(&P::scale, Parameter{"scale", "m", "Mean distance of the veins.", limits::positive, true});
+        v(&P::scale, Parameter{"scale", "m", "Mean distance between veins.", limits::positive, true});
         v(&P::seed, Parameter{"seed", "", "Seed of the pattern.", limits::non_negative, true});
     }
 

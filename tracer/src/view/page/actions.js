@@ -183,7 +183,7 @@ export class Actions {
     if (!entry || isSection(entry)) return;
     const step = duplicated(this.#scene, entry, Number((0.3 * this.radius()).toPrecision(2)));
     if (step) return this.run(step);
-    this.#announcer.say("This cannot be duplicated: a scene has only one of it.");
+    this.#announcer.say("This cannot be duplicated: a scene can have only one.");
   }
   delete() {
     const entries = this.selected;
@@ -200,7 +200,7 @@ export class Actions {
   unwrap(entry = this.active) {
     const step = entry && isNode(entry) ? unwrapped(entry) : null;
     if (step) return this.run(step);
-    this.#announcer.say("There is nothing to remove: the selection wraps no other part that could stand in its place.");
+    this.#announcer.say("The wrapper cannot be removed: nothing inside the selection could take its place.");
   }
   copyShape(entry = this.active) {
     return this.run(ownCopy(this.#scene, entry));
@@ -276,7 +276,7 @@ export class Actions {
   }
 }
 
-// Kinds that exist for fields and for objects are offered once, for the type that the selection is of.
+// If a kind exists both for fields and for objects, offer only the one that matches the selection's type.
 function withoutTwins(kinds, active) {
   const wanted = active?.type === "field" ? "field" : "object";
   return kinds.filter((kind) => !["field", "object"].includes(kind.type) || kind.type === wanted || !kinds.some((other) => other !== kind && other.kind === kind.kind && other.type === wanted));

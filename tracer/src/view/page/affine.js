@@ -6,14 +6,14 @@ import {isNode, pathTo} from "./structure.js";
 export const identity = {m: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], t: [0, 0, 0]};
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const turned = ({m}, v) => m.map((row) => dot(row, v));
-export const at = (map, p) => turned(map, p).map((x, i) => x + map.t[i]);
+export const transformVector = ({m}, v) => m.map((row) => dot(row, v));
+export const transformPoint = (map, p) => transformVector(map, p).map((x, i) => x + map.t[i]);
 const columns = (m) => [0, 1, 2].map((j) => m.map((row) => row[j]));
 const product = (a, b) => a.map((row) => columns(b).map((column) => dot(row, column)));
-const after = (outer, inner) => ({m: product(outer.m, inner.m), t: at(outer, inner.t)});
+const compose = (outer, inner) => ({m: product(outer.m, inner.m), t: transformPoint(outer, inner.t)});
 
-// The vector that a map turns into another; null if it flattens space.
-export function unturned({m}, v) {
+// The preimage of a vector under a map's linear part; null if that is singular.
+export function inverseTransformVector({m}, v) {
   const [a, b, c] = columns(m);
   const cross = (p, q) => [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
   const volume = dot(a, cross(b, c));
@@ -58,10 +58,10 @@ function ownMap(entry) {
   }
 }
 
-// From the content of an entry to the scene; for a reusable shape, to where it is used first. `isInside` counts the entry's
-// own map.
+// The map from an entry's content to the scene. A reusable shape is mapped to its first use. `isInside`: include the
+// entry's own map.
 export function mapTo(entry, isInside = true, depth = 0) {
   const nodes = pathTo(entry).filter(isNode), [root] = nodes;
-  const own = (isInside ? nodes : nodes.slice(0, -1)).map(ownMap).reduce(after, identity);
-  return root?.uses.length > 0 && depth < 16 ? after(mapTo(root.uses[0], true, depth + 1), own) : own;
+  const own = (isInside ? nodes : nodes.slice(0, -1)).map(ownMap).reduce(compose, identity);
+  return root?.uses.length > 0 && depth < 16 ? compose(mapTo(root.uses[0], true, depth + 1), own) : own;
 }

@@ -34,7 +34,7 @@ function turnedAround(v, axis, angle) {
 
 // Rotates around a centre: by `right` around the vertical and by `up` around the picture's horizontal, in radians. The
 // camera never looks straight up or down, where left and right would swap.
-export function turned(camera, centre, right, up) {
+export function orbit(camera, centre, right, up) {
   const members = membersOf(camera);
   const vertical = unit(members.up ?? [0, 0, 1]);
   const {right: horizontal, forward} = frame(members);
@@ -64,7 +64,7 @@ export function moved(camera, centre, right, up) {
 
 // How far a plane must move along its normal to follow the pointer, which moved by fractions of the picture's height. A
 // plane that faces the camera moves by the pointer's upward motion.
-export function followed(camera, centre, normal, right, up) {
+export function planeShift(camera, centre, normal, right, up) {
   const members = membersOf(camera);
   const axes = frame(members);
   const height = heightAt(camera, length(sub(centre, members.position)));

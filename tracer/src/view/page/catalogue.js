@@ -1,6 +1,6 @@
 // The kinds of nodes, materials, lights and so on that a scene may contain, and where each may stand.
 
-// What is a constant unless it is a texture is edited as a constant.
+// Parameters that take a constant or a texture are edited with the control for constants.
 const constants = {texture: "color", number_texture: "number"};
 
 function withConstants(kind) {

@@ -13,7 +13,8 @@ export function kindAround(text, at) {
   return null;
 }
 
-// The names that begin with what has been typed after a quotation mark, and how much that is; null elsewhere.
+// {typed, names}: the text typed since the opening quotation mark, and the names that complete it; null if the position is
+// not in a key or a name.
 export function completions(text, at, catalogue) {
   const typed = /[{,[:]\s*"(\w*)$/.exec(text.slice(Math.max(0, at - 120), at))?.[1];
   if (typed === undefined) return null;

@@ -9,7 +9,7 @@ export class Cut {
   #changed;
   #place = {centre: [0, 0, 0], radius: 1};
 
-  // `elements` are those of the section: direction, normal (three inputs), offset, said.
+  // `elements` are those of the section: direction, normal (three inputs), offset, status.
   constructor(elements, changed) {
     this.#elements = elements;
     this.#changed = changed;
@@ -58,10 +58,10 @@ export class Cut {
     this.#request();
   }
   #say() {
-    const {offset, said} = this.#elements;
+    const {offset, status} = this.#elements;
     const text = this.isOn ? `${Math.round(100 * Number(offset.value))} % of the radius from the centre` : "none";
     offset.setAttribute("aria-valuetext", text);
-    said.value = text;
+    status.value = text;
     offset.disabled = !this.isOn;
     this.#elements.normal.forEach((input) => { input.disabled = !this.isOn; });
   }

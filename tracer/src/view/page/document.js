@@ -7,7 +7,7 @@ import {Rejected, askDocument, pause, redo, save, sendStep, undo} from "./server
 const sections = ["tree", "objects", "shapes", "phases", "lights", "meshes", "camera", "render", "groups", "instances", "expect", ""];
 const single = new Set(["tree", "camera", "render", ""]);
 
-// The entries by the member of the scene that they are in. A member with one entry is that entry.
+// Groups the entries into sections, one for each member of the scene. A member that is a single entry gets no section.
 function grouped(entries) {
   const section = (name) => {
     const pointer = name === "" ? "" : `/${name}`;

@@ -168,7 +168,7 @@ export function unwrapped(entry) {
   return heir && {label: "Remove the wrapper", operations: [{unwrap: entry.pointer, keep: heir.pointer}], select: [entry.pointer]};
 }
 
-// How to delete one entry: what cannot be left out is deleted with what it is part of.
+// How to delete one entry. If its parent requires it, the parent is replaced by another child or deleted, too.
 function deletion(entry) {
   const {parent} = entry;
   if (!parent) return {operation: {remove: entry.pointer}, select: []};
@@ -196,7 +196,7 @@ function shifted(value, by) {
     return {translate: {...value.translate, by: numbers.map((x, i) => x + by[i])}};
   return {translate: {by, of: value}};
 }
-// A filled field is moved inside its filling, where the next move finds it.
+// For a `set` node, the translation is inserted below it, around the field, so that a later move finds and extends it.
 const shiftedNode = (value, by) => (value?.set?.of ? {set: {...value.set, of: shifted(value.set.of, by)}} : shifted(value, by));
 
 export function duplicated(scene, entry, distance) {
@@ -234,12 +234,13 @@ export function namedShape(scene, entry, name) {
   return {label: `Make ${name} reusable`, operations: [insert, {set: entry.pointer, to: JSON.stringify(name)}], select: [pointer]};
 }
 
-// Moves an entry of a list before what is at a pointer, or to the end ("/-"). The pointer is one before the move.
+// Moves a list entry to just before the value at pointer `to`, or to the end ("/-"). `to` is given as it is before the move.
 export function moved(entry, to) {
   const last = to.split("/").at(-1), list = parentOf(to), from = entry.pointer;
   const isLater = list === listOf(entry) && last !== "-" && Number(last) > indexOf(entry);
   const lands = isLater ? `${list}/${Number(last) - 1}` : to;
-  // A list further along in the same list moves up by one when the entry leaves.
+  // If the target list lies in a later item of the entry's own list, that item's index decreases by one when the entry
+  // is removed.
   const outer = listOf(entry), inner = lands.startsWith(`${outer}/`) && list !== outer ? lands.slice(outer.length + 1).split("/") : null;
   if (inner && Number(inner[0]) > indexOf(entry)) inner[0] = String(Number(inner[0]) - 1);
   const target = inner ? `${outer}/${inner.join("/")}` : lands;

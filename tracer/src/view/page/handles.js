@@ -1,7 +1,7 @@
 // Handles over the picture for the selection: arrows that move it along the axes, a disc that moves it in the plane of
 // the picture, a ring that rotates it, squares that scale it, and dots for its points and lengths. The picture follows
 // while they are dragged. A click on one types its numbers.
-import {at, mapTo, turned, unturned, valueOf, writtenValueOf} from "./affine.js";
+import {inverseTransformVector, mapTo, transformPoint, transformVector, valueOf, writtenValueOf} from "./affine.js";
 import {canProject, projected} from "./camera.js";
 import {makeSvg, newId} from "./dom.js";
 import {follow, followed, rounded, typeNumbers} from "./handle_drag.js";
@@ -148,17 +148,18 @@ export class Handles {
       return [{wrap: around.pointer, in: written({[kind]: {...more, [name]: value, of: null}})}];
     };
   }
-  // Where a wrapper goes in a chain: inside its filling and what already places it, as in files written by hand.
+  // Where a wrapper goes in a chain: inside its `set` node and the transforms that already place it, as in files written
+  // by hand.
   #inside(chain, kinds) {
     return chain.find((entry, i) => i === chain.length - 1 || !kinds.includes(entry.kind));
   }
   #arrows(chain, mover) {
     const around = mover ? null : this.#inside(chain, ["set"]), target = mover ?? around, from = mover ? valueOf(mover, "by") : [0, 0, 0];
-    const origin = at(mapTo(target, Boolean(mover)), [0, 0, 0]), centre = this.#seen(origin), outer = mapTo(target, false);
+    const origin = transformPoint(mapTo(target, Boolean(mover)), [0, 0, 0]), centre = this.#seen(origin), outer = mapTo(target, false);
     if (!centre || !Array.isArray(from)) return [];
     const common = {step: "Move", value: from, operations: this.#placing({entry: mover, around, kind: "translate", name: "by"})};
     const moved = (vector, event) => {
-      const by = unturned(outer, vector);
+      const by = inverseTransformVector(outer, vector);
       return by && from.map((c, i) => (Math.abs(by[i]) < 1e-9 * Math.hypot(...by) ? c : rounded(c + by[i], centre.unit, event)));
     };
     const parts = axes.map(([name, direction]) => {
@@ -177,7 +178,7 @@ export class Handles {
   #offset(plane) {
     const {normal, offset} = {normal: valueOf(plane, "normal", [0, 0, 1]), offset: valueOf(plane, "offset", 0)}, size = Math.hypot(...normal);
     if (!(size > 0) || typeof offset !== "number") return [];
-    const map = mapTo(plane), along = turned(map, times(normal, 1 / size)), origin = at(map, times(normal, offset / size)), centre = this.#seen(origin);
+    const map = mapTo(plane), along = transformVector(map, times(normal, 1 / size)), origin = transformPoint(map, times(normal, offset / size)), centre = this.#seen(origin);
     const end = centre && plus(origin, times(unit(along), arrow * centre.unit)), tip = centre && this.#seen(end);
     if (!tip || Math.hypot(tip.x - centre.x, tip.y - centre.y) < 8) return [];
     const valueAt = ([dx, dy], event) => {
@@ -192,14 +193,14 @@ export class Handles {
     const entry = chain.find((one) => one.kind === "rotate") ?? null, around = entry ? null : this.#inside(chain, ["set", "translate"]);
     const angle = entry ? valueOf(entry, "angle") : 0, axis = entry ? valueOf(entry, "axis", [0, 0, 1]) : [0, 0, 1];
     if (typeof angle !== "number" || !Array.isArray(axis) || !(Math.hypot(...axis) > 0)) return [];
-    const map = mapTo(entry ?? around, false), centre = this.#seen(at(map, [0, 0, 0]));
+    const map = mapTo(entry ?? around, false), centre = this.#seen(transformPoint(map, [0, 0, 0]));
     if (!centre) return [];
     const along = unit(axis), [least] = [0, 1, 2].sort((i, j) => Math.abs(along[i]) - Math.abs(along[j]));
     const a = unit(cross(along, [0, 1, 2].map((i) => (i === least ? 1 : 0)))), b = cross(along, a);
-    const size = 1.35 * arrow * centre.unit / Math.max(1e-9, Math.hypot(...turned(map, a)));
+    const size = 1.35 * arrow * centre.unit / Math.max(1e-9, Math.hypot(...transformVector(map, a)));
     const point = (degrees) => {
       const c = Math.cos(degrees * Math.PI / 180), s = Math.sin(degrees * Math.PI / 180);
-      return this.#seen(at(map, plus(times(a, size * c), times(b, size * s))));
+      return this.#seen(transformPoint(map, plus(times(a, size * c), times(b, size * s))));
     };
     // The dot of what is not rotated yet is not behind an arrow.
     const shown = entry ? angle : -50, places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(shown), next = point(shown + 7.5);
@@ -219,13 +220,13 @@ export class Handles {
   #squares(chain) {
     const placing = ["set", "translate", "rotate"], around = this.#inside(chain, placing);
     const [scale, stretch] = ["scale", "stretch"].map((kind) => chain.find((entry) => entry.kind === kind) ?? null);
-    const map = mapTo(stretch ?? around, false), centre = this.#seen(at(mapTo(scale ?? stretch ?? around, false), [0, 0, 0]));
+    const map = mapTo(stretch ?? around, false), centre = this.#seen(transformPoint(mapTo(scale ?? stretch ?? around, false), [0, 0, 0]));
     if (!centre) return [];
     const factors = stretch ? valueOf(stretch, "factors") : [1, 1, 1], factor = scale ? valueOf(scale, "factor") : 1;
     const grown = (value, [dx, dy], along, event) => rounded(value * Math.max(0.02, 1 + (dx * along[0] + dy * along[1]) / square), value / square, event);
     const parts = axes.map(([name, axis], i) => {
       // Opposite to the arrows and to what has a length along the axis.
-      const direction = times(unit(turned(map, axis)), -1), tip = this.#seen(plus(at(map, [0, 0, 0]), times(direction, square * centre.unit)));
+      const direction = times(unit(transformVector(map, axis)), -1), tip = this.#seen(plus(transformPoint(map, [0, 0, 0]), times(direction, square * centre.unit)));
       const size = tip ? Math.hypot(tip.x - centre.x, tip.y - centre.y) : 0;
       if (size < 8 || !Array.isArray(factors)) return null;
       const along = [(tip.x - centre.x) / size, (tip.y - centre.y) / size];
@@ -245,9 +246,9 @@ export class Handles {
     return chain.flatMap((entry) => {
       const map = mapTo(entry, false), values = this.#valuesOf(entry), specs = this.catalogue?.of(entry)?.parameters ?? [];
       const middles = isNode(entry) ? [] : [values.centre, values.look_at, values.position].filter(Array.isArray);
-      const centre = [...middles, [0, 0, 0]].map((p) => this.#seen(at(map, p))).find((seen) => seen !== null);
-      if (!centre || !unturned(map, [1, 0, 0])) return [];
-      const facing = unit(unturned(map, centre.axes.right)), flat = [facing[0], facing[1], 0];
+      const centre = [...middles, [0, 0, 0]].map((p) => this.#seen(transformPoint(map, p))).find((seen) => seen !== null);
+      if (!centre || !inverseTransformVector(map, [1, 0, 0])) return [];
+      const facing = unit(inverseTransformVector(map, centre.axes.right)), flat = [facing[0], facing[1], 0];
       const found = handlesIn(entry, values, {facing, radial: Math.hypot(...flat) > 1e-3 ? unit(flat) : [1, 0, 0]});
       return found.map((place) => {
         const {low, high, low_open: isOpen} = specs.find((spec) => spec.name === place.path[0]) ?? {};
@@ -259,7 +260,7 @@ export class Handles {
     });
   }
   #length(map, {value, from, along}, limited) {
-    const end = at(map, plus(from, times(along, value))), vector = turned(map, along), tip = this.#seen(end), root = this.#seen(at(map, from));
+    const end = transformPoint(map, plus(from, times(along, value))), vector = transformVector(map, along), tip = this.#seen(end), root = this.#seen(transformPoint(map, from));
     if (!tip || !root || !followed((p) => this.#seen(p), end, [vector], tip)) return null;
     const grain = tip.unit / Math.max(1e-9, Math.hypot(...vector));
     const valueAt = ([dx, dy], event) => {
@@ -269,19 +270,19 @@ export class Handles {
     return {label: tip, part: makeSvg("g", {}, line(root, tip, "thin"), circle(tip, 6)), valueAt};
   }
   #point(map, {value, basis}) {
-    const p = at(map, inSpace(value)), tip = this.#seen(p);
+    const p = transformPoint(map, inSpace(value)), tip = this.#seen(p);
     if (!tip) return null;
-    const vectors = basis?.map((vector) => turned(map, vector)) ?? [tip.axes.right, tip.axes.up];
+    const vectors = basis?.map((vector) => transformVector(map, vector)) ?? [tip.axes.right, tip.axes.up];
     const valueAt = ([dx, dy], event) => {
       const by = followed((q) => this.#seen(q), p, vectors, {x: tip.x + dx, y: tip.y + dy});
-      const change = by && (basis ? by : unturned(map, vectors.reduce((sum, v, i) => plus(sum, times(v, by[i])), [0, 0, 0])));
+      const change = by && (basis ? by : inverseTransformVector(map, vectors.reduce((sum, v, i) => plus(sum, times(v, by[i])), [0, 0, 0])));
       return change && value.map((c, i) => (Math.abs(change[i]) < 1e-9 * tip.unit ? c : rounded(c + change[i], tip.unit, event)));
     };
     return {label: tip, part: circle(tip, 6), valueAt};
   }
   // Beside the middle, from a dot that marks 0.
   #measure(map, {value}, limited, centre, i) {
-    const grain = centre.unit / Math.max(1e-9, Math.hypot(...turned(map, [1, 0, 0]))), along = diagonals[i % diagonals.length];
+    const grain = centre.unit / Math.max(1e-9, Math.hypot(...transformVector(map, [1, 0, 0]))), along = diagonals[i % diagonals.length];
     const place = (pixels) => ({x: centre.x + along[0] * pixels, y: centre.y + along[1] * pixels});
     const tip = place(beside + Math.max(-beside, Math.min(4 * arrow, value / grain)));
     const valueAt = ([dx, dy], event) => limited(rounded(value + (dx * along[0] + dy * along[1]) * grain, grain, event), grain);

@@ -66,7 +66,7 @@ export function parsed(text) {
   return JSON.parse(plain);
 }
 
-// The names of an object's members, or the number of a list's items, at a pointer.
+// The keys of an object's members, or the indices of a list's items, at a pointer.
 export function keysAt(text, pointer) {
   const value = valueOf(text, pointer);
   return value?.members ? value.members.map(([key]) => key) : (value?.items ?? []).map((_, i) => i);

@@ -1,5 +1,5 @@
 // The page: shows the server's state in the elements, and sends the user's actions to the server.
-import {followed, framed, membersOf, moved, turned, zoomed} from "./camera.js";
+import {framed, membersOf, moved, orbit, planeShift, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
 import {icon} from "./icons.js";
@@ -27,13 +27,13 @@ const cut = new Cut({
   direction: element("cut-direction"),
   normal: [...document.querySelectorAll("[data-normal]")],
   offset: element("cut-offset"),
-  said: element("cut-said"),
+  status: element("cut-said"),
 }, (change) => changes.make(change));
 
 const time = new Time({
   section: element("time"),
   slider: element("time-slider"),
-  said: element("time-said"),
+  status: element("time-said"),
   play: element("time-play"),
 }, (change) => changes.make(change));
 
@@ -65,7 +65,7 @@ function showText(id, text) {
 }
 
 function showErrors() {
-  // The empty scene says so itself.
+  // For an empty scene, the page already explains what to do, so do not show the error.
   const all = new Set([element("empty").hidden ? state?.error : "", refusal]);
   showText("error", [...all].filter(Boolean).join("\n\n"));
 }
@@ -105,7 +105,7 @@ function showExposure(stops) {
   element("exposure-value").value = `${Number(stops).toFixed(1)} stops`;
 }
 
-function told(next, pixels) {
+function showState(next, pixels) {
   state = next;
   element("scene").textContent = state.scene.replace(/^.*\//, "") || "phasetree view";
   element("scene").title = state.scene;
@@ -143,8 +143,8 @@ function showPhases(shown) {
 
 function showCamera(text) {
   const area = element("camera");
-  const said = `"camera": ${text}`;
-  if (area.value !== said) area.value = said;
+  const written = `"camera": ${text}`;
+  if (area.value !== written) area.value = written;
   studio.handles.show();
 }
 
@@ -154,7 +154,7 @@ function look(next) {
   changes.make({camera});
 }
 
-// What is at a point is shown, and selected unless only the point is of interest.
+// Asks what is at a point. If `selects`, selects it; otherwise opens the tab that describes the point.
 const askAt = (x, y, selects) => attempt(async () => {
   const told = await ask(x, y);
   showPoint(element("point"), told, (pointer) => studio.selectNode(pointer));
@@ -175,14 +175,14 @@ const save = (extension) => attempt(async () => {
 });
 
 const act = {
-  turn: (right, up) => camera && look(turned(camera, state.centre, right, up)),
+  turn: (right, up) => camera && look(orbit(camera, state.centre, right, up)),
   move: (right, up) => camera && look(moved(camera, state.centre, right, up)),
   zoom: (factor) => camera && look(zoomed(camera, state.centre, state.radius, factor)),
   // Each finger reports its motion separately, so the combined motion is computed from the start instead of summed up.
   grab: () => { grabbed = camera; },
   pinch: (factor, right, up) => grabbed && look(moved(zoomed(grabbed, state.centre, state.radius, factor), state.centre, right, up)),
   reset: () => changes.make({camera: null}),
-  cut: (right, up) => camera && cut.isOn && cut.move(followed(camera, state.centre, cut.normal, right, up)),
+  cut: (right, up) => camera && cut.isOn && cut.move(planeShift(camera, state.centre, cut.normal, right, up)),
   stepCut: (direction) => cut.move(0.02 * direction * state.radius),
   ask: (event) => askAt(...place(canvas, event), !event.altKey),
   askMiddle: () => askAt(canvas.width / 2, canvas.height / 2, false),
@@ -221,6 +221,6 @@ element("cut-facing").addEventListener("click", () => {
   cut.face(position.map((x, i) => x - look_at[i]));
 });
 
-follow(told, (error) => { element("status").textContent = error.message; });
+follow(showState, (error) => { element("status").textContent = error.message; });
 window.studio = studio; // for the browser's console and for tests
 studio.start().catch((error) => refuse(error.message));

@@ -7,7 +7,7 @@ const pauseOfKeys = 900; // milliseconds between key presses of one gesture
 
 const precise = (x) => Number(x.toPrecision(6));
 
-// Sums and products of numbers, such as 1/3 or 2*0.4; NaN if the text is none.
+// The value of sums and products of numbers, such as 1/3 or 2*0.4; NaN if the text is not an arithmetic expression.
 export function calculated(text) {
   const tokens = text.replaceAll(",", ".").match(/\d*\.?\d+(?:e[-+]?\d+)?|[-+*/()]|\S/gi) ?? [];
   let at = 0;

@@ -18,7 +18,7 @@ export class Outliner {
   #closed = new Set();   // pointers of entries whose children are hidden
   #shown = [];           // entries in the order of the rows
   #rows = new Map();     // by key
-  #looks = new Map();    // texts that are others if the rows look different
+  #looks = new Map();    // for each key, a string that changes whenever the row must look different
   #anchor = null;
 
   // `elements` are those of the panel: tree, search. `act` has menu(entry, row, event), drop(entry, place), rename(entry),
@@ -77,7 +77,7 @@ export class Outliner {
     this.#showSelection();
     if (hadFocus && !isSame) (this.#rows.get(focused) ?? this.#rows.get(this.#selection.active) ?? [...this.#rows.values()][0])?.focus();
   }
-  // The row of an entry: the one that is there if it looks the same, which is quick while a number is dragged.
+  // The row of an entry. Reuses the existing row if its appearance is unchanged, which keeps dragging a number fast.
   #rowOf(entry) {
     const parts = {
       name: nameOf(entry, this.#catalogue), remark: remarkOf(entry, this.#catalogue), hasChildren: entry.children.length > 0, open: this.#isOpen(entry),
@@ -203,7 +203,7 @@ export class Outliner {
       for (const other of this.#rows.values()) other.classList.remove("drop-into");
       if (isDragged && place && now.type === "pointerup") this.#act.drop(entry, place.pointer);
     };
-    // Not the row: a fast pointer is over another one before its first event.
+    // Listen on the document, not on the row: a fast pointer may have left the row before its first event.
     document.addEventListener("pointermove", move);
     document.addEventListener("pointerup", end);
     document.addEventListener("pointercancel", end);

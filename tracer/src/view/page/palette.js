@@ -45,7 +45,7 @@ export function choose(title, kinds) {
     });
     const list = make("div", {class: "chapters", role: "group", "aria-label": "Chapters"});
     const cards = make("div", {class: "cards"});
-    const said = make("p", {class: "faint", role: "status"});
+    const status = make("p", {class: "faint", role: "status"});
     const take = (kind) => {
       chosen = kind;
       remember(kind);
@@ -65,7 +65,7 @@ export function choose(title, kinds) {
         : [...group("Recent", latest), ...chapters.filter((c) => chapter === null || c === chapter).flatMap((c) => group(chapterTitle(c), found.filter((kind) => kind.chapter === c)))];
       cards.replaceChildren(...shown);
       cards.scrollTop = 0;
-      said.textContent = found.length === 0 ? "No matches" : `${found.length} found`;
+      status.textContent = found.length === 0 ? "No matches" : `${found.length} found`;
       for (const button of list.children) button.setAttribute("aria-pressed", String(words.length === 0 && (button.dataset.chapter || null) === chapter));
     };
     const chapterButton = (name, text) => make("button", {type: "button", "data-chapter": name ?? "", onclick: () => {
@@ -73,7 +73,7 @@ export function choose(title, kinds) {
       search.value = "";
       showCards();
     }}, text);
-    const dialog = openDialog(title, "palette", () => [make("div", {class: "search"}, icon("search"), search, said), make("div", {class: "columns"}, list, cards)]);
+    const dialog = openDialog(title, "palette", () => [make("div", {class: "search"}, icon("search"), search, status), make("div", {class: "columns"}, list, cards)]);
     list.append(chapterButton(null, "All"), ...chapters.map((name) => chapterButton(name, chapterTitle(name))));
     dialog.addEventListener("keydown", (event) => {
       const all = [...cards.querySelectorAll(".card")], at = all.indexOf(document.activeElement);

@@ -42,10 +42,10 @@ function nodes(path, showNode) {
 }
 
 export function showPoint(section, told, showNode) {
-  const said = document.createElement("p");
+  const sentence = document.createElement("p");
   const at = told.point.map(number).join(", ");
-  said.textContent = told.met ? `${told.met} at (${at}).` : "There is nothing at this point.";
-  const parts = [said];
+  sentence.textContent = told.met ? `${told.met} at (${at}).` : "There is nothing at this point.";
+  const parts = [sentence];
   if (told.path.length > 0) parts.push(nodes(told.path, showNode));
   if (told.distances.length > 0)
     parts.push(table("Φ just before it", ["phase", "Φ"], told.distances.map((d) => [d.phase, d.phi])));

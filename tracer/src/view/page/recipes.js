@@ -1,10 +1,8 @@
-// Frequent ways to wrap what is selected, with the names by which people look for them, and what an empty scene begins
-// with.
+// Common ways to wrap the selection, under the names by which people look for them, and the contents of a new scene.
 
 const plane = {plane: {offset: 0}};
 
-// For objects and for fields: `in` has null at the place of what is wrapped, and {radius} lengths are shares of the
-// scene's radius.
+// For objects and for fields: `in` has null in the place of what is wrapped.
 export const wraps = {
   object: [
     {text: "Move", kind: "translate", in: {translate: {by: [0, 0, 0], of: null}}},

@@ -29,7 +29,7 @@ export class Selection extends EventTarget {
   forget() {
     this.#next = null;
   }
-  // Keeps what still exists; an entry that is gone leaves the selection to the nearest one around it.
+  // Keeps entries that still exist. Any other is replaced by its nearest remaining ancestor.
   update(scene) {
     const wanted = this.#next?.some((p) => scene.entry(p)) ? this.#next : this.#pointers;
     if (wanted === this.#next) this.#next = null;

@@ -11,7 +11,7 @@ import {Outliner} from "./outliner.js";
 import {Selection} from "./selection.js";
 import {askCatalogue, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
-import {at, mapTo} from "./affine.js";
+import {mapTo, transformPoint} from "./affine.js";
 import {present} from "./keyframes.js";
 import {TextDrawer} from "./text_drawer.js";
 import {Timeline} from "./timeline.js";
@@ -22,7 +22,8 @@ export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and
+  // lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -127,7 +128,7 @@ export class Studio {
     this.text.reveal(active?.line);
     if (active && this.view.tabs.shown === "view") this.view.tabs.show("edit");
   }
-  // The entry of a node that a point of the picture leads to.
+  // The outline entry for a node's pointer, as the server reports it for a clicked point.
   entryOf(pointer) {
     return pointer === "" ? null : this.scene.entries.find((entry) => !isSection(entry) && (membersOf(entry) === pointer || entry.pointer === pointer)) ?? null;
   }
@@ -155,6 +156,6 @@ export class Studio {
   frame() {
     const entry = this.actions.active;
     if (!entry || !isNode(entry)) return;
-    this.view.lookAt(at(mapTo(chainOf(entry).at(-1)), [0, 0, 0]));
+    this.view.lookAt(transformPoint(mapTo(chainOf(entry).at(-1)), [0, 0, 0]));
   }
 }

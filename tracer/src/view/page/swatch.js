@@ -12,7 +12,7 @@ export function setPhases(phases) {
   }]));
 }
 
-// A text that is another one if the swatch looks different.
+// A string that changes whenever the swatch must look different.
 export const lookOf = (phase) => JSON.stringify([phase, colours.get(phase)]);
 
 export function swatchOf(phase) {

@@ -9,7 +9,7 @@ export class Time {
   #begun = null; // during playback, the clock time in seconds at which the slider was at its minimum
   #lastPicture = 0; // number of the picture that was shown at the last request
 
-  // `elements` are those of the section: section, slider, said, play.
+  // `elements` are those of the section: section, slider, status, play.
   constructor(elements, changed) {
     this.#elements = elements;
     this.#changed = changed;
@@ -37,7 +37,7 @@ export class Time {
     this.#changed({time: seconds});
   }
   #say(seconds) {
-    this.#elements.said.value = `${seconds.toFixed(2)} s`;
+    this.#elements.status.value = `${seconds.toFixed(2)} s`;
   }
   #start() {
     if (this.#span === null) return;

@@ -25,10 +25,10 @@ export class Timeline {
     this.#scene = scene;
     this.#act = act;
     this.slider = make("input", {type: "range", "aria-label": "Time", oninput: () => act.seek(Number(this.slider.value))});
-    this.said = make("output", {});
+    this.status = make("output", {});
     this.play = make("button", {type: "button", class: "icon-button small", "aria-label": "Play", title: "Play", onclick: () => act.togglePlay()}, icon("play"));
     this.tracks = make("div", {class: "tracks"});
-    element.append(make("div", {class: "track head"}, make("div", {class: "track-name"}, this.play, this.said), make("div", {class: "lane"}, this.slider)), this.tracks);
+    element.append(make("div", {class: "track head"}, make("div", {class: "track-name"}, this.play, this.status), make("div", {class: "lane"}, this.slider)), this.tracks);
   }
   get #range() {
     const [first, last] = present.span;
@@ -40,7 +40,7 @@ export class Timeline {
     const [low, high] = this.#range;
     Object.assign(this.slider, {min: low, max: high, step: (high - low) / 1000});
     if (this.slider !== document.activeElement || !this.slider.matches(":active")) this.slider.value = present.seconds;
-    this.said.value = `${present.seconds.toFixed(2)} s`;
+    this.status.value = `${present.seconds.toFixed(2)} s`;
     if (!this.#drag) this.#showTracks();
   }
   #keyed(entries) {

@@ -46,7 +46,8 @@ typedef struct PhasetreeCarvedBounds {
 } PhasetreeCarvedBounds;
 
 /* Carves a convex volume that is guaranteed to contain all of the given phases: a box, and planes that cut off its
- * corners and follow flat sides of the object. Uses distances only ("Sphere Carving", Schott et al. 2025).
+ * corners and follow flat sides of the object. It evaluates only the tree's distances, at points ("Sphere Carving",
+ * Schott et al. 2025).
  *
  * phases      the phases to enclose; PHASETREE_ALL_PHASES means all but the vacuum, which is always ignored. The tree
  *             must have at least one of them.

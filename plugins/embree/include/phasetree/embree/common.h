@@ -44,7 +44,7 @@ extern "C" {
 typedef struct PhasetreeTreeHandle* PhasetreeTree;
 typedef struct PhasetreeGeometryHandle* PhasetreeGeometry;
 
-/* Error codes. Call phasetreeGetErrorMessage for the reason of a failure. */
+/* Error codes. Call phasetreeGetErrorMessage to find out why a call failed. */
 typedef enum PhasetreeError {
     PHASETREE_ERROR_NONE = 0,
     PHASETREE_ERROR_INVALID_HANDLE = 1,    /* NULL, freed, of the other kind, or not a handle */

@@ -24,9 +24,10 @@ typedef enum PhasetreeGeometryFlags {
     /* Registers phasetreePointQueryFunction with the geometry. Every rtcPointQuery that can reach the geometry must
      * then have a PhasetreePointQuery as its user pointer. */
     PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2,
-    /* The RTCGeometry has one primitive per cell, in the BVH of the application's scene, instead of a single primitive
-     * with a scene of its own. Rays return the same hits up to a third faster, in packets or alone, whether or not
-     * they carry phases (PhasetreeRay.media). The restrictions are:
+    /* The RTCGeometry has one primitive per cell, one of the boxes into which the object is divided (see
+     * PhasetreeGeometryOptions.buildQuality). They are in the BVH of the application's scene. Without this flag, there
+     * is a single primitive with a scene of its own. Rays return the same hits up to a third faster, in packets or
+     * alone, whether or not they carry phases (PhasetreeRay.media). The restrictions are:
      *   - NO_FILTERS is required, because a filter function would see some crossings twice; POINT_QUERY is not allowed;
      *   - all phases must be shown;
      *   - the object can only be moved by instances.
@@ -39,24 +40,26 @@ typedef enum PhasetreeGeometryFlags {
 /* Options of phasetreeNewGeometry and phasetreeSetGeometryTree. Initialise them with phasetreeInitGeometryOptions. */
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
-    /* The maximum length, in the tree's unit, of the bracket around a crossing (PhasetreeHit). Anything thinner along a
-     * ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's bounds, or 10⁻⁶ of their largest coordinate if
-     * that is more. All values are clamped: to at most a hundredth of the diagonal, then to at least 2.5·10⁻⁷ of the
-     * diagonal or of the largest coordinate, whichever is more. phasetreeGetGeometryStatistics returns the resolution
-     * in use. If it is not the one requested, phasetreeGetGeometryWarning says why. */
+    /* The length, in the tree's unit, that the bracket around a crossing normally does not exceed (see PhasetreeHit for
+     * the exception). A phase that is thinner along a ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's
+     * bounds, or 10⁻⁶ of their largest coordinate if that is more. All values are clamped: to at most a hundredth of
+     * the diagonal, then to at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, whichever is more.
+     * phasetreeGetGeometryStatistics returns the resolution in use. If it is not the one requested,
+     * phasetreeGetGeometryWarning says why. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
      * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
-     * quarters of the build time and usually makes rays slower; use it for objects under edit. MEDIUM and HIGH are
-     * equal. Hits do not depend on the quality. */
+     * quarters of the build time and usually makes rays slower; use it for objects that are being edited. MEDIUM and
+     * HIGH are equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* maximum depth of the division into cells, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
      * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
     size_t maxBytes;
-    /* Phases to show. A crossing between two phases is skipped if neither is in the set. The vacuum never counts as
-     * shown. To hide one phase, leave it out. */
+    /* Phases to show. A crossing is skipped if neither of its two phases is in the set. The vacuum never counts as
+     * shown. So a phase that is left out disappears, except where it touches a shown phase: there, the surface of the
+     * shown phase is hit. */
     PhasetreePhaseSet shownPhases;
     /* Phases that rays never enter because their materials are opaque. Interfaces between two of them are not searched
      * for. A geometry that has only opaque phases therefore builds and traces as fast as a geometry that has just its
@@ -112,7 +115,7 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  *
  * A hit is a change of phase along a ray. Embree's members of the ray and the hit are set as follows.
  *     tfar         Where the ray leaves the phase that it is in.
- *     Ng           The interface's unit normal, on the side the ray comes from, in geometry space.
+ *     Ng           The interface's unit normal in geometry space. It points to the side that the ray comes from.
  *     u, v         The index of the phase left, and of the phase entered.
  *     primID       The cell.
  *     geomID, instID, instPrimID   As usual.
@@ -157,9 +160,10 @@ PHASETREE_API PhasetreeError phasetreeGetGeometryFromEmbree(RTCGeometry embreeGe
 PHASETREE_API PhasetreeError phasetreeSetGeometryUserData(PhasetreeGeometry geometry, void* userPtr);
 PHASETREE_API PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geometry, void** userPtr);
 
-/* Stores a number and a pointer for the application per phase, initially 0 and NULL: its own material, for example. The
- * library never uses them. They belong to the phase index, 0 … PHASETREE_MAX_PHASES − 1, whether or not the tree has
- * that phase, and they survive phasetreeSetGeometryTree. Either output may be NULL. Setting them is exclusive. */
+/* Stores, for each phase, a number and a pointer of the application's, such as its own material for that phase. They
+ * are initially 0 and NULL. The library never uses them. They belong to the phase index, 0 … PHASETREE_MAX_PHASES − 1,
+ * whether or not the tree has that phase, and they survive phasetreeSetGeometryTree. Either output may be NULL. Setting
+ * them is exclusive. */
 PHASETREE_API PhasetreeError phasetreeSetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase,
                                                                int64_t userInteger, void* userPtr);
 PHASETREE_API PhasetreeError phasetreeGetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase,
@@ -188,11 +192,10 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  *                a turn apart, the matrix halfway between them has no inverse, and nothing is hit.
  * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT. 1 for a transform without motion; 0, with transforms NULL, to return to
  *                the tree's own space.
- * startTime, endTime   the times of the first and the last step, in the unit of the rays' time, in which the shutter
- *                interval is 0 … 1. endTime must be greater than startTime, and at least a millionth of
- *                [startTime, endTime] must lie in [0, 1]. At other times the object keeps its first or last transform,
- *                but Embree may hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and
- *                endTime.
+ * startTime, endTime   the times of the first and the last step, as times of rays: the shutter is open from 0 to 1.
+ *                endTime must be greater than startTime, and at least a millionth of [startTime, endTime] must lie in
+ *                [0, 1]. Before startTime and after endTime, the object keeps its first or last transform, but Embree
+ *                may hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and endTime.
  *
  * Exclusive. Nothing is rebuilt; commit the RTCGeometry and the scene.
  *

@@ -59,9 +59,9 @@ PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, cons
 PHASETREE_API PhasetreeError phasetreeGetHitTreePoint(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                       const float* objectToWorld, float treePoint[3]);
 
-/* A phase that a ray carries: the ray starts in `phase` of the geometry geomID inside the instance instID (and
- * instPrimID, in Embree 4). Despite its name, it says nothing about absorption or scattering. instID is
- * RTC_INVALID_GEOMETRY_ID without an instance, and the innermost instance if they are nested. */
+/* A phase that a ray carries (not a participating medium): the ray starts in `phase` of the geometry geomID inside the
+ * instance instID (and instPrimID, in Embree 4). instID is RTC_INVALID_GEOMETRY_ID without an instance, and the
+ * innermost instance if they are nested. */
 typedef struct PhasetreeMedium {
     unsigned int geomID, instID, instPrimID;
     unsigned int phase;
@@ -70,10 +70,9 @@ typedef struct PhasetreeMedium {
 /* Per-ray input and output of a query with a PhasetreeRayContext. */
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
-     * phase at the ray's start, as with an ordinary context. If the ray starts in a phase other than the one it
-     * carries, and rounding error cannot account for the difference, a crossing is reported where the search begins: at
-     * the ray's start if that is in a cell, otherwise where the ray enters the next cell. Owned by the application; not
-     * modified. */
+     * phase at the ray's start, as with an ordinary context. If the carried phase is wrong by more than rounding, a
+     * crossing from it to the real phase is reported: at the ray's start if that is in a cell, otherwise where the ray
+     * enters the next cell. Owned by the application; not modified. */
     const PhasetreeMedium* media;
     unsigned int mediumCount;
     /* Out: the crossing of the hit that a phasetree geometry reported last during the query. If the closest hit, which
@@ -91,7 +90,7 @@ typedef struct PhasetreeRayContext {
     struct RTCIntersectContext context;
 #endif
     unsigned int apiVersion; /* set by phasetreeInitRayContext */
-    /* Element i belongs to the ray with RTCRay.id i: 0 for a single ray, and as numbered by the application in packets.
+    /* Element i belongs to the ray whose RTCRay.id is i. Set id to 0 for a single ray, and number the rays of packets.
      * Rays with an id of rayCount or more carry nothing. Owned by the application. Concurrent queries must not share
      * elements. */
     PhasetreeRay* rays;

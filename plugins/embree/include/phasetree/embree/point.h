@@ -13,7 +13,7 @@ extern "C" {
  *
  * point        in geometry space; finite.
  * time         the time of the motion; ignored if there is none.
- * emptyRadius  may be NULL. */
+ * emptyRadius  in geometry space, unlike the distances of phasetreeGetDistances. May be NULL. */
 PHASETREE_API PhasetreeError phasetreeGetPhase(PhasetreeGeometry geometry, const float point[3], float time,
                                                unsigned int* phase, float* emptyRadius);
 
@@ -81,9 +81,9 @@ typedef struct PhasetreeClosest {
     bool found;
     /* No interface is closer than emptyRadius, guaranteed. If `found`, `point` is within one resolution of an interface
      * between the phases `here` and `there`, and `distance` is its distance from the query point. If not, `distance` is
-     * the radius requested, and the other members are not set. emptyRadius is then usually no less than that radius. It
-     * is less if the search ended early (see phasetreeFindClosestInterface), or could not exclude an interface in a box
-     * of about the resolution's size. */
+     * the radius requested, and `point`, `here` and `there` are not set. In that case, emptyRadius is usually at least
+     * that radius. It is less if the search ended early (see phasetreeFindClosestInterface), or could not exclude an
+     * interface in a box of about the resolution's size. */
     float emptyRadius;
     float distance;
     float point[3];

@@ -1,5 +1,5 @@
 /* Double precision, for simulations of particles, light and sound: phases, safe distances and crossings of a tree, in
- * the tree's own space and without Embree. See phasetree_embree.h for the conventions, and
+ * the tree's own space, without an Embree device or scene. See phasetree_embree.h for the conventions, and
  * phasetree/trace/precise_tracer.hpp for what is guaranteed. */
 #ifndef PHASETREE_EMBREE_PRECISE_H
 #define PHASETREE_EMBREE_PRECISE_H
@@ -13,8 +13,8 @@ extern "C" {
 /* All calls below use the threads of TBB's default arena; results do not depend on their number. The first call for a
  * tree prepares it. Points are arrays of 3 · count coordinates x, y, z, x, y, z, …, all of which must be finite. */
 
-/* Returns the phases at points: the phase of the smallest of the tree's distances in double precision, the lowest phase
- * among equal ones.
+/* Returns the phases at points: at each point, the phase with the smallest distance, computed in double precision. Of
+ * several equal distances, that of the phase with the lowest index counts.
  *
  * phases  receives `count` phases.
  *
@@ -44,12 +44,12 @@ typedef struct PhasetreePreciseCrossing {
     double tIn, tOut;      /* of pointIn and pointOut, in units of the length of the ray's direction */
     double pointIn[3];     /* in `from`; a reflected ray starts here and carries `from` */
     double pointOut[3];    /* in `to`; the ray goes on from here and carries `to` */
-    double normal[3];      /* of unit length, from `from` into `to` */
+    double normal[3];      /* of unit length, from `from` into `to`; RTCHit.Ng points the other way */
     unsigned int from, to; /* the phases before and after the crossing */
 } PhasetreePreciseCrossing;
 
-/* Finds the next crossing of each ray. A walk that restarts at pointOut and carries `to` neither loses nor repeats a
- * crossing: `to` of each is `from` of the next.
+/* Finds the next crossing of each ray. A walk that restarts at pointOut and carries `to` repeats no crossing, and `to`
+ * of each is `from` of the next. Phases thinner along the ray than the precise resolution may be missed.
  *
  * crossings         receives `count` crossings.
  * cancelled         polled from any thread; return true to cancel. May be NULL.

@@ -73,11 +73,13 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseName(PhasetreeTree tree, unsig
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, const char* name, unsigned int* phase);
 
 /* Returns the material of a phase as JSON: the phase's member of the scene's "phases" as written, but without comments.
- * Returns NULL for the vacuum, for a phase whose member is not an object, and for trees built in C++.
+ * *json is NULL, without an error, for the vacuum, for a phase whose member is not an object, and for trees built in
+ * C++.
  *
  * The library does not interpret materials: that is up to the application. The scene file reference
- * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. Edits may change
- * it, like any other part of the text ("/phases/glass"). */
+ * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. A tree made by
+ * phasetreeNewEditedTree may have another one, because materials are part of the text that can be edited
+ * ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
 /* Returns a box around everything that is not vacuum. It is infinite in the directions in which the tree is unbounded.
