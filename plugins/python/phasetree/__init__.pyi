@@ -143,7 +143,7 @@ class Proof(NamedTuple):
     interval: tuple | None
 
 class Solution(NamedTuple):
-    r"""A number for which a measure has a value, and what is certain about it; see solve.
+    r"""The result of solve: the number at which a volume or mass has the given value, with its guaranteed bounds.
 
     The arrays hold [low, high, estimate]: the measure certainly lies between the first two."""
     value: float
@@ -206,7 +206,7 @@ class Field:
 
             smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
-        Section 9.3 of the paper.
+        Section 9.3 of Galin et al. (2026).
 
         of: The fields, at least one. (list of fields)
         radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
@@ -216,7 +216,7 @@ class Field:
 
             −smin(−a, −b)
 
-        Section 9.3 of the paper.
+        Section 9.3 of Galin et al. (2026).
 
         of: The fields, at least one. (list of fields)
         radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
@@ -226,7 +226,7 @@ class Field:
 
             −smin(−f, smin gᵢ)
 
-        Section 9.3 of the paper.
+        Section 9.3 of Galin et al. (2026).
 
         from_: The field to cut. (field)
         subtract: The fields to cut away, at least one. (list of fields)
@@ -237,7 +237,7 @@ class Field:
 
             f − t
 
-        Section 4.1 of the paper.
+        Section 4.1 of Galin et al. (2026).
 
         of: The field. (field)
         distance: Distance by which the surface moves outwards. (number in m)
@@ -247,7 +247,7 @@ class Field:
 
             |f| − t
 
-        Section 4.1 of the paper.
+        Section 4.1 of Galin et al. (2026).
 
         of: The field. (field)
         half_thickness: Half of the wall, t. (number in m; positive)
@@ -268,7 +268,7 @@ class Field:
             min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
-        positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+        positions: Positions of the copies' origins. (list of [x, y, z] in m)
         turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
         scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
         """
@@ -305,19 +305,19 @@ class Field:
 
             copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
-        Section 7.7 of the paper.
+        Section 7.7 of Galin et al. (2026).
 
         of: The field or object to copy. (object)
         count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the disk of the copies' origins. (number in m; positive)
-        turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+        turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Field:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
-        Section 7.7 of the paper.
+        Section 7.7 of Galin et al. (2026).
 
         of: The field or object to copy. (object)
         count: Number of copies. (whole number; at least 1 and at most 100000)
@@ -356,7 +356,7 @@ class Field:
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
@@ -367,20 +367,20 @@ class Field:
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
+        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
         r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
@@ -392,7 +392,7 @@ class Field:
 
             φₖ = f,  φ₀ = −f
 
-        Section 4.1 of the paper.
+        Section 4.1 of Galin et al. (2026).
 
         of: The field. (field)
         phase: The phase inside. (phase)
@@ -402,7 +402,7 @@ class Field:
 
             φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
 
-        Section 4.1 of the paper.
+        Section 4.1 of Galin et al. (2026).
 
         of: The field, whose surface is the middle of the wall. (field)
         shell: The phase of the wall. (phase)
@@ -414,134 +414,137 @@ class Field:
 
             φ(p − v)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         by: Image of the origin. ([x, y, z] in m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Rotates about an axis through the origin, by the right-hand rule.
 
             φ(Rᵀ p)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         angle: Angle. (number in degrees)
         axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Scales by the same factor along all axes.
 
             s · φ(p / s)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         factor: The factor. (number; positive)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Twists about the z axis.
 
             φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Angle per unit of height. (number in degrees/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Scales by a different factor along each axis.
 
             φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         factors: The factors along x, y and z. ([x, y, z]; positive)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
             φ(p − 2 min(p·n, 0) n)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Narrows or widens along the z axis.
 
             φ(x/s, y/s, z) / λ,  s = 1 + c z
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Bends the x axis into an arc towards +z.
 
             φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
             φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
         y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
         z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
         by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Distorts space by fractal noise, as in rock or smoke.
 
             φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         amplitude: Largest displacement along each axis, a. (number in m; zero or more)
         scale: Size of the largest swirls. (number in m; positive)
         octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
 
 class Object:
     phases: tuple[Phase, ...]
     r"""An object of several phases. Every point is in exactly one of them. Immutable.
 
-    Methods join objects, because the order matters: a.over(b), a.under(b), a.contact(b, …). Arrays identify phases by
-    their index in `phases`."""
+    Objects are joined with methods rather than operators, because the order matters: a.over(b), a.under(b),
+    a.contact(b, …). Arrays identify phases by their index in `phases`.
+
+    label, trace and intersect are in single precision. locate, crossings and next_crossing are the same in double
+    precision."""
     @property
     def names(self):
         r"""The names of the phases, the vacuum first."""
@@ -559,18 +562,18 @@ A contiguous float32 array is not copied. A point with a coordinate that is not 
 
 Column i is for phases[i]. It is infinite if the object does not have that phase anywhere."""
     def gradient(self, points, phase=...):
-        r"""The gradient at points of the distance to a phase; by default, to the phase in which each point is."""
+        r"""The gradient of the distance to a phase, at points. By default, of the phase in which each point lies."""
     def index(self, phase):
         r"""The index of a phase in arrays. The phase is given as a Phase or by name."""
     def prepare(self, quality=..., resolution=..., progress=...):
-        r"""Builds the cells in which rays are traced. Otherwise, the first ray builds them.
+        r"""Builds the cells in which rays are traced. If this is not called, the first ray builds them.
 
-quality: "low" builds faster and traces more slowly. resolution: the thickness of a phase along a ray that is
-certain to be found. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
+quality: "low" builds faster and traces more slowly. resolution: phases thinner than this along a ray may be
+missed. 0 selects 2·10⁻⁶ of the diagonal, or 10⁻⁶ of the largest coordinate if that is more.
 progress: called with "preparing" and the fraction done, up to 1."""
     @property
     def resolution(self):
-        r"""The thickness of a phase along a ray that is certain to be found."""
+        r"""Phases thinner than this along a ray may be missed. A grazing ray may also miss slightly thicker ones."""
     def trace(self, origins, directions):
         r"""Every crossing along rays, which are given as arrays of shape (…, 3). Returns Crossings."""
     def intersect(self, origins, directions):
@@ -581,7 +584,7 @@ progress: called with "preparing" and the fraction done, up to 1."""
 tolerance: the accepted relative error of the distance."""
     @property
     def precise_resolution(self):
-        r"""The thickness of a phase along a ray that `crossings` and `next_crossing` are certain to find."""
+        r"""Phases thinner than this along a ray may be missed by `crossings` and `next_crossing`."""
     def locate(self, points):
         r"""The phase at points in double precision: uint8 (…), an index into `phases`.
 
@@ -595,13 +598,14 @@ to the closest one, infinite if the object has only one phase, and NaN for a poi
     def crossings(self, origins, directions, phases=..., limit=...):
         r"""Every crossing along rays in double precision, as Crossings with float64 arrays.
 
-origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of it. phases: the
-phase that each ray is in (an integer array, a phase, or its name), by default that at its origin. A ray that is
-in another phase than its origin crosses there, at t = 0. limit: the largest t, a number or one per ray.
+origins, directions: of shape (…, 3). Directions may have any length but zero; t is in units of this length.
+phases: the phase that each ray is in (an integer array, a phase, or its name), by default that at its origin.
+If a ray's phase differs from that at its origin, there is a crossing at t = 0. limit: the largest t, a number
+or one per ray.
 
-Phases at least `precise_resolution` thick along the ray are certain to be found; `after` of a crossing is always
-`before` of the next. Rays that are not finite have no crossings. Uses all cores and does not need `prepare`.
-Raises Error if the object is empty or unbounded."""
+Phases thinner than `precise_resolution` along the ray may be missed, and so may phases that the ray only
+grazes. `after` of a crossing is always `before` of the next. Rays that are not finite have no crossings. Uses
+all cores and does not need `prepare`. Raises Error if the object is empty or unbounded."""
     def next_crossing(self, origins, directions, phases=..., limit=...):
         r"""The first crossing along each ray in double precision, as NextCrossings.
 
@@ -610,12 +614,12 @@ reflected, at `near` with `before`. No offset is needed, and no crossing is foun
     def measure(self, tolerance=..., seconds=..., densities=..., progress=...):
         r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
-Each number comes with an interval that certainly contains it, apart from rounding errors that exceed half a
-resolution.
+Each number comes with an interval that certainly contains it, unless a rounding error of a distance exceeds
+half of `Object.resolution`.
 
-tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds:
-measuring also ends after this time, by default never. densities: a dict from phases, or their names, to
-densities, for masses; phases that are not in it have a density of 1. progress: called with "measuring" and a
+tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
+also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
+masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
 guess of the fraction done, up to 1.
 
 Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
@@ -626,11 +630,11 @@ an argument is out of its range."""
 statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
 phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
 need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
-seconds: a limit of the time, by default none. progress: called with "proving" and a guess of the fraction done,
+seconds: a time limit, by default none. progress: called with "proving" and a guess of the fraction done,
 up to 1.
 
-Nothing false is proved and nothing true is refuted, apart from rounding errors that exceed half a resolution of
-rays. Raises Error if a statement is malformed, or if the object is empty or unbounded."""
+Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of
+`Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded."""
     @property
     def bounds(self):
         r"""A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
@@ -644,10 +648,10 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             min over k of φₖ
 
-        Section 4.2 of the paper.
+        Section 4.2 of Galin et al. (2026).
 
         of: The object. (object)
-        phases: The phases to merge; by default all. (phase or list of phases; default all)
+        phases: The phases to merge; by default all. (phase or list of phases; default none)
         """
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
         r"""Copies at the given positions, optionally rotated about the z axis and scaled.
@@ -655,7 +659,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
             min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
         of: The field or object to copy. (object)
-        positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+        positions: Positions of the copies' origins. (list of [x, y, z] in m)
         turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
         scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
         """
@@ -692,19 +696,19 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
-        Section 7.7 of the paper.
+        Section 7.7 of Galin et al. (2026).
 
         of: The field or object to copy. (object)
         count: Number of copies. (whole number; at least 1 and at most 100000)
         radius: Radius of the disk of the copies' origins. (number in m; positive)
-        turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+        turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Object:
         r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
-        Section 7.7 of the paper.
+        Section 7.7 of Galin et al. (2026).
 
         of: The field or object to copy. (object)
         count: Number of copies. (whole number; at least 1 and at most 100000)
@@ -727,7 +731,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
@@ -738,20 +742,20 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
+        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
         r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
-        Section 4.1, 7.3 of the paper.
+        Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
@@ -763,7 +767,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
-        Section 4.3 of the paper.
+        Section 4.3 of Galin et al. (2026).
 
         of: The objects, at least one. (list of objects)
         """
@@ -772,7 +776,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
-        Section 4.3 of the paper.
+        Section 4.3 of Galin et al. (2026).
 
         of: The objects, at least one. (list of objects)
         """
@@ -781,7 +785,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
 
-        Section 4.5 of the paper.
+        Section 4.5 of Galin et al. (2026).
 
         of: The object. (object)
         phase: The phase of the layer. (phase)
@@ -792,29 +796,29 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
-        Section 5.1 of the paper.
+        Section 5.1 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to keep within. (field)
-        phases: The phases to cut; by default all. (phase or list of phases; default all)
+        phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
 
             φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
-        Section 5.1 of the paper.
+        Section 5.1 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to cut away. (field)
-        phases: The phases to cut; by default all. (phase or list of phases; default all)
+        phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
         r"""Turns one phase into another within a shape (everywhere without one).
 
             φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
-        Section 5.2 of the paper.
+        Section 5.2 of Galin et al. (2026).
 
         of: The object. (object)
         from_: The phase to change. (phase)
@@ -826,7 +830,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φₖ absent,  φ₀ = min(a₀, aₖ)
 
-        Section 5.2 of the paper.
+        Section 5.2 of Galin et al. (2026).
 
         of: The object. (object)
         phases: The phases to remove. (phase or list of phases)
@@ -836,7 +840,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
 
-        Section 4.4 of the paper.
+        Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
         b: The object B, which replaces A where they are not in contact. (object)
@@ -849,13 +853,13 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             f = α a_K − (1 − α) b_L,  a_K = −min over k ∉ K of aₖ,  b_L likewise,  bⱼ ← max(bⱼ, −f) for j ∈ L,  then A ∪₋ B
 
-        Section 4.4 of the paper.
+        Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
         b: The object B, which replaces A where they are not in contact. (object)
         alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
-        phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
-        phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
+        phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
+        phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)
         """
     def close_gaps(self, phases: Sequence[Phase | str], gap: float) -> Object:
         r"""Fills thin gaps between phases, such as those between a glass and a liquid that was modelled a little too small. Vacuum becomes part of a phase where its distances to two phases add up to less than the gap. Combine the phases with over or under first, so that they no longer overlap.
@@ -871,7 +875,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φₖ = max(−a₀ − Tₖ, a₀ + Tₖ₋₁),  Tₖ = t₁ + … + tₖ,  φ₀ = a₀ + Tₙ
 
-        Section 4.5 of the paper.
+        Section 4.5 of Galin et al. (2026).
 
         of: The object. (object)
         phases: The phase of each layer, from the inside out. (list of phases)
@@ -882,7 +886,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             m = smin over i of aᵢ, less t;  φₖ = max(m, a₀),  φ₀ = max(a₀, −m)
 
-        Section 4.5 of the paper.
+        Section 4.5 of Galin et al. (2026).
 
         of: The object. (object)
         phase: The phase of the layer. (phase)
@@ -894,7 +898,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
 
-        Section 5.1 of the paper.
+        Section 5.1 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to add. (field)
@@ -905,7 +909,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
 
-        Section 5.3 of the paper.
+        Section 5.3 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to add. (field)
@@ -917,7 +921,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
 
-        Section 5.3 of the paper.
+        Section 5.3 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to add. (field)
@@ -929,7 +933,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
 
-        Section 5.3 of the paper.
+        Section 5.3 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to keep within. (field)
@@ -941,7 +945,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
 
-        Section 5.3 of the paper.
+        Section 5.3 of Galin et al. (2026).
 
         of: The object. (object)
         shape: The field to cut away. (field)
@@ -953,7 +957,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
 
-        Section 7.4 of the paper.
+        Section 7.4 of Galin et al. (2026).
 
         of: The object. (object)
         phase_a: The phase on one side. (phase)
@@ -965,7 +969,7 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
 
-        Section 7.4 of the paper.
+        Section 7.4 of Galin et al. (2026).
 
         of: The object, with at least two phases. (object)
         half_thickness: Depth ε in each phase. (number in m; positive)
@@ -975,152 +979,154 @@ rays. Raises Error if a statement is malformed, or if the object is empty or unb
 
             φ(p − v)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         by: Image of the origin. ([x, y, z] in m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def rotate(self, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Rotates about an axis through the origin, by the right-hand rule.
 
             φ(Rᵀ p)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         angle: Angle. (number in degrees)
         axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def scale(self, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Scales by the same factor along all axes.
 
             s · φ(p / s)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         factor: The factor. (number; positive)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def twist(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Twists about the z axis.
 
             φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Angle per unit of height. (number in degrees/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def stretch(self, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Scales by a different factor along each axis.
 
             φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         factors: The factors along x, y and z. ([x, y, z]; positive)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def mirror(self, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Mirrors at a plane through the origin: keeps the half to which the normal points, and adds its mirror image.
 
             φ(p − 2 min(p·n, 0) n)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def taper(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Narrows or widens along the z axis.
 
             φ(x/s, y/s, z) / λ,  s = 1 + c z
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def bend(self, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Bends the x axis into an arc towards +z.
 
             φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def affine(self, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Maps the unit vectors to any three vectors that span space, and the origin to a point: shears, stretches, rotates and mirrors.
 
             φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
         y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
         z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
         by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
     def distort(self, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
         r"""Distorts space by fractal noise, as in rock or smoke.
 
             φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
-        Section 6 of the paper.
+        Section 6 of Galin et al. (2026).
 
         of: The field or object to warp. (object)
         amplitude: Largest displacement along each axis, a. (number in m; zero or more)
         scale: Size of the largest swirls. (number in m; positive)
         octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
-        over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-        under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+        over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+        under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
         """
 
 class Image:
     r"""A picture: linear Rec.709 radiance, and optional planes.
 
     pixels: float32 (height, width, 3), the top row first. planes: float32 (height, width) each, by the names of their
-    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the offset of the pixels in
-    the whole picture and the size of that picture; None if not cropped. attributes: further EXR attributes, such as the
+    channels in EXR files, such as "depth.Z" or "normal.X". crop: (x0, y0, width, height): the position of this
+    picture's first pixel in the uncropped picture, and the size of the uncropped picture; None if not cropped. (This is
+    not the form that Scene.render takes.) attributes: further EXR attributes, such as the
     names in a Cryptomatte."""
     def __init__(self, pixels, planes=..., exposure=..., view=..., samples=..., seconds=..., scene=..., seed=..., crop=..., attributes=...):
         r"""Initialize self.  See help(type(self)) for accurate signature."""
     def png(self, exposure=..., view=...):
         r"""The bytes of a PNG file of the picture, after the display transform. exposure: in stops."""
     def save(self, path, exposure=..., view=...):
-        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif. "{plane}" in an .exr name: one file per plane."""
+        r"""Writes .exr (linear, with all planes), .png, .jpg or .tif; one file per plane if an .exr name has "{plane}"."""
 
 class Scene:
     r"""One or several objects, with everything that a picture of them needs. Immutable; `with_` replaces parts.
 
-    object: to be rendered, its phases need materials. A scene has either this object, or `objects`, or only meshes.
-    objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix. Objects may
-    touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects and groups.
-    An object that is placed does not also stand where its own map puts it. groups: {name: places}.
+    object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
+    meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
+    Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
+    and groups. An object that has instances appears only there, not also where its own map puts it. groups: {name:
+    places}.
 
-    unit: that of the lengths, "mm", "cm", "m" or "in"; it changes no picture. expect: statements, as in "expect" of a scene
-    file, which `phasetree check --prove` proves or refutes.
+    unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
+    of a scene file, which `phasetree check --prove` proves or refutes.
 
     camera: pt.camera(…), or one of pt.cameras. lights, meshes: one or several. background: the colour that the camera
     sees instead of the lights at infinity. image: pt.image(…)."""
@@ -1141,11 +1147,12 @@ image: settings that replace the scene's own, such as samples=16, width=400. cro
 progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
 
 planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
-command. denoise: True, "regression" (the same bits everywhere) or "oidn". Image.planes then has the picture
-before denoising as "noisy.R", "noisy.G" and "noisy.B".
+command. denoise: True for the best method available, "oidn", or "regression", whose result does not depend on
+the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G"
+and "noisy.B".
 
-time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is given too, only the time
-ends the render. at: the time in seconds at which keys are read."""
+time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
+time ends the render. at: the time in seconds at which animated values are evaluated."""
 
 class Places:
     of: str
@@ -1155,8 +1162,8 @@ class Places:
 def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:
     r"""Places an object or a group of a scene, once or many times. Returns Places.
 
-    of: the name of the object or group. transforms: one position or N, of shape (3,) or (N, 3); or one matrix or N of
-    an affine map, 3x4 or 4x4."""
+    of: the name of the object or group. transforms: positions of shape (3,) or (N, 3), or matrices of
+    affine maps, of shape (3, 4), (4, 4), (N, 3, 4) or (N, 4, 4)."""
 
 class View:
     r"""A live view, served until close() is called or the program ends.
@@ -1186,15 +1193,16 @@ def view(what: Object | Scene, *, width: int | None = ..., samples: int | None =
 
     An object without a scene is shown under a plain sky, and phases without a material get a plain colour. width: of
     the picture, in pixels. samples: final number per pixel. port: on 127.0.0.1; 0 for any free port. open: whether to
-    open the page in the browser; by default True, except in notebooks, which embed the page. Raises pt.Error."""
+    open the page in the browser; by default True, except in notebooks, which embed the page. Raises
+    pt.Error if it cannot be shown, and RuntimeError if the port is unavailable."""
 
 class Expression:
     r"""A formula in x, y and z. Immutable.
 
     It can be used wherever a field is expected, as in glass(x**2 + y**2 - 1); the solid is where the formula is
     negative. within(low, high) cuts the solid to a box. Formulas whose slope grows without bound need this. Formulas
-    are evaluated in single precision. Making the field determines an upper bound of the slope, by which the formula is
-    divided."""
+    are evaluated in the precision of the call: double in locate, crossings and so on, otherwise single. When the field
+    is made, an upper bound on the slope is determined, and the formula is divided by it."""
     def within(self, low, high):
         r"""The same formula, cut to a box. Each corner is a point, or a number for three equal coordinates."""
     def field(self):
@@ -1231,21 +1239,27 @@ def smooth_max(*values: Expression | float) -> Expression: ...
 def square(*values: Expression | float) -> Expression: ...
 
 def solve(make, target, low, high, phase=..., densities=..., tolerance=..., seconds=..., progress=...):
-    r"""The number between two others for which a phase has a volume or mass, as a Solution.
+    r"""Finds the number between `low` and `high` for which a phase has a given volume or mass. Returns a Solution.
 
-make: a function that returns the object for a number. target: the volume, in cubed units of length; with
-densities, the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the
-target. phase: a Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names,
-to densities; phases that are not in it have no mass. tolerance: the width of the final bracket, by default a
-thousandth of the first. seconds: a limit of the time. progress: called with "solving" and a guess of the
+make: a function that returns the object for a number. target: the volume, in cubed units of length; with densities,
+the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the target. phase: a
+Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names, to densities;
+phases that are not in it have no mass (unlike in Object.measure). tolerance: the width of the final bracket, by
+default a thousandth of the first. seconds: a time limit. progress: called with "solving" and a guess of the
 fraction done.
 
-The bracket is halved repeatedly. An end moves only if the certain interval of the measure proves on which side of
-the target it is. So the final bracket certainly contains a crossing; there may be others.
+The bracket is halved repeatedly. An end of the bracket is moved only if the guaranteed interval of the measure
+proves on which side of the target the measure lies. So the final bracket certainly contains a crossing; there may
+be others.
 
 Raises Error if both ends are on the same side, or if an argument is out of its range."""
 
-def load(path: str | PathLike[str]) -> Scene: ...
+def load(path: str | PathLike[str]) -> Scene:
+    r"""Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.
+
+    Objects taken from another scene file are read from there and become part of this scene. Trees and transforms are
+    read at time 0, with a warning if they have keyframes ("keys"); everything else keeps its keyframes.
+    """
 
 def sphere(radius: float) -> Field:
     r"""A ball about the origin; exact.
@@ -1328,7 +1342,7 @@ def ellipsoid(radii: Sequence[float] | np.ndarray) -> Field:
     """
 
 def capped_torus(major: float, minor: float, angle: float) -> Field:
-    r"""Part of a ring about the z axis, with round ends, centred on the x axis; exact where the tube is not wider than the ring.
+    r"""Part of a ring about the z axis, with round ends, centred on the x axis; exact if the tube's radius is at most the ring's.
 
         |p − nearest point of the arc| − r
 
@@ -1338,7 +1352,7 @@ def capped_torus(major: float, minor: float, angle: float) -> Field:
     """
 
 def link(length: float, major: float, minor: float) -> Field:
-    r"""A link of a chain in the xy plane, long along y; exact where the rod is not wider than the ring.
+    r"""A link of a chain in the xy plane, long along y; exact if the rod's radius is at most the ring's.
 
         y = max(|py| − l/2, 0);  |(|(px, y)| − R, pz)| − r
 
@@ -1462,7 +1476,7 @@ def polyline(points: Sequence[Sequence[float]] | np.ndarray, radius: float) -> F
 
         min over segments ab of |p − a − t (b − a)| − r, t in [0, 1]
 
-    points: The chain's points, at least two. (list of [x, y, z]s in m)
+    points: The chain's points, at least two. (list of [x, y, z] in m)
     radius: Radius of the wire. (number in m; positive)
     """
 
@@ -1471,7 +1485,7 @@ def voronoi_cells(size: float, gap: float, rounding: float | None = ..., jitter:
 
         g/2 − max(v, 0),  v = (Σ over t ≠ s of (bₜ + c)⁻⁸)^(−1/8) − c,  bₜ = (|p − t|² − |p − s|²)/(2|t − s|),  s the nearest site
 
-    Section 4.3, 9.1 of the paper.
+    Sections 4.3 and 9.1 of Galin et al. (2026).
 
     size: Edge length of the cubes, each of which has one site. (number in m; positive)
     gap: Width of the gap between blocks. (number in m; positive)
@@ -1485,10 +1499,10 @@ def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
 
         max(|p| − R, f(p)/λ),  λ = Π ‖Wᵢ‖₂
 
-    Section 7.5, 9.4 of the paper.
+    Sections 7.5 and 9.4 of Galin et al. (2026).
 
     file: File of weights: JSON, {"radius": R, "layers": [{"weights": [[…], …], "bias": […]}, …]}, with the frequencies multiplied in. (name of a file)
-    samples: 0: λ is the product of the layers' spectral norms, which is a proven bound. More: λ is the steepest slope at this many points, plus a tenth: tighter and faster, but without proof. (whole number; at least 0 and at most 10000000; default 0)
+    samples: 0: λ is the product of the layers' spectral norms, a proven bound on the slope. n > 0: λ is 1.1 times the steepest slope found at n points, which is tighter and faster, but not proven. (whole number; at least 0 and at most 10000000; default 0)
     """
 
 def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
@@ -1496,7 +1510,7 @@ def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: 
 
         min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic B-spline of the pixels
 
-    Section 7.1 of the paper.
+    Section 7.1 of Galin et al. (2026).
 
     file: Image file, of which the first channel is used. (name of a file)
     size_x: Width of the image, along x. (number in m; positive)
@@ -1514,7 +1528,7 @@ def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", 
     thickness: Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the thickness. 0: the solid inside the surface. (number in m; zero or more; default 0)
     """
 
-def volume(file: str | PathLike[str], grid: str | Expression | None = ...) -> Field:
+def volume(file: str | PathLike[str], grid: str | None = ...) -> Field:
     r"""The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the file's narrow band.
 
         max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
@@ -1581,7 +1595,7 @@ def bowl(radius: float, thickness: float, cut: float | None = ...) -> Field:
     """
 
 def dodecahedron(radius: float) -> Field:
-    r"""A regular dodecahedron about the origin. The middle of an edge lies on each half axis: on x the edge runs along z, on y along x, on z along y. Exact.
+    r"""A regular dodecahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to z, on y to x, on z to y. Exact.
 
         fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
 
@@ -1589,7 +1603,7 @@ def dodecahedron(radius: float) -> Field:
     """
 
 def icosahedron(radius: float) -> Field:
-    r"""A regular icosahedron about the origin. The middle of an edge lies on each half axis: on x the edge runs along y, on y along z, on z along x. Exact.
+    r"""A regular icosahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to y, on y to z, on z to x. Exact.
 
         fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
 
@@ -1624,7 +1638,7 @@ def polygon(points: Sequence[Sequence[float]] | np.ndarray) -> Field:
 
         ± min over the edges of |p − a − clamp((p − a)·e/e², 0, 1) e|
 
-    points: The corners [x, y] in order, in either direction, at most 4096. The last is joined to the first, and edges must not cross. (list of [x, y]s in m)
+    points: The corners [x, y] in order, in either direction, at most 4096. The last is joined to the first, and edges must not cross. (list of [x, y] in m)
     """
 
 def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | None = ...) -> Field:
@@ -1632,11 +1646,11 @@ def bezier(points: Sequence[Sequence[float]] | np.ndarray, thickness: float | No
 
         ± min over the curves of |p − B(t)|, t from the cubic (p − B)·B′ = 0;  for a line, less half of its thickness
 
-    points: [x, y] of a point on the curve, then of a control point, and so on; at most 2048 points. An even number makes a closed curve. An odd number makes an open one, which needs a thickness and ends at its last point. (list of [x, y]s in m)
+    points: [x, y] of a point on the curve, then of a control point, and so on; at most 2048 points. An even number makes a closed curve. An odd number makes an open one, which needs a thickness and ends at its last point. (list of [x, y] in m)
     thickness: Width of a line along the curve; 0 fills a closed curve by the even-odd rule. (number in m; zero or more; default 0)
     """
 
-def text(text: str | Expression, file: str | PathLike[str], size: float | None = ..., align: float | None = ..., spacing: float | None = ..., line_height: float | None = ...) -> Field:
+def text(text: str, file: str | PathLike[str], size: float | None = ..., align: float | None = ..., spacing: float | None = ..., line_height: float | None = ...) -> Field:
     r"""Text in a font, for extruding; the same at every z, exact where no two letters overlap. The baseline of the first line is at y = 0, and further lines follow below.
 
         min over the letters of ± min over their curves of |p − B(t)|
@@ -1644,7 +1658,7 @@ def text(text: str | Expression, file: str | PathLike[str], size: float | None =
     text: The text; \n begins a new line. (text)
     file: Font file: TrueType or OpenType (.ttf, .otf). (name of a file)
     size: Em size of the font; capitals are about 0.7 em high. (number in m; positive; default 1)
-    align: Alignment: which point of each line is at x = 0. 0 is its beginning, 0.5 its middle, 1 its end. (number; at least 0 and at most 1; default 0)
+    align: Alignment of each line: 0 puts its beginning at x = 0, 0.5 its middle, 1 its end. (number; at least 0 and at most 1; default 0)
     spacing: Additional space after each letter; may be negative. (number in em; at least -1 and at most 100; default 0)
     line_height: Distance between lines. (number in em; positive; default 1.2)
     """
@@ -1655,7 +1669,7 @@ def formula(text: str | Expression, bounds: Sequence[Sequence[float]] | np.ndarr
         f(x, y, z)/λ;  with bounds B: max(b(p), f(nearest point of B)/λ),  λ ≥ sup |∇f|
 
     text: The formula. (text)
-    bounds: Lowest and highest corner of a box to which the solid is cut. Without it, the slope of the formula must be bounded everywhere. (list of [x, y, z]s in m; default [])
+    bounds: Lowest and highest corner of a box to which the solid is cut. Without it, the slope of the formula must be bounded everywhere. (list of [x, y, z] in m; default [])
     """
 
 def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float | Sequence[float]) -> Field:
@@ -1663,7 +1677,7 @@ def polyhedron(normals: Sequence[Sequence[float]] | np.ndarray, offsets: float |
 
         max over i of nᵢ·p − hᵢ
 
-    normals: Outward normals of the planes, of any length but 0. (list of [x, y, z]s)
+    normals: Outward normals of the planes, of any length but 0. (list of [x, y, z])
     offsets: Distance h of each plane from the origin along its normal; one number for all, or one per plane. (number or list of numbers in m)
     """
 
@@ -1672,7 +1686,7 @@ def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: f
 
         min over i of |p − cᵢ| − rᵢ
 
-    centres: Centres of the balls, unless they are in a file. (list of [x, y, z]s in m; default [])
+    centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
     file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
     """
@@ -1707,7 +1721,7 @@ def smooth_union(*of: Field | Expression | Sequence[Field | Expression], radius:
 
         smin(a, b) = min(a, b) − r/6 · max(1 − |b − a|/r, 0)³
 
-    Section 9.3 of the paper.
+    Section 9.3 of Galin et al. (2026).
 
     of: The fields, at least one. (list of fields)
     radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
@@ -1718,7 +1732,7 @@ def smooth_intersection(*of: Field | Expression | Sequence[Field | Expression], 
 
         −smin(−a, −b)
 
-    Section 9.3 of the paper.
+    Section 9.3 of Galin et al. (2026).
 
     of: The fields, at least one. (list of fields)
     radius: Blending radius: surfaces blend where they are closer to each other than this. (number in m; positive)
@@ -1729,7 +1743,7 @@ def smooth_difference(from_: Field | Expression, *subtract: Field | Expression |
 
         −smin(−f, smin gᵢ)
 
-    Section 9.3 of the paper.
+    Section 9.3 of Galin et al. (2026).
 
     from_: The field to cut. (field)
     subtract: The fields to cut away, at least one. (list of fields)
@@ -1741,7 +1755,7 @@ def offset(of: Field | Expression, distance: float) -> Field:
 
         f − t
 
-    Section 4.1 of the paper.
+    Section 4.1 of Galin et al. (2026).
 
     of: The field. (field)
     distance: Distance by which the surface moves outwards. (number in m)
@@ -1752,7 +1766,7 @@ def shell(of: Field | Expression, half_thickness: float) -> Field:
 
         |f| − t
 
-    Section 4.1 of the paper.
+    Section 4.1 of Galin et al. (2026).
 
     of: The field. (field)
     half_thickness: Half of the wall, t. (number in m; positive)
@@ -1763,10 +1777,10 @@ def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) 
 
         min over k of φₖ
 
-    Section 4.2 of the paper.
+    Section 4.2 of Galin et al. (2026).
 
     of: The object. (object)
-    phases: The phases to merge; by default all. (phase or list of phases; default all)
+    phases: The phases to merge; by default all. (phase or list of phases; default none)
     """
 
 def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
@@ -1787,7 +1801,7 @@ def instances(of: Field, positions: Sequence[Sequence[float]] | np.ndarray, turn
         min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
-    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    positions: Positions of the copies' origins. (list of [x, y, z] in m)
     turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
     scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
     """
@@ -1798,7 +1812,7 @@ def instances(of: Object, positions: Sequence[Sequence[float]] | np.ndarray, tur
         min over i of sᵢ φ(R(−aᵢ)(p − vᵢ)/sᵢ); for objects, later copies replace earlier ones
 
     of: The field or object to copy. (object)
-    positions: Positions of the copies' origins. (list of [x, y, z]s in m)
+    positions: Positions of the copies' origins. (list of [x, y, z] in m)
     turns: Rotation of each copy about its own z axis; one number applies to all. (number or list of numbers in degrees; default [])
     scales: Scale factor of each copy; one number applies to all. (number or list of numbers; positive; default [])
     """
@@ -1873,11 +1887,11 @@ def blob(radii: float | Sequence[float], points: Sequence[Sequence[float]] | np.
 
         max((T − Σ wᵢ (1 − (dᵢ/Rᵢ)²)³)/λ, min dᵢ − rᵢ),  rᵢ = Rᵢ √(1 − ∛(T/Σw)),  λ ≥ sup ‖∇Σ‖
 
-    Section 7.5, 9.2 of the paper.
+    Sections 7.5 and 9.2 of Galin et al. (2026).
 
     radii: Radius of influence of each skeleton: one number for all, or one for each of the points, then the polyline, then the fields. (number or list of numbers in m; positive)
-    points: Point skeletons. (list of [x, y, z]s in m; default [])
-    polyline: A chain of segments, which is a single skeleton. (list of [x, y, z]s in m; default [])
+    points: Point skeletons. (list of [x, y, z] in m; default [])
+    polyline: A chain of segments, which is a single skeleton. (list of [x, y, z] in m; default [])
     of: Fields that serve as skeletons. The distance is 0 inside them. (list of fields; default [])
     weights: Weights of the skeletons, in the same order; default 1. (number or list of numbers; positive; default [])
     threshold: Threshold T; a larger one makes the solid smaller. (number; positive; default 0.5)
@@ -1889,12 +1903,12 @@ def fibonacci_disk(of: Field, count: int, radius: float, turned: int | None = ..
 
         copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
-    Section 7.7 of the paper.
+    Section 7.7 of Galin et al. (2026).
 
     of: The field or object to copy. (object)
     count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the disk of the copies' origins. (number in m; positive)
-    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+    turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
     """
 @overload
 def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = ...) -> Object:
@@ -1902,12 +1916,12 @@ def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = .
 
         copies at ρᵢ = R √((i + ½)/n), θᵢ = i π(3 − √5); for objects, later copies replace earlier ones
 
-    Section 7.7 of the paper.
+    Section 7.7 of Galin et al. (2026).
 
     of: The field or object to copy. (object)
     count: Number of copies. (whole number; at least 1 and at most 100000)
     radius: Radius of the disk of the copies' origins. (number in m; positive)
-    turned: 1 turns each copy so that its x axis points away from the centre. (whole number; at least 0 and at most 1; default 0)
+    turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
     """
 
 @overload
@@ -1916,7 +1930,7 @@ def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
-    Section 7.7 of the paper.
+    Section 7.7 of Galin et al. (2026).
 
     of: The field or object to copy. (object)
     count: Number of copies. (whole number; at least 1 and at most 100000)
@@ -1928,7 +1942,7 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
-    Section 7.7 of the paper.
+    Section 7.7 of Galin et al. (2026).
 
     of: The field or object to copy. (object)
     count: Number of copies. (whole number; at least 1 and at most 100000)
@@ -1986,7 +2000,7 @@ def bounding_volume(of: Field, margin: float, volume: Field | Expression | None 
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
@@ -1998,7 +2012,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | Expression | None
 
         max(b, min(f, 2m − b));  φᵢ likewise,  φ₀ = min(−b, max(a₀, b − 2m))
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
@@ -2011,13 +2025,13 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
+    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 @overload
 def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2025,13 +2039,13 @@ def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, in
 
         min(c, max(h, −2m − c)),  h = max(b, min(f, 2m − b)),  b = g − e,  c = g + e
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. Without it, the proxy is used outside only. (phase or list of phases; default all)
+    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 
 @overload
@@ -2040,7 +2054,7 @@ def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | 
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
@@ -2053,7 +2067,7 @@ def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] |
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
-    Section 4.1, 7.3 of the paper.
+    Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
@@ -2066,7 +2080,7 @@ def set(of: Field | Expression, phase: Phase | str) -> Object:
 
         φₖ = f,  φ₀ = −f
 
-    Section 4.1 of the paper.
+    Section 4.1 of Galin et al. (2026).
 
     of: The field. (field)
     phase: The phase inside. (phase)
@@ -2077,7 +2091,7 @@ def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, 
 
         φᵢ = |f| − t,  φⱼ = f + t,  φ₀ = t − f
 
-    Section 4.1 of the paper.
+    Section 4.1 of Galin et al. (2026).
 
     of: The field, whose surface is the middle of the wall. (field)
     shell: The phase of the wall. (phase)
@@ -2090,7 +2104,7 @@ def under(*of: Object | Sequence[Object]) -> Object:
 
         φᵢ = max(min(aᵢ, bᵢ), −min over j ≠ i of bⱼ),  φ₀ = max(a₀, b₀)
 
-    Section 4.3 of the paper.
+    Section 4.3 of Galin et al. (2026).
 
     of: The objects, at least one. (list of objects)
     """
@@ -2100,7 +2114,7 @@ def over(*of: Object | Sequence[Object]) -> Object:
 
         A ∪₊ B = B ∪₋ A;  A ∪₊ (B ∪₊ (C ∪₊ …))
 
-    Section 4.3 of the paper.
+    Section 4.3 of Galin et al. (2026).
 
     of: The objects, at least one. (list of objects)
     """
@@ -2110,7 +2124,7 @@ def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
 
         φₖ = max(−a₀ − t, a₀),  φ₀ = a₀ + t
 
-    Section 4.5 of the paper.
+    Section 4.5 of Galin et al. (2026).
 
     of: The object. (object)
     phase: The phase of the layer. (phase)
@@ -2122,11 +2136,11 @@ def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str |
 
         φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
-    Section 5.1 of the paper.
+    Section 5.1 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to keep within. (field)
-    phases: The phases to cut; by default all. (phase or list of phases; default all)
+    phases: The phases to cut; by default all. (phase or list of phases; default none)
     """
 
 def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2134,11 +2148,11 @@ def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | 
 
         φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
-    Section 5.1 of the paper.
+    Section 5.1 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to cut away. (field)
-    phases: The phases to cut; by default all. (phase or list of phases; default all)
+    phases: The phases to cut; by default all. (phase or list of phases; default none)
     """
 
 def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
@@ -2146,7 +2160,7 @@ def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expre
 
         φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
-    Section 5.2 of the paper.
+    Section 5.2 of Galin et al. (2026).
 
     of: The object. (object)
     from_: The phase to change. (phase)
@@ -2159,7 +2173,7 @@ def remove(of: Object, phases: Phase | str | Sequence[Phase | str]) -> Object:
 
         φₖ absent,  φ₀ = min(a₀, aₖ)
 
-    Section 5.2 of the paper.
+    Section 5.2 of Galin et al. (2026).
 
     of: The object. (object)
     phases: The phases to remove. (phase or list of phases)
@@ -2170,7 +2184,7 @@ def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, al
 
         f = α aᵢ − (1 − α) bⱼ,  φᵢ = max(aᵢ, f),  φⱼ = max(bⱼ, −f),  φ₀ = max(a₀, b₀)
 
-    Section 4.4 of the paper.
+    Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
     b: The object B, which replaces A where they are not in contact. (object)
@@ -2184,13 +2198,13 @@ def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequenc
 
         f = α a_K − (1 − α) b_L,  a_K = −min over k ∉ K of aₖ,  b_L likewise,  bⱼ ← max(bⱼ, −f) for j ∈ L,  then A ∪₋ B
 
-    Section 4.4 of the paper.
+    Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
     b: The object B, which replaces A where they are not in contact. (object)
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
-    phases_a: The phases of A in contact; by default all. (phase or list of phases; default all)
-    phases_b: The phases of B in contact; by default all. (phase or list of phases; default all)
+    phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
+    phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)
     """
 
 def close_gaps(of: Object, phases: Sequence[Phase | str], gap: float) -> Object:
@@ -2208,7 +2222,7 @@ def layered_sequence(of: Object, phases: Sequence[Phase | str], thicknesses: Seq
 
         φₖ = max(−a₀ − Tₖ, a₀ + Tₖ₋₁),  Tₖ = t₁ + … + tₖ,  φ₀ = a₀ + Tₙ
 
-    Section 4.5 of the paper.
+    Section 4.5 of Galin et al. (2026).
 
     of: The object. (object)
     phases: The phase of each layer, from the inside out. (list of phases)
@@ -2220,7 +2234,7 @@ def smooth_layered(of: Object, phase: Phase | str, thickness: float, radius: flo
 
         m = smin over i of aᵢ, less t;  φₖ = max(m, a₀),  φ₀ = max(a₀, −m)
 
-    Section 4.5 of the paper.
+    Section 4.5 of Galin et al. (2026).
 
     of: The object. (object)
     phase: The phase of the layer. (phase)
@@ -2233,7 +2247,7 @@ def unite_shape_below(of: Object, shape: Field | Expression, phase: Phase | str)
 
         φₖ = max(min(aₖ, f), −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −f)
 
-    Section 5.1 of the paper.
+    Section 5.1 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to add. (field)
@@ -2245,7 +2259,7 @@ def smooth_unite_shape(of: Object, shape: Field | Expression, phase: Phase | str
 
         s = smin(aₖ, f),  φₖ = s,  φᵢ = max(aᵢ, −s),  φ₀ = max(a₀, −s)
 
-    Section 5.3 of the paper.
+    Section 5.3 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to add. (field)
@@ -2258,7 +2272,7 @@ def smooth_unite_shape_below(of: Object, shape: Field | Expression, phase: Phase
 
         s = smin(aₖ, f),  φₖ = max(s, −min over j ≠ k of aⱼ),  φ₀ = max(a₀, −s)
 
-    Section 5.3 of the paper.
+    Section 5.3 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to add. (field)
@@ -2271,7 +2285,7 @@ def smooth_intersect_shape(of: Object, shape: Field | Expression, phase: Phase |
 
         s = −smin(−aₖ, −f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, −f − r))
 
-    Section 5.3 of the paper.
+    Section 5.3 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to keep within. (field)
@@ -2284,7 +2298,7 @@ def smooth_subtract_shape(of: Object, shape: Field | Expression, phase: Phase | 
 
         s = −smin(−aₖ, f),  φₖ = s,  φ₀ = min(a₀, max(aₖ, −s, f − r))
 
-    Section 5.3 of the paper.
+    Section 5.3 of Galin et al. (2026).
 
     of: The object. (object)
     shape: The field to cut away. (field)
@@ -2297,7 +2311,7 @@ def interface(of: Object, phase_a: Phase | str, phase_b: Phase | str, half_thick
 
         S = max(aᵢ, aⱼ) − ε,  φᵢ = max(aᵢ, S),  φⱼ = max(aⱼ, S),  φ₀ = min(a₀, −S, min over k ≠ i, j of aₖ)
 
-    Section 7.4 of the paper.
+    Section 7.4 of Galin et al. (2026).
 
     of: The object. (object)
     phase_a: The phase on one side. (phase)
@@ -2310,7 +2324,7 @@ def interfaces(of: Object, half_thickness: float) -> Object:
 
         S = (second smallest of a₁ … aₙ) − ε,  φᵢ = max(aᵢ, S),  φ₀ = min(a₀, −S)
 
-    Section 7.4 of the paper.
+    Section 7.4 of Galin et al. (2026).
 
     of: The object, with at least two phases. (object)
     half_thickness: Depth ε in each phase. (number in m; positive)
@@ -2321,7 +2335,7 @@ def checker(even: Phase | str, odd: Phase | str, size: float, origin: Sequence[f
 
         φⱼ = s · a · min(q, 1 − q),  φᵢ = −φⱼ,  u = (p − o)/a,  q = u − ⌊u⌋,  s = +1 if ⌊ux⌋ + ⌊uy⌋ + ⌊uz⌋ is even, else −1
 
-    Section 9.1 of the paper.
+    Section 9.1 of Galin et al. (2026).
 
     even: The phase of the cube at the origin, towards +x, +y, +z. (phase)
     odd: The phase of the neighbouring cubes. (phase)
@@ -2334,7 +2348,7 @@ def layers(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], 
 
         φₖ = |m| − tₖ/2,  m = u − P⌊u/P + 1/2⌋,  u = p·n − cₖ,  P = Σ t,  cₖ the middle of layer k
 
-    Section 9.1 of the paper.
+    Section 9.1 of Galin et al. (2026).
 
     phases: The phases of one period in order, at least two. (list of phases)
     thicknesses: Thicknesses of the layers; one number applies to all. (number or list of numbers in m; positive)
@@ -2347,7 +2361,7 @@ def strata(phases: Sequence[Phase | str], thicknesses: float | Sequence[float], 
 
         φₖ = max(hₖ₋₁ − u, u − hₖ),  u = p·n − o,  hₖ = t₁ + … + tₖ
 
-    Section 9.1 of the paper.
+    Section 9.1 of Galin et al. (2026).
 
     phases: The phases in order, at least two. (list of phases)
     thicknesses: Thicknesses of all layers but the last; one number applies to all. (number or list of numbers in m; positive)
@@ -2360,7 +2374,7 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k
 
-    Section 4.3, 9.1 of the paper.
+    Sections 4.3 and 9.1 of Galin et al. (2026).
 
     phases: The phases, at least two. All are equally likely; list one twice to make it more likely. (list of phases)
     size: Edge length of the cubes, each of which has one site. (number in m; positive)
@@ -2368,15 +2382,15 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
     seed: Seed of the pattern. (number; at least 0 and at most 288; default 0)
     """
 
-def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | Expression | None = ...) -> Object:
+def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | None = ...) -> Object:
     r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about two voxels and do not grow beyond.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative normal distribution, within the box of the voxels
 
     file: OpenVDB file with a grid of whole numbers. Or images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Images are grey, with integers of up to 32 bits, and seen from above, like those of height_map. The object is centred at the origin. (name of a file)
     phases: The phases of the object. (list of phases)
-    values: The number of each phase; by default 1, 2, 3 … (list of numbers; at least -16777216 and at most 16777216; default [])
-    empty: The numbers of the vacuum, unless they belong to a phase; by default 0. (list of numbers; at least -16777216 and at most 16777216; default [])
+    values: The voxel value of each phase; by default 1, 2, 3 … (list of numbers; at least -16777216 and at most 16777216; default [])
+    empty: Voxel values that are vacuum, unless they are listed for a phase; by default 0. (list of numbers; at least -16777216 and at most 16777216; default [])
     spacing: Distance between voxels along x, y and z, for images. OpenVDB grids have their own. ([x, y, z] in m; zero or more; default [0, 0, 0])
     smoothing: Standard deviation σ of the blur; at 0, interfaces show the steps of the voxels. (number in voxels; at least 0 and at most 4; default 1)
     grid: Name of the grid in an OpenVDB file; required if the file has several grids of whole numbers. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
@@ -2388,7 +2402,7 @@ def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] 
         φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),  φ₀ = −min Dₖ,  Dₖ = min over its balls of |p − c| − r
 
     phases: With centres: one phase for all balls, or one per ball. With a file: the phases that its column `phase` refers to, counted from 0, or one for all. (list of phases)
-    centres: Centres of the balls, unless they are in a file. (list of [x, y, z]s in m; default [])
+    centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
     file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
     """
@@ -2399,12 +2413,12 @@ def translate(of: Field, by: Sequence[float] | np.ndarray, over: Phase | str | S
 
         φ(p − v)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     by: Image of the origin. ([x, y, z] in m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def translate(of: Object, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2412,12 +2426,12 @@ def translate(of: Object, by: Sequence[float] | np.ndarray, over: Phase | str | 
 
         φ(p − v)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     by: Image of the origin. ([x, y, z] in m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2426,13 +2440,13 @@ def rotate(of: Field, angle: float, axis: Sequence[float] | np.ndarray | None = 
 
         φ(Rᵀ p)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     angle: Angle. (number in degrees)
     axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def rotate(of: Object, angle: float, axis: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2440,13 +2454,13 @@ def rotate(of: Object, angle: float, axis: Sequence[float] | np.ndarray | None =
 
         φ(Rᵀ p)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     angle: Angle. (number in degrees)
     axis: Direction of the axis; any length but zero. ([x, y, z]; default [0, 0, 1])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2455,12 +2469,12 @@ def scale(of: Field, factor: float, over: Phase | str | Sequence[Phase | str] | 
 
         s · φ(p / s)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     factor: The factor. (number; positive)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def scale(of: Object, factor: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2468,12 +2482,12 @@ def scale(of: Object, factor: float, over: Phase | str | Sequence[Phase | str] |
 
         s · φ(p / s)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     factor: The factor. (number; positive)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2482,12 +2496,12 @@ def twist(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
         φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Angle per unit of height. (number in degrees/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def twist(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2495,12 +2509,12 @@ def twist(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | N
 
         φ(R(−k z) p) / λ,  λ = (kρ + √(k²ρ² + 4))/2,  ρ the largest within the bounds
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Angle per unit of height. (number in degrees/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2509,12 +2523,12 @@ def stretch(of: Field, factors: Sequence[float] | np.ndarray, over: Phase | str 
 
         φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     factors: The factors along x, y and z. ([x, y, z]; positive)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def stretch(of: Object, factors: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2522,12 +2536,12 @@ def stretch(of: Object, factors: Sequence[float] | np.ndarray, over: Phase | str
 
         φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     factors: The factors along x, y and z. ([x, y, z]; positive)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2536,12 +2550,12 @@ def mirror(of: Field, normal: Sequence[float] | np.ndarray | None = ..., over: P
 
         φ(p − 2 min(p·n, 0) n)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def mirror(of: Object, normal: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2549,12 +2563,12 @@ def mirror(of: Object, normal: Sequence[float] | np.ndarray | None = ..., over: 
 
         φ(p − 2 min(p·n, 0) n)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     normal: Direction that points into the half that is kept; any length but zero. ([x, y, z]; default [1, 0, 0])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2563,12 +2577,12 @@ def taper(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
         φ(x/s, y/s, z) / λ,  s = 1 + c z
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def taper(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2576,12 +2590,12 @@ def taper(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | N
 
         φ(x/s, y/s, z) / λ,  s = 1 + c z
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Change of size per unit of height; the size at z = 0 is unchanged. (number in 1/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2590,12 +2604,12 @@ def bend(of: Field, rate: float, over: Phase | str | Sequence[Phase | str] | Non
 
         φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def bend(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2603,12 +2617,12 @@ def bend(of: Object, rate: float, over: Phase | str | Sequence[Phase | str] | No
 
         φ(θ/k, y, (1 − r)/k) / λ,  (r, θ) polar: r sin θ = k x, r cos θ = 1 − k z
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     rate: Angle per unit of length along x; negative to bend towards −z. (number in degrees/m)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2617,15 +2631,15 @@ def affine(of: Field, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[
 
         φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
     y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
     z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
     by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def affine(of: Object, x: Sequence[float] | np.ndarray | None = ..., y: Sequence[float] | np.ndarray | None = ..., z: Sequence[float] | np.ndarray | None = ..., by: Sequence[float] | np.ndarray | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2633,15 +2647,15 @@ def affine(of: Object, x: Sequence[float] | np.ndarray | None = ..., y: Sequence
 
         φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     x: Image of the vector [1, 0, 0]. ([x, y, z]; default [1, 0, 0])
     y: Image of the vector [0, 1, 0]. ([x, y, z]; default [0, 1, 0])
     z: Image of the vector [0, 0, 1]. ([x, y, z]; default [0, 0, 1])
     by: Image of the origin. ([x, y, z] in m; default [0, 0, 0])
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 @overload
@@ -2650,14 +2664,14 @@ def distort(of: Field, amplitude: float, scale: float, octaves: float | None = .
 
         φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     amplitude: Largest displacement along each axis, a. (number in m; zero or more)
     scale: Size of the largest swirls. (number in m; positive)
     octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 @overload
 def distort(of: Object, amplitude: float, scale: float, octaves: float | None = ..., over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2665,14 +2679,14 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
         φ(p + a (n(p), n(p + u), n(p + v)))/λ,  λ = 1 + √3 a L,  L = 15 octaves/(4 scale Σ 2⁻ⁱ)
 
-    Section 6 of the paper.
+    Section 6 of Galin et al. (2026).
 
     of: The field or object to warp. (object)
     amplitude: Largest displacement along each axis, a. (number in m; zero or more)
     scale: Size of the largest swirls. (number in m; positive)
     octaves: Number of octaves of swirls, each with half the size of the one before. (number; at least 1 and at most 6; default 1)
-    over: For an object: warp only these phases, and let them replace the others. (phase or list of phases; default all)
-    under: For an object: warp only these phases, and let the others replace them. (phase or list of phases; default all)
+    over: For an object: warp only these phases, and let them replace the others. By default, all phases are warped. (phase or list of phases; default none)
+    under: For an object: warp only these phases, and let the others replace them. By default, all phases are warped. (phase or list of phases; default none)
     """
 
 class materials:
@@ -2686,7 +2700,7 @@ class materials:
         glass: Instead of the index: a measured substance whose index depends on the wavelength, which causes dispersion. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
         abbe_number: Abbe number; the smaller, the stronger the dispersion: crown glass has 60, flint glass 30. Without it, the index is the same for all colours. (number; at least 10 and at most 1000; default none)
         absorption: Absorption coefficients a of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
-        absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Without "spectral", this is converted to red, green and blue such that a layer that transmits a third of white light or more looks the same. (list of [nm, number] in nm, 1/m; zero or more; default none)
+        absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Unless the scene is "spectral", it is converted to red, green and blue. Layers that transmit at least a third of white light keep their colour; thicker ones may differ. (list of [nm, number] in nm, 1/m; zero or more; default none)
         color: Instead of the absorption: the colour of white light after a distance. (colour; more than 0 and at most 1; default none)
         color_distance: The distance after which white light has this colour. (number in m; positive; default 1)
         roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
@@ -2694,14 +2708,14 @@ class materials:
         albedo: Instead of absorption and scattering: the single-scattering albedo, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
         mean_free_path: With the albedo: the mean free path, 1/(a + s). ([r, g, b] in m; positive; default none)
         medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
-        scale: With a measured medium: length of the scene's unit. (number in mm; positive; default none)
+        scale: With a measured medium: how many millimetres one scene unit is. (number in mm; positive; default none)
         anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
-        emission: Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
-        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        emission: Radiance emitted per unit of length along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
+        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
         density_depth: With a density: the depth inside the field at which it reaches 1. (number in m; positive; default none)
         density_grid: Instead of a density: a voxel grid by which absorption, scattering and emission are multiplied. (voxels; default none)
-        temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which only the brightness is used then. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
+        temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which it uses only the brightness. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
         emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
@@ -2712,7 +2726,7 @@ class materials:
 
         color: Reflectance. (colour or texture)
         roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2731,7 +2745,7 @@ class materials:
         grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2744,13 +2758,13 @@ class materials:
         roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
-    def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-        r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other materials. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
+    def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+        r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Its roughness parameters are the square root of the α that other materials take. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
 
         base_color: Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; default 0.8. (colour or texture; default none)
         base_weight: Multiplies the base colour. (number or field; at least 0 and at most 1; default 1)
@@ -2775,22 +2789,22 @@ class materials:
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
         film_weight: With a film: share of the surface that has it. (number or field; at least 0 and at most 1; default 1)
-        emission_radiance: Radiance of the surface where the emission colour is 1, the same in all directions; n² times that inside a material of index n. (number; at least 0 and at most 1e12; default 0)
+        emission_radiance: Radiance, equal in all directions, where the emission colour is 1. Inside a material of index n, the radiance is n² times this value. (number; at least 0 and at most 1e12; default 0)
         emission_color: Colour of the emitted light; default white. (colour or texture; default none)
-        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
     @staticmethod
-    def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
+    def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | None = ...) -> Material:
         r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
         light: Colour of the emitted light; default white. (colour or texture; default none)
         radiance: Radiance of the surface where the colour is 1; n² times that inside a material of index n. (number; more than 0 and at most 1e12; default 1)
         color: Reflectance; default black. (colour or texture; default none)
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
         """
     @staticmethod
@@ -2804,7 +2818,7 @@ class materials:
         thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
         color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
         roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2814,7 +2828,7 @@ class materials:
 
         color: Reflectance. (colour or texture)
         transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2843,7 +2857,7 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     glass: Instead of the index: a measured substance whose index depends on the wavelength, which causes dispersion. (`"bk7"`, `"diamond"`, `"f2"`, `"fused_silica"`, `"sapphire"`, `"sf11"`, `"water"`; default none)
     abbe_number: Abbe number; the smaller, the stronger the dispersion: crown glass has 60, flint glass 30. Without it, the index is the same for all colours. (number; at least 10 and at most 1000; default none)
     absorption: Absorption coefficients a of red, green and blue; 0 by default. ([r, g, b] in 1/m; zero or more; default none)
-    absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Without "spectral", this is converted to red, green and blue such that a layer that transmits a third of white light or more looks the same. (list of [nm, number] in nm, 1/m; zero or more; default none)
+    absorption_spectrum: Instead of the absorption: wavelengths and the absorption coefficient at each. Unless the scene is "spectral", it is converted to red, green and blue. Layers that transmit at least a third of white light keep their colour; thicker ones may differ. (list of [nm, number] in nm, 1/m; zero or more; default none)
     color: Instead of the absorption: the colour of white light after a distance. (colour; more than 0 and at most 1; default none)
     color_distance: The distance after which white light has this colour. (number in m; positive; default 1)
     roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
@@ -2851,14 +2865,14 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     albedo: Instead of absorption and scattering: the single-scattering albedo, s/(a + s). ([r, g, b]; at least 0 and at most 1; default none)
     mean_free_path: With the albedo: the mean free path, 1/(a + s). ([r, g, b] in m; positive; default none)
     medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
-    scale: With a measured medium: length of the scene's unit. (number in mm; positive; default none)
+    scale: With a measured medium: how many millimetres one scene unit is. (number in mm; positive; default none)
     anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
-    emission: Radiance that the medium emits along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
-    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    emission: Radiance emitted per unit of length along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
+    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
     density_depth: With a density: the depth inside the field at which it reaches 1. (number in m; positive; default none)
     density_grid: Instead of a density: a voxel grid by which absorption, scattering and emission are multiplied. (voxels; default none)
-    temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which only the brightness is used then. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
+    temperature_grid: Voxel grid of temperatures: the medium emits as a black body, in proportion to its density. Requires a density and an emission, of which it uses only the brightness. The grid's "factor" converts its numbers to kelvin. (voxels in K; default none)
     emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
@@ -2869,7 +2883,7 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
 
     color: Reflectance. (colour or texture)
     roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2888,7 +2902,7 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2901,13 +2915,13 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
-def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
-    r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Roughnesses are the square root of the α of other materials. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
+def principled(base_color: Sequence[float] | str | Texture | None = ..., base_weight: float | Number | None = ..., base_diffuse_roughness: float | Number | None = ..., base_metalness: float | Number | None = ..., specular_weight: float | Number | None = ..., specular_color: Sequence[float] | str | Texture | None = ..., specular_roughness: float | Number | None = ..., specular_ior: float | None = ..., grain_along: Sequence[float] | np.ndarray | None = ..., grain_around: Sequence[float] | np.ndarray | None = ..., grain_through: Sequence[float] | np.ndarray | None = ..., grain_aspect: float | None = ..., coat_weight: float | Number | None = ..., coat_color: Sequence[float] | str | Texture | None = ..., coat_roughness: float | Number | None = ..., coat_ior: float | None = ..., coat_darkening: float | Number | None = ..., fuzz_weight: float | Number | None = ..., fuzz_color: Sequence[float] | str | Texture | None = ..., fuzz_roughness: float | Number | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., film_weight: float | Number | None = ..., emission_radiance: float | None = ..., emission_color: Sequence[float] | str | Texture | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
+    r"""Car paint, velvet, dusty plastic: layers with the parameters of OpenPBR Surface 1.1. The base is metal, or a gloss over a diffuse material; a coat and fuzz may cover it. Its roughness parameters are the square root of the α that other materials take. It is opaque; for transmission and subsurface scattering, use a phase of "clear".
 
     base_color: Colour of the diffuse base as seen through the gloss, or reflectance of the metal at normal incidence; default 0.8. (colour or texture; default none)
     base_weight: Multiplies the base colour. (number or field; at least 0 and at most 1; default 1)
@@ -2932,22 +2946,22 @@ def principled(base_color: Sequence[float] | str | Texture | None = ..., base_we
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
     film_weight: With a film: share of the surface that has it. (number or field; at least 0 and at most 1; default 1)
-    emission_radiance: Radiance of the surface where the emission colour is 1, the same in all directions; n² times that inside a material of index n. (number; at least 0 and at most 1e12; default 0)
+    emission_radiance: Radiance, equal in all directions, where the emission colour is 1. Inside a material of index n, the radiance is n² times this value. (number; at least 0 and at most 1e12; default 0)
     emission_color: Colour of the emitted light; default white. (colour or texture; default none)
-    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. Only the brightness of the emission is used then. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
 
-def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | Expression | None = ...) -> Material:
+def glowing(light: Sequence[float] | str | Texture | None = ..., radiance: float | None = ..., color: Sequence[float] | str | Texture | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., group: str | None = ...) -> Material:
     r"""Embers, lava, a filament, a screen: emits equally in all directions.
 
     light: Colour of the emitted light; default white. (colour or texture; default none)
     radiance: Radiance of the surface where the colour is 1; n² times that inside a material of index n. (number; more than 0 and at most 1e12; default 1)
     color: Reflectance; default black. (colour or texture; default none)
-    spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+    spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
     """
 
@@ -2961,7 +2975,7 @@ def thin_glass(ior: float | None = ..., color: Sequence[float] | str | Texture |
     thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
     color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
     roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2971,7 +2985,7 @@ def thin_diffuse(color: Sequence[float] | str | Texture, transmission: Sequence[
 
     color: Reflectance. (colour or texture)
     transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A step in the texture becomes a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -3108,7 +3122,7 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
     green_down: Whether green points down in the image, as in DirectX, and not up, as in OpenGL. (true or false; default false)
     """
 
-def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
+def voxels(file: str | PathLike[str], grid: str | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
     r"""A voxel grid, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Values are interpolated between the voxels' centres; negative ones count as 0. Outside the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then rotated, then translated.
 
     file: An OpenVDB file (.vdb) with a grid of floats or doubles whose background is 0. Or grey images, one per layer from the lowest z to the highest: a name in which each # stands for a digit of the layer's number, such as "layer_###.png". Integer grey values are scaled to 0 … 1. The top row of an image has the greatest y and the left column the least x; the stack is centred on the origin. (name of a file)
@@ -3123,16 +3137,16 @@ def voxels(file: str | PathLike[str], grid: str | Expression | None = ..., spaci
 
 class lights:
     @staticmethod
-    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def constant(radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""The same radiance from every direction.
 
         radiance: Radiance from every direction. (colour; zero or more; default [1, 1, 1])
         intensity: Factor applied to the radiance. (number; zero or more; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def gradient(zenith: Sequence[float] | str, horizon: Sequence[float] | str, ground: Sequence[float] | str, intensity: float | None = ..., softness: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A smooth gradient of three colours by elevation.
 
             mix(horizon, zenith or ground, S(min(|z|/softness, 1))),  S(t) = t² (3 − 2t)
@@ -3143,20 +3157,20 @@ class lights:
         intensity: Factor applied to all three radiances. (number; zero or more; default 1)
         softness: Sine of the elevation at which the zenith's or the ground's colour is reached. (number; more than 0 and at most 1; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def image(file: str | PathLike[str], rotation: float | None = ..., intensity: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""An environment map in latitude-longitude format, twice as wide as high.
 
         file: Image file that OpenImageIO reads row by row (OpenEXR, Radiance, TIFF, PNG, JPEG …), at most 16384 × 8192 pixels. (name of a file)
         rotation: Rotation about the z axis, clockwise as seen from above. (number in degrees; default 0)
         intensity: Factor applied to the image. (number; zero or more; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def sky(sun_elevation: float | None = ..., sun_azimuth: float | None = ..., sun_diameter: float | None = ..., turbidity: float | None = ..., ground: Sequence[float] | str | None = ..., intensity: float | None = ..., sun: bool | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A clear sky with its sun and the ground below, from a model of the atmosphere. White level ground has luminance 1 with the sun 45° high and turbidity 3.
 
         sun_elevation: Elevation of the sun above the horizon; there is twilight down to −8. (number in degrees; at least -90 and at most 90; default 45)
@@ -3167,10 +3181,10 @@ class lights:
         intensity: Factor applied to sky, sun and ground. (number; at least 0 and at most 1e30; default 1)
         sun: Whether to include the sun itself. (true or false; default true)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def sun(direction: Sequence[float] | np.ndarray, irradiance: Sequence[float] | str | None = ..., diameter: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A disk of constant radiance infinitely far away.
 
             L = E/(π sin²(δ/2))
@@ -3179,10 +3193,10 @@ class lights:
         irradiance: Irradiance E of a surface that faces the sun. (colour; zero or more; default [1, 1, 1])
         diameter: Angular diameter δ. A larger sun casts softer shadows of the same brightness. (number in degrees; more than 0 and at most 90; default 0.53)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def rectangle(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A rectangle that emits on one side and is invisible from behind.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -3193,10 +3207,10 @@ class lights:
         intensity: Factor applied to the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def sphere(centre: Sequence[float] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A sphere that emits light.
 
         centre: Its centre. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -3205,32 +3219,32 @@ class lights:
         intensity: Factor applied to the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def spheres(centres: Sequence[Sequence[float]] | np.ndarray, radius: float, radiance: Sequence[float] | str | None = ..., intensity: float | None = ..., visible_to_camera: bool | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""Many equal sphere lights.
 
-        centres: Centres of the spheres. (list of [x, y, z]s in m; at least -1e15 and at most 1e15)
+        centres: Centres of the spheres. (list of [x, y, z] in m; at least -1e15 and at most 1e15)
         radius: Radius of a sphere. (number in m; more than 0 and at most 1e15)
         radiance: Radiance of the surface. (colour; zero or more; default [1, 1, 1])
         intensity: Factor applied to the radiance. (number; zero or more; default 1)
         visible_to_camera: Whether the camera sees the light directly. (true or false; default true)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def point(position: Sequence[float] | np.ndarray, color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point that emits equally in all directions. It is never visible, and its light passes through glass or water only with "caustics", which use photons; without them, objects behind stay dark. A small sphere light has neither limitation.
 
         position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
         color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at distance d receives the irradiance intensity/d². (number; zero or more; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def spot(position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, cone: float | None = ..., edge: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point light that emits only within a cone with a smooth edge.
 
         position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
@@ -3240,20 +3254,20 @@ class lights:
         color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity, in the unit of radiance times m²: a surface that faces the light at distance d receives the irradiance intensity/d². (number; zero or more; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
-    def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | Expression | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
+    def ies(file: str | PathLike[str], position: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, turn: float | None = ..., color: Sequence[float] | str | None = ..., intensity: float | None = ..., group: str | None = ..., spectrum: Sequence[Sequence[float]] | np.ndarray | None = ...) -> Light:
         r"""A point light with the angular distribution of an IES photometric file (LM-63, type C).
 
         file: Photometric file of at most 1 MiB. (name of a file)
         position: Position of the light. ([x, y, z] in m; at least -1e15 and at most 1e15)
         target: Point towards which the file's downward direction points. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        turn: Rotation about that direction, anticlockwise as seen from behind the light. At 0, the 0° plane of a light that points down faces +x. (number in degrees; default 0)
+        turn: Rotation about the direction towards `target`, anticlockwise as seen from behind the light. At 0, the 0° plane of a light that points down faces +x. (number in degrees; default 0)
         color: Factor applied to the intensity. (colour; zero or more; default [1, 1, 1])
         intensity: Radiant intensity in the direction where the file has the most candelas; see the point light. (number; zero or more; default 1)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. Only the brightness of the light's colour is used then. Without "spectral" the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
+        spectrum: Spectrum of the light: relative power at given wavelengths, or the temperature of a black body. With it, only the brightness of the light's colour is used. Without "spectral", the light has the colour of this spectrum. (list of [nm, number], or {"blackbody": kelvin}; default none)
         """
     @staticmethod
     def portal(centre: Sequence[float] | np.ndarray, target: Sequence[float] | np.ndarray, width: float, height: float) -> Light:
@@ -3275,10 +3289,10 @@ class meshes:
         scale: Scale factor. (number; positive; default 1)
         rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
         translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity: Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
-        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
+        smooth: Whether to shade the mesh smoothly. Normals come from the file; if it has none, they are the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def ply(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
@@ -3289,10 +3303,10 @@ class meshes:
         scale: Scale factor. (number; positive; default 1)
         rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
         translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity: Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
-        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
+        smooth: Whether to shade the mesh smoothly. Normals come from the file; if it has none, they are the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def stl(material: Material, file: str | PathLike[str], scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., opacity: float | Number | None = ..., opacity_cutoff: float | None = ..., y_up: bool | None = ..., smooth: bool | None = ...) -> Mesh:
@@ -3303,10 +3317,10 @@ class meshes:
         scale: Scale factor. (number; positive; default 1)
         rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
         translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity: Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         y_up: Whether y, and not z, is up in the file. This is converted first. (true or false; default false)
-        smooth: Whether to shade the mesh as a smooth surface, with the normals in the file, or else with the mean normals of the faces around each vertex. (true or false; default true)
+        smooth: Whether to shade the mesh smoothly. Normals come from the file; if it has none, they are the mean normals of the faces around each vertex. (true or false; default true)
         """
     @staticmethod
     def gltf(file: str | PathLike[str], material: Material | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., imported: bool | None = ..., panes: bool | None = ...) -> Mesh:
@@ -3317,7 +3331,7 @@ class meshes:
         scale: Scale factor. (number; positive; default 1)
         rotate_z: Rotation about the z axis, anticlockwise as seen from above. (number in degrees; default 0)
         translate: Translation: the image of the origin. ([x, y, z] in m; default [0, 0, 0])
-        imported: Whether this scene has the file's clear materials as phases and its lights in "lights", as `phasetree import` writes it; then no warning reports that they are missing here. (true or false; default false)
+        imported: Set by `phasetree import`: this scene has the file's clear materials as phases and its lights in "lights", so no warning reports that the mesh ignores them. (true or false; default false)
         panes: With "imported": whether clear materials without a volume are not phases, but "thin_glass" in this mesh. (true or false; default false)
         """
     @staticmethod
@@ -3327,7 +3341,7 @@ class meshes:
         material: Material of the mesh. (opaque material)
         height: Height of the floor: its z coordinate. (number in m; at least -1e15 and at most 1e15; default 0)
         size: Length of the edges. (number in m; more than 0 and at most 1e15; default 1000)
-        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        opacity: Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         """
     @staticmethod
@@ -3340,8 +3354,8 @@ class meshes:
         radius: Radius of the curve between floor and wall. (number in m; more than 0 and at most 1e15; default 2)
         width: Length along x. (number in m; more than 0 and at most 1e15; default 100)
         front: The floor begins at y = −front. (number in m; more than 0 and at most 1e15; default 50)
-        wall: Height of the wall above the curve. (number in m; more than 0 and at most 1e15; default 50)
-        opacity: Opacity: 0 is a hole. In between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
+        wall: Height of the straight part of the wall, which begins `radius` above the floor. (number in m; more than 0 and at most 1e15; default 50)
+        opacity: Opacity: 0 is a hole, 1 is opaque. For values in between, the rest of the light passes straight through, as through a fine net. (number or field; at least 0 and at most 1; default none)
         opacity_cutoff: With an opacity: values below this are holes and all others opaque, so edges are sharp. (number; at least 0 and at most 1; default none)
         """
 
@@ -3352,12 +3366,12 @@ class cameras:
 
         position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+        turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
         filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blades: Number of aperture blades, and of corners of the aperture: 3 or more; 0 for a circular aperture. (whole number; at least 0 and at most 64; default 0)
         blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
         focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
         focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
@@ -3369,8 +3383,8 @@ class cameras:
         position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
         height: Height of the visible area. (number in m; more than 0 and at most 1e10)
-        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+        turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
         filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
@@ -3379,12 +3393,12 @@ class cameras:
 
         position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+        turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
         filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
         lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
-        blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+        blades: Number of aperture blades, and of corners of the aperture: 3 or more; 0 for a circular aperture. (whole number; at least 0 and at most 64; default 0)
         blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
         focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
         focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
@@ -3397,8 +3411,8 @@ class cameras:
 
         position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+        turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
         filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         """
     @staticmethod
@@ -3407,8 +3421,8 @@ class cameras:
 
         position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
         look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-        up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-        turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+        up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+        turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
         filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
         fov: Angle across the whole circle. (number in degrees; more than 0 and at most 360; default 180)
         """
@@ -3418,18 +3432,18 @@ def camera(position: Sequence[float] | np.ndarray, look_at: Sequence[float] | np
 
     position: Position of the camera. ([x, y, z] in m; at least -1e15 and at most 1e15)
     look_at: Point at the centre of the image. ([x, y, z] in m; at least -1e15 and at most 1e15)
-    up: Direction that points up in the image; +y, or else +x, if the camera looks along it. ([x, y, z]; default [0, 0, 1])
-    turn: Angle by which the camera orbits the axis through look_at along up, starting to its right. With keys, this makes a turntable. (number in degrees; default 0)
+    up: Direction that points up in the image. If the camera looks along it, +y is used instead, or +x if it looks along +y. ([x, y, z]; default [0, 0, 1])
+    turn: Rotates the camera's position about the axis through `look_at` in the direction `up`; positive angles move the camera to its right. Animate it for a turntable. (number in degrees; default 0)
     filter: Distribution of samples around the centre of a pixel. (`"blackman_harris"`, `"box"`; default "blackman_harris")
     fov: Vertical field of view. (number in degrees; more than 0 and less than 180; default 40)
     lens_radius: Radius of the lens, which blurs objects that are out of focus. (number in m; at least 0 and at most 1e15; default 0)
-    blades: Number of aperture blades, at least 3, which is the number of corners of the aperture; 0 is a disk. (whole number; at least 0 and at most 64; default 0)
+    blades: Number of aperture blades, and of corners of the aperture: 3 or more; 0 for a circular aperture. (whole number; at least 0 and at most 64; default 0)
     blade_rotation: Rotation of the aperture; at 0 a corner points right. (number in degrees; default 0)
     focus_distance: Distance of the plane of focus; by default that of look_at. (number in m; positive; default none)
     focus_at: Instead of the distance: a point on the plane of focus. ([x, y, z] in m; at least -1e15 and at most 1e15; default none)
     """
 
-def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., spectral: bool | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | Expression | None = ...) -> ImageSettings:
+def image(width: int | None = ..., height: int | None = ..., frames_per_second: float | None = ..., shutter: Sequence[float] | np.ndarray | None = ..., samples: int | None = ..., noise: float | None = ..., seed: int | None = ..., max_depth: int | None = ..., spectral: bool | None = ..., guiding: bool | None = ..., caustics: bool | None = ..., photons: float | None = ..., photon_radius: float | None = ..., exposure: float | None = ..., view: str | None = ...) -> ImageSettings:
     r"""Size of the image and settings of the renderer.
 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
@@ -3437,12 +3451,12 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     frames_per_second: Frame rate of an animation: frame n, counted from 0, shows the time n / frames_per_second. (number in 1/s; at least 0.001 and at most 100000; default 24)
     shutter: Times at which the shutter opens and closes, relative to the time of the picture. Motion in between is blurred: transforms of objects and instances, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
     samples: Samples per pixel. (whole number; at least 1 and at most 16777216; default 64)
-    noise: Noise limit: a pixel stops early, after at least 32 samples, once its estimated relative error is at most this; 0 turns this off. (number; at least 0 and at most 1; default 0)
-    seed: Seed of the random numbers; another seed gives other noise. (whole number; zero or more; default 0)
-    max_depth: Maximum number of surfaces per path, including those between equal indices. (whole number; at least 1 and at most 1048576; default 65536)
+    noise: Noise limit: blocks of 8×8 pixels stop early, after at least 32 samples per pixel, once their estimated relative error is at most this; 0 turns this off. (number; at least 0 and at most 1; default 0)
+    seed: Seed of the random numbers; a different seed gives different noise. (whole number; zero or more; default 0)
+    max_depth: Maximum number of interactions per path: surfaces, including interfaces between equal refractive indices, and scattering events in media. (whole number; at least 1 and at most 1048576; default 65536)
     spectral: Whether to render with wavelengths, three per path, instead of red, green and blue. Metals, films on smooth surfaces, absorption and light then have their values at each wavelength; colours are replaced by spectra that look the same. (true or false; default false)
     guiding: Path guiding: whether to learn, before the first sample, where light comes from, and to send half of the paths from diffuse surfaces there. It pays off where most light is indirect, as in a room lit through the door of the next one. (true or false; default false)
-    caustics: Whether to use photons for caustics: light from lamps, glowing surfaces, the sun and bright parts of environment maps that reaches surfaces and scattering media through clear materials or by metal. Photons blur caustics by a pixel or two, less with more samples. (true or false; default false)
+    caustics: Whether to use photons for caustics: light from lamps, glowing surfaces, the sun and bright parts of environment maps that reaches surfaces and scattering media through clear materials or by reflection from metal. Photons blur caustics by a pixel or two, less with more samples. (true or false; default false)
     photons: For caustics: photons per pixel and sample. (number; at least 0 and at most 64; default 1)
     photon_radius: For caustics: radius within which photons count for a point, in the first pass. (number in pixels; at least 0.01 and at most 100; default 2)
     exposure: Exposure of display images; one stop more is twice as bright. (number in EV; at least -50 and at most 50; default 0)
