@@ -12,7 +12,7 @@
 #   --steps "NAME…"     only these steps, of: quickstart tests command pip package
 #   --work FOLDER       make the installation there and keep it; a later run with the same folder reuses it, so that a
 #                       failure can be looked at and a fix tried quickly. Such a run is no longer a fresh machine.
-#   --ccache FOLDER     share this compiler cache with the installation
+#   --ccache FOLDER     share this compiler cache with the installation; ada becomes the owner of its files
 #
 # The user is called ada, may use sudo, has no UTF-8 locale and keeps the clone in a folder with a space in its name.
 # tests/fresh/steps.sh is what she does. The last line printed is a row for the table in tests/README.md. The exit status
@@ -108,7 +108,8 @@ inside='
     if [ "$cache" ]; then
         mkdir -p "$cache" "$root/home/ada/.cache/ccache"
         mount --bind "$cache" "$root/home/ada/.cache/ccache"
-        chroot "$root" chown ada: /home/ada/.cache /home/ada/.cache/ccache
+        chroot "$root" chown ada: /home/ada/.cache
+        chroot "$root" chown -R ada: /home/ada/.cache/ccache
     fi
     exec chroot "$root" su ada -s /bin/bash -c "
         cd && exec env -i HOME=/home/ada USER=ada LOGNAME=ada TERM=dumb PATH=/usr/local/bin:/usr/bin:/bin \
