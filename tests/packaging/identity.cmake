@@ -79,7 +79,7 @@ endif()
 # Changes one byte in one file of each kind. A new kind of file belongs in one of these lists; if it belongs in the
 # first, add it to lib/cmake/build_identity.cmake too.
 set(compiled c h cpp hpp inl in cmake CMakeLists.txt css html js map ocio)
-set(not_compiled md svg jpg json sh py)
+set(not_compiled md svg jpg webp json sh py)
 file(GLOB_RECURSE files RELATIVE "${copy}" "${copy}/lib/*" "${copy}/tracer/*" "${copy}/plugins/embree/*")
 set(tried "")
 foreach(file ${files})

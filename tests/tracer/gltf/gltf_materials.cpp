@@ -95,11 +95,12 @@ TEST_CASE("what is clear is left out, and what is lost is said") {
     REQUIRE(some.parts.size() == 3);
     CHECK(some.parts[0].name == "faint");
     CHECK(some.parts[1].name == "print");
-    CHECK(some.not_shown.size() == 4);
+    CHECK(some.not_shown.size() == 5);
     CHECK(some.not_shown.at(0).find("\"pane\" is clear and therefore ignored") == 0);
     CHECK(some.not_shown.at(1).find("\"half\" is clear") == 0);
     CHECK(some.not_shown.at(2) == "\"faint\" is partly transmissive; it is rendered as opaque");
     CHECK(some.not_shown.at(3) == "\"print\" is partly transmissive; it is rendered as opaque");
+    CHECK(some.not_shown.at(4).find("KHR_materials_volume") != std::string::npos);
 
     const gltf::GltfFile odd =
         file({R"({"name": "varnish", )" + plain + R"(, "extensions": {"KHR_materials_subsurface": {},

@@ -46,6 +46,14 @@ inline const support::TemporaryDirectory& folder() {
                                 "count": 3, "type": "VEC3"}], "bufferViews": [)" +
                                     view + "]",
                                 bytes.bytes()));
+        support::write_text(
+            made / "pane.glb",
+            glb(R"("extensionsUsed": ["KHR_materials_transmission"], "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}, {"attributes": {"POSITION": 0}, "material": 0}]}],
+                "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "bufferViews": [)" +
+                    view + "]",
+                bytes.bytes()));
         support::write_text(made / "lamp.ies", "TILT=NONE\n1 1 1 3 2 1 2 0 0 0\n1 1 0\n0 90 180\n0 90\n5 2 1\n3 2 1\n");
         return true;
     }();
@@ -395,7 +403,13 @@ inline std::vector<Case> cases() {
                        {{"opacity_cutoff", members + R"(, "opacity": 0.25)"}}});
     };
     for (const char* const format : {"obj", "ply", "stl"}) mesh(format, fmt::format(", \"file\": \"mesh.{}\"", format));
-    all.push_back({"Meshes", "gltf", R"("file": "mesh.glb")", "[{\"gltf\": ", "}]", tell_meshes});
+    all.push_back({"Meshes",
+                   "gltf",
+                   R"("file": "mesh.glb")",
+                   "[{\"gltf\": ",
+                   "}]",
+                   tell_meshes,
+                   {{"panes", R"("file": "pane.glb", "imported": true)"}}});
     mesh("floor", "");
     mesh("backdrop", "");
     const std::string camera = R"("position": [0, -5, 0], "look_at": [0, 0, 0])";

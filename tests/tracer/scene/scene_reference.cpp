@@ -264,6 +264,7 @@ TEST_CASE("every key changes what is read") {
         {"sun", "false"},
         {"y_up", "true"},
         {"imported", "true"},
+        {"panes", "true"},
         {"smooth", "false"},
         {"visible_to_camera", "false"},
         {"group", "\"key\""},
@@ -295,8 +296,9 @@ TEST_CASE("every key changes what is read") {
             std::string value = vector_of(property, "0.25");
             if (key == "of") value = R"({"sphere": {"radius": 1.5}})";
             if (key == "ramp") value = c.chapter == "Textures" ? "[[0, [1, 0, 1]]]" : "[[0, 0.75]]";
-            const bool is_mixed = c.name == "mix" && (key == "first" || key == "second");
-            if (key == "material" || is_mixed) value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
+            const bool is_material = key == "material" || (c.name == "mix" && (key == "first" || key == "second")) ||
+                                     (c.name == "two_sided" && (key == "front" || key == "back"));
+            if (is_material) value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
             if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
                 value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
             if (key == "turbidity") value = "5";

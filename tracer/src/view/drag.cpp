@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "phasetree/math/portable.hpp"
+
 namespace phasetree::tracer::view {
 
 namespace {
@@ -23,6 +25,14 @@ constexpr double farthest_back = 2;
 // the pointer must not lead to huge values.
 constexpr double longest_detour = 6;
 constexpr double most_miss = 0.5;
+
+// The greatest power of ten that is at most x, but at least 10⁻³⁰.
+double power_of_ten_below(double x) {
+    double power = 1;
+    while (power > x && power > 1e-30) power /= 10;
+    while (power * 10 <= x) power *= 10;
+    return power;
+}
 constexpr double well_enough = 0.2;  // the share of an error that a step leaves
 
 class Drag {
@@ -148,7 +158,7 @@ class Drag {
                 xy += columns[i].x * columns[i].y;
                 yy += columns[i].y * columns[i].y;
             }
-            const double mean = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
+            const double mean = 0.5 * (xx + yy), half = portable::hypot(0.5 * (xx - yy), xy);
             const double longest = mean + half, determinant = xx * yy - xy * xy;
             if (!(longest > 1e-12 * object_.size() * object_.size())) return std::nullopt;
             glm::dvec2 y((yy * by.x - xy * by.y) / determinant, (xx * by.y - xy * by.x) / determinant);
@@ -281,7 +291,7 @@ class Drag {
             const double finest = 1e-5 * parameters_[i].scale;
             const double step =
                 motion > 0 ? std::min(digits * target_.pixel / motion, 0.01 * parameters_[i].scale) : finest;
-            const double unit = std::pow(10.0, std::floor(std::log10(step)));
+            const double unit = power_of_ten_below(step);
             // Dividing by a whole power of ten gives a number that is written with few digits.
             const double inverse = std::round(1 / unit);
             const double value =
