@@ -151,7 +151,7 @@ class Sentences(unittest.TestCase):
             ('"of[1]" is a plain field, but an object of phases is required', lambda: glass(pt.sphere(1)).over(pt.sphere(1))),
             ('unknown key "over" in "translate"', lambda: pt.sphere(1).translate((1, 0, 0), over=glass)),
             ("a phase cannot be in contact with itself", lambda: glass(pt.sphere(1)).contact(glass(pt.sphere(1)), glass, glass, 0.5)),
-            ('the material of "x" must be one', lambda: pt.phase("x", "glass")),
+            ('the material of "x" must be a material such as', lambda: pt.phase("x", "glass")),
             ('"ior" must be', lambda: pt.clear(ior=0)),
             ("did you mean", lambda: pt.conductor(metal="cooper")),
             ("no such file", lambda: pt.siren("nowhere.json")),

@@ -197,7 +197,7 @@ class Catalogue(unittest.TestCase):
             self.assertEqual(sphere["parameters"][0]["control"], "length")
             self.assertEqual(sphere["parameters"][0]["type"], "number")
             points = next(p for p in kinds["field", "polygon"]["parameters"] if p["name"] == "points")
-            self.assertEqual(points["type"], "list of [x, y]s")
+            self.assertEqual(points["type"], "list of [x, y]")
             if sphere["picture"]:
                 picture = view.get(sphere["picture"])
                 self.assertEqual(picture.headers["Content-Type"], "image/jpeg")

@@ -43,7 +43,7 @@ export function sortOf(spec, value) {
 // Lists of numbers or of points; in some parameters, one number stands for all.
 function sortOfList(type, value) {
   if (type === "number or list of numbers" && (value === null || typeof value === "number")) return "listed";
-  if (value === null) return type === "list of numbers" ? "list" : /^list of \[x, y(, z)?\]s$/.test(type) ? "points" : "json";
+  if (value === null) return type === "list of numbers" ? "list" : /^list of \[x, y(, z)?\]$/.test(type) ? "points" : "json";
   return isNumbers(value) && (value.length > 0 || type.includes("list of numbers")) ? "list" : isPoints(value) && (value.length > 0 || type.startsWith("list of [x")) ? "points" : "json";
 }
 
@@ -185,7 +185,7 @@ export const makers = {
     return {element: make("div", {class: "listed"}, number.element, each), show, input: number.input};
   },
   points(row) {
-    const size = (row.value?.[0] ?? (row.spec.type?.includes("[x, y]s") ? [0, 0] : [0, 0, 0])).length;
+    const size = (row.value?.[0] ?? (row.spec.type?.includes("[x, y]") ? [0, 0] : [0, 0, 0])).length;
     const field = new ListField({label: row.title, size, scale: row.context.radius()}, (values, gesture, i) => row.change(values, gesture, i));
     return {element: field.element, show: (value, fallback) => field.show(value ?? fallback ?? [])};
   },
