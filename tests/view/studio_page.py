@@ -70,6 +70,9 @@ class Studio(StudioCase):
                 if is_file:  # which does not exist
                     self.assertIn("error", told)
                     continue
+                if kind in ("thin_glass", "thin_diffuse", "two_sided"):  # only meshes have them; the palette leaves them out
+                    self.assertIn("a phase cannot be thin", told["error"])
+                    continue
                 self.assertNotIn("error", told)
                 self.assertEqual(told["shown"], True)
                 self.assertEqual(told["edited"], True)

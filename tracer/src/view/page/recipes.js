@@ -45,6 +45,9 @@ export const starter = {
   render: {width: 640, height: 480, samples: 64, exposure: 0.8},
 };
 
+// Materials of surfaces without an interior. Phases cannot have them.
+export const onlyForMeshes = new Set(["thin_glass", "thin_diffuse", "two_sided"]);
+
 // Materials to choose from when a new one is made.
 export const materials = [
   {name: "glass", text: "Glass", value: {clear: {ior: 1.5}}},
