@@ -153,6 +153,7 @@ class Agreement(BlenderTest):
         tree.links.new(first.outputs["Color"], bsdf.inputs["Roughness"])
         tree.links.new(second.outputs["Color"], bsdf.inputs["Metallic"])
         dress(self.add_ball(), material)
+        self.scene.phasetree.samples = self.scene.cycles.samples = 400
         self.scene.camera.data.lens, self.background["Strength"].default_value = 50, 0.1
         self.assert_agrees(0.03)
         self.assertEqual(self.notes(), "")
