@@ -137,8 +137,8 @@ struct WallThickness {
 
 /// Find the smallest thickness of each phase, and where it is.
 ///
-/// Tries one thickness after another in smaller and smaller boxes, until `high` is at most 5 % more than `low`, or to the
-/// limits of the options. As for IsThick, a thin fin within reach of a thick part may go unnoticed.
+/// Tries one thickness after another in smaller and smaller boxes, until `high` is at most 5 % more than `low`, or to
+/// the limits of the options. As for IsThick, a thin fin within reach of a thick part may go unnoticed.
 ///
 /// Returns one element for each phase but the vacuum, in ascending order. Threads, errors and progress are as for
 /// prove().
