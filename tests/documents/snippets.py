@@ -96,6 +96,17 @@ def completed(members: dict) -> dict:
     return scene
 
 
+def text_of_scene(above: list[Block]) -> str:
+    """The scene after the last of these blocks, with all steps that lead to it."""
+    if not above[-1].directive.startswith("step"):
+        return above[-1].text
+    first = max(i for i, b in enumerate(above) if not b.directive.startswith("step"))
+    scene: dict = {}
+    for block in above[first:]:
+        scene |= parsed(block)
+    return json.dumps(scene)
+
+
 # A function or struct at the beginning of a line, with the comments above it; its name is in one of the groups.
 DEFINITION = re.compile(r"^(?://[^\n]*\n)*(?:struct (\w+)|[\w:<> ]+ (\w+)\([^;{]*\)) \{\n.*?^\};?\n", re.M | re.S)
 
@@ -191,8 +202,8 @@ class Snippets(unittest.TestCase):
             folder = folders[block.path].name
             with self.subTest(str(block)):
                 if form == "with":
-                    scene = [b for b in self.of("json") if b.path == block.path and b.line < block.line][-1]
-                    (pathlib.Path(folder) / name).write_text(scene.text, encoding="utf-8")
+                    above = [b for b in self.of("json") if b.path == block.path and b.line < block.line]
+                    (pathlib.Path(folder) / name).write_text(text_of_scene(above), encoding="utf-8")
                 done = subprocess.run(["/bin/bash", "-eo", "pipefail", "-c", block.text], cwd=folder,
                                       env=sandbox(folder), capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stdout}{done.stderr}")
