@@ -80,7 +80,7 @@ Turns decoding(const Host& host, const Rays& camera, const Settings& settings) {
         Checksum sum;
         for (const RTCRayHit& hit : hits) {
             ++sum.rays;
-            sum.distance += static_cast<double>(host.geometry.decode(hit).tIn);
+            sum.distance += static_cast<double>(host.geometry.decode(hit).tFrom);
         }
         return sum;
     };

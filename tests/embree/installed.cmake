@@ -114,4 +114,6 @@ if(pkg_config AND compiler)
     expect("${output}" "glass -> sand")
     run("${compiler}" -std=c99 -Wall -Wextra -pedantic -Werror "${examples}/measure.c" -o "${WORK}/measure" ${arguments}
         -lm -Wl,-rpath,${libraries} ${RPATH})
+    run("${compiler}" -std=c99 -Wall -Wextra -pedantic -Werror -c "${CMAKE_CURRENT_LIST_DIR}/names_0_9.c" -o
+        "${WORK}/names_0_9.o" ${arguments})
 endif()

@@ -16,8 +16,8 @@ int main() {
         const embree::Tree tree = embree::Tree::of(scene);
         const embree::Geometry geometry(device, tree);
         const PhasetreeClosest closest = geometry.closest({0.5f, 0, 0}, 10);
-        std::printf("from %s, %s is %.3f away; nothing is nearer than %.3f\n", tree.phase_name(closest.here).c_str(),
-                    tree.phase_name(closest.there).c_str(), static_cast<double>(closest.distance),
+        std::printf("from %s, %s is %.3f away; nothing is nearer than %.3f\n", tree.phase_name(closest.from).c_str(),
+                    tree.phase_name(closest.to).c_str(), static_cast<double>(closest.distance),
                     static_cast<double>(closest.emptyRadius));
     } catch (const std::exception& e) {
         std::fprintf(stderr, "%s\n", e.what());

@@ -51,10 +51,10 @@ int main(int argc, char** argv) {
         PhasetreeHit hit;
         const char *left, *entered;
         check(phasetreeDecodeHit(geometry, &r, NULL, &hit));
-        check(phasetreeGetTreePhaseName(tree, hit.phaseLeft, &left));
-        check(phasetreeGetTreePhaseName(tree, hit.phaseEntered, &entered));
-        printf("%.5f  %s -> %s\n", hit.tIn, left, entered);
-        start = fmaxf(hit.tOut, nextafterf(hit.tIn, INFINITY));
+        check(phasetreeGetTreePhaseName(tree, hit.from, &left));
+        check(phasetreeGetTreePhaseName(tree, hit.to, &entered));
+        printf("%.5f  %s -> %s\n", hit.tFrom, left, entered);
+        start = fmaxf(hit.tTo, nextafterf(hit.tFrom, INFINITY));
     }
     rtcReleaseScene(scene);
     check(phasetreeReleaseGeometry(geometry));

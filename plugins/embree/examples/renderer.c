@@ -59,16 +59,16 @@ static void intersect(RTCScene scene, struct RTCRayHit* ray, PhasetreeRay* state
 
 static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
     /* The phase of each instance that the ray is in. */
-    PhasetreeMedium media[2];
+    PhasetreeCarriedPhase carried[2];
     PhasetreeRay state;
     const unsigned int instances[2] = {FIRST, SECOND};
     float light[3] = {1, 1, 1};
     memset(&state, 0, sizeof state);
-    state.media = media, state.mediumCount = 2;
+    state.carried = carried, state.carriedCount = 2;
     for (int i = 0; i < 2; ++i) {
-        media[i].geomID = 0, media[i].instID = instances[i], media[i].phase = PHASETREE_VACUUM;
+        carried[i].geomID = 0, carried[i].instID = instances[i], carried[i].phase = PHASETREE_VACUUM;
 #if RTC_VERSION_MAJOR >= 4
-        media[i].instPrimID = 0;
+        carried[i].instPrimID = 0;
 #endif
     }
     for (int crossing = 0; crossing < MAX_CROSSINGS; ++crossing) {
@@ -79,7 +79,7 @@ static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
         intersect(scene->outer, &ray, &state);
         const float end = ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? before : ray.ray.tfar;
         for (int k = 0; k < 3; ++k)
-            for (int i = 0; i < 2; ++i) light[k] *= powf(materials[media[i].phase].clear[k], end - before);
+            for (int i = 0; i < 2; ++i) light[k] *= powf(materials[carried[i].phase].clear[k], end - before);
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             const float sky[3] = {0.65f, 0.75f, 0.9f};
             for (int k = 0; k < 3; ++k) rgb[k] = light[k] * sky[k];
@@ -94,11 +94,11 @@ static void trace(const Scene* scene, struct RTCRayHit ray, float rgb[3]) {
             color[0] = color[1] = color[2] = odd ? 0.5f : 0.7f;
             normal[0] = 0, normal[1] = 0, normal[2] = 1;
         } else {
-            PhasetreeMedium* const medium = media + (ray.hit.instID[0] == FIRST ? 0 : 1);
-            const unsigned int entered = state.hit.phaseEntered;
+            PhasetreeCarriedPhase* const current = carried + (ray.hit.instID[0] == FIRST ? 0 : 1);
+            const unsigned int entered = state.hit.to;
             if (materials[entered].clear[0] > 0) { /* continue in that phase, from the bracket's far end */
-                medium->phase = entered;
-                ray.ray.tnear = state.hit.tOut;
+                current->phase = entered;
+                ray.ray.tnear = state.hit.tTo;
                 continue;
             }
             memcpy(color, materials[entered].color, sizeof color);

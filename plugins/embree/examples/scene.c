@@ -28,8 +28,8 @@ void check(PhasetreeError error) {
 static void hide(const struct RTCFilterFunctionNArguments* args) {
     const unsigned int hidden = *(const unsigned int*)args->geometryUserPtr;
     for (unsigned int i = 0; i < args->N; ++i)
-        if (args->valid[i] == -1 && (phasetreeGetPhaseLeft(args->hit, args->N, i) == hidden ||
-                                     phasetreeGetPhaseEntered(args->hit, args->N, i) == hidden))
+        if (args->valid[i] == -1 && (phasetreeGetHitFrom(args->hit, args->N, i) == hidden ||
+                                     phasetreeGetHitTo(args->hit, args->N, i) == hidden))
             args->valid[i] = 0;
 }
 

@@ -100,8 +100,8 @@ class Closest(NamedTuple):
     r"""The closest interface to each point. If there is none, the distance is infinite and the point NaN."""
     distance: np.ndarray
     point: np.ndarray
-    here: np.ndarray
-    there: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
 
 class PhaseMesh(NamedTuple):
     r"""The interfaces of an object as triangles with shared vertices; see Object.mesh."""

@@ -78,8 +78,8 @@ class Closest(NamedTuple):
 
     distance: np.ndarray
     point: np.ndarray
-    here: np.ndarray  #: the phase on the side of the query point
-    there: np.ndarray  #: the phase on the other side
+    before: np.ndarray  #: the phase on the side of the query point
+    after: np.ndarray  #: the phase on the other side
 
 
 class PhaseMesh(NamedTuple):
@@ -457,8 +457,8 @@ class Object(Value):
         tolerance: the accepted relative error of the distance.
         """
         array, shape = _points(points)
-        distance, point, here, there = self._prepared.closest(array, radius, tolerance)
-        return Closest(distance.reshape(shape), point.reshape(*shape, 3), here.reshape(shape), there.reshape(shape))
+        distance, point, before, after = self._prepared.closest(array, radius, tolerance)
+        return Closest(distance.reshape(shape), point.reshape(*shape, 3), before.reshape(shape), after.reshape(shape))
 
     @property
     def _precise(self):

@@ -127,13 +127,13 @@ void query(RTCScene scene, int* valid, typename PacketOf<N>::Rays& packet, const
 
 // The context of one ray that carries phases.
 struct Carrying {
-    std::vector<PhasetreeMedium> media;
+    std::vector<PhasetreeCarriedPhase> carried;
     PhasetreeRay state{};
     PhasetreeRayContext context{};
 
-    Carrying(std::initializer_list<PhasetreeMedium> carried) : media(carried) {
-        state.media = media.data();
-        state.mediumCount = static_cast<unsigned>(media.size());
+    Carrying(std::initializer_list<PhasetreeCarriedPhase> phases) : carried(phases) {
+        state.carried = carried.data();
+        state.carriedCount = static_cast<unsigned>(carried.size());
         phasetreeInitRayContext(&context);
         context.rays = &state;
         context.rayCount = 1;

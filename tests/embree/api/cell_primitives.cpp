@@ -46,9 +46,9 @@ TEST_CASE("a stock context hits the same, and decodes to the same") {
         REQUIRE(glm::length(normal) == doctest::Approx(1).epsilon(1e-5));
         REQUIRE(glm::dot(normal, ray.direction) < 0);
         const PhasetreeHit decoded = pair.cells.geometry.decode(a), expected = pair.one.geometry.decode(b);
-        REQUIRE(decoded.phaseLeft == expected.phaseLeft);
-        REQUIRE(decoded.phaseEntered == expected.phaseEntered);
-        REQUIRE(glm::distance(vec(decoded.pointIn), vec(expected.pointIn)) < 4 * pair.resolution);
+        REQUIRE(decoded.from == expected.from);
+        REQUIRE(decoded.to == expected.to);
+        REQUIRE(glm::distance(vec(decoded.pointFrom), vec(expected.pointFrom)) < 4 * pair.resolution);
     }
     CHECK(hit > 1500);
 }
@@ -101,7 +101,7 @@ TEST_CASE("carried phases go from hit to hit as with one primitive") {
         glm::vec3 at;
     };
     const auto walk = [](const Placed& placed, Ray ray) {
-        Carrying carrying{PhasetreeMedium{placed.id, none, none, placed.geometry.phase(arr(ray.origin))}};
+        Carrying carrying{PhasetreeCarriedPhase{placed.id, none, none, placed.geometry.phase(arr(ray.origin))}};
         std::vector<Step> steps;
         for (;;) {
             const RTCRayHit r = trace_one(placed.scene, rayhit(ray), {.context = &carrying.context.context});
@@ -109,12 +109,12 @@ TEST_CASE("carried phases go from hit to hit as with one primitive") {
             REQUIRE(occluded_one(placed.scene, shadow, {.context = &carrying.context.context}) == hits(r));
             if (!hits(r)) return steps;
             const PhasetreeHit& hit = carrying.state.hit;
-            REQUIRE(hit.phaseLeft == carrying.media[0].phase);
+            REQUIRE(hit.from == carrying.carried[0].phase);
             REQUIRE(hit.cell == r.hit.primID);
-            REQUIRE(static_cast<float>(hit.phaseEntered) == r.hit.v);
-            steps.push_back({hit.phaseLeft, hit.phaseEntered, vec(hit.pointIn)});
-            carrying.media[0].phase = hit.phaseEntered;
-            ray.origin = vec(hit.pointOut);
+            REQUIRE(static_cast<float>(hit.to) == r.hit.v);
+            steps.push_back({hit.from, hit.to, vec(hit.pointFrom)});
+            carrying.carried[0].phase = hit.to;
+            ray.origin = vec(hit.pointTo);
             REQUIRE(steps.size() < 100);
         }
     };

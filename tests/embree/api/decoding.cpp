@@ -17,15 +17,15 @@ TEST_CASE("a decoded hit's bracket is that of the ray, with its ends in their ph
         if (!hits(r)) continue;
         ++hit;
         const PhasetreeHit decoded = stock.geometry.decode(r), &told = context.state.hit;
-        REQUIRE(decoded.phaseLeft == told.phaseLeft);
-        REQUIRE(decoded.phaseEntered == told.phaseEntered);
+        REQUIRE(decoded.from == told.from);
+        REQUIRE(decoded.to == told.to);
         REQUIRE(decoded.cell == told.cell);
-        REQUIRE(decoded.tIn <= decoded.tOut);
+        REQUIRE(decoded.tFrom <= decoded.tTo);
         // The same interface: the phase is certain at both ends, and the bracket short.
-        REQUIRE(stock.geometry.phase(arr(vec(decoded.pointIn))) == decoded.phaseLeft);
-        REQUIRE(stock.geometry.phase(arr(vec(decoded.pointOut))) == decoded.phaseEntered);
-        REQUIRE(decoded.tOut - decoded.tIn < 4.8f * resolution);
-        if (!same_place(decoded.tIn, told.tIn, resolution)) ++differing;
+        REQUIRE(stock.geometry.phase(arr(vec(decoded.pointFrom))) == decoded.from);
+        REQUIRE(stock.geometry.phase(arr(vec(decoded.pointTo))) == decoded.to);
+        REQUIRE(decoded.tTo - decoded.tFrom < 4.8f * resolution);
+        if (!same_place(decoded.tFrom, told.tFrom, resolution)) ++differing;
     }
     CHECK(hit > 1500);
     CHECK(differing == 0);
@@ -42,11 +42,11 @@ TEST_CASE("a hit that names another cell is decoded all the same") {
         const PhasetreeHit right = placed.geometry.decode(r);
         r.hit.primID = (r.hit.primID + offset++ * 7919) % cells;
         const PhasetreeHit other = placed.geometry.decode(r);
-        REQUIRE(other.phaseLeft == right.phaseLeft);
-        REQUIRE(other.phaseEntered == right.phaseEntered);
-        REQUIRE(same_place(other.tIn, right.tIn, resolution));
-        REQUIRE(placed.geometry.phase(arr(vec(other.pointIn))) == other.phaseLeft);
-        REQUIRE(placed.geometry.phase(arr(vec(other.pointOut))) == other.phaseEntered);
+        REQUIRE(other.from == right.from);
+        REQUIRE(other.to == right.to);
+        REQUIRE(same_place(other.tFrom, right.tFrom, resolution));
+        REQUIRE(placed.geometry.phase(arr(vec(other.pointFrom))) == other.from);
+        REQUIRE(placed.geometry.phase(arr(vec(other.pointTo))) == other.to);
     }
 }
 

@@ -34,8 +34,8 @@ void collect(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] != -1) continue;
         auto& seen = filter.calls[RTCRayN_id(args->ray, n, i)];
         if (RTCHitN_geomID(args->hit, n, i) != filter.expected_geometry) ++filter.hits_with_wrong_place;
-        seen.push_back({RTCRayN_tfar(args->ray, n, i), phasetreeGetPhaseLeft(args->hit, n, i),
-                        phasetreeGetPhaseEntered(args->hit, n, i)});
+        seen.push_back(
+            {RTCRayN_tfar(args->ray, n, i), phasetreeGetHitFrom(args->hit, n, i), phasetreeGetHitTo(args->hit, n, i)});
         if (seen.size() <= filter.accept_from) args->valid[i] = 0;
     }
 }

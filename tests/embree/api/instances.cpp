@@ -64,8 +64,8 @@ TEST_CASE("the length of the direction is the unit of distance and nothing else"
             REQUIRE(scaled.hit.u == unit.hit.u);
             REQUIRE(scaled.hit.v == unit.hit.v);
             const PhasetreeHit decoded = placed.geometry.decode(scaled);
-            REQUIRE(same_place(decoded.tOut * length, unit.ray.tfar, resolution));
-            REQUIRE(glm::distance(vec(decoded.pointIn), ray.origin + unit.ray.tfar * ray.direction) < 4 * resolution);
+            REQUIRE(same_place(decoded.tTo * length, unit.ray.tfar, resolution));
+            REQUIRE(glm::distance(vec(decoded.pointFrom), ray.origin + unit.ray.tfar * ray.direction) < 4 * resolution);
         }
     }
     CHECK(hit > 1000);
@@ -128,8 +128,8 @@ TEST_CASE("instances: scaled, sheared and mirrored ones hit the same points, wit
             REQUIRE(r.hit.instPrimID[0] == 0);
 #endif
             const PhasetreeHit decoded = geometry.decode(r, columns(a).data());
-            REQUIRE(decoded.phaseLeft == static_cast<unsigned>(r.hit.u));
-            REQUIRE(glm::distance(vec(decoded.pointIn), ray.origin + here.ray.tfar * ray.direction) <
+            REQUIRE(decoded.from == static_cast<unsigned>(r.hit.u));
+            REQUIRE(glm::distance(vec(decoded.pointFrom), ray.origin + here.ray.tfar * ray.direction) <
                     8 * resolution + 8 * blur / cosine);
         }
         CHECK(hit > 150);

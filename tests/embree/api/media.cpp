@@ -26,7 +26,7 @@ TEST_CASE("two trees keep their phases apart") {
     EmbreeScene scene(device);
     const unsigned small_id = scene.add(small.embree()), large_id = scene.add(large.embree());
     scene.commit();
-    Carrying carrying{PhasetreeMedium{small_id, none, none, 0}, PhasetreeMedium{large_id, none, none, 0}};
+    Carrying carrying{PhasetreeCarriedPhase{small_id, none, none, 0}, PhasetreeCarriedPhase{large_id, none, none, 0}};
     // Each crossing belongs to one of them, and only its phase changes.
     struct Step {
         unsigned geometry, entered;
@@ -41,22 +41,22 @@ TEST_CASE("two trees keep their phases apart") {
         const RTCRayHit r = trace_one(scene, rayhit(ray), {.context = &carrying.context.context});
         if (!hits(r)) break;
         REQUIRE(step < std::size(steps));
-        PhasetreeMedium& medium = carrying.media[r.hit.geomID == small_id ? 0 : 1];
-        REQUIRE(carrying.state.hit.phaseLeft == medium.phase);
-        CHECK(carrying.state.hit.pointIn[0] == doctest::Approx(steps[step].x).epsilon(0.002));
+        PhasetreeCarriedPhase& entry = carrying.carried[r.hit.geomID == small_id ? 0 : 1];
+        REQUIRE(carrying.state.hit.from == entry.phase);
+        CHECK(carrying.state.hit.pointFrom[0] == doctest::Approx(steps[step].x).epsilon(0.002));
         if (steps[step].x != -0.2f && steps[step].x != 0.2f) {
             CHECK(r.hit.geomID == steps[step].geometry);
-            CHECK(carrying.state.hit.phaseEntered == steps[step].entered);
+            CHECK(carrying.state.hit.to == steps[step].entered);
         } else {
             ++twos;  // both cores coincide: either may come first
         }
-        medium.phase = carrying.state.hit.phaseEntered;
-        ray.origin = vec(carrying.state.hit.pointOut);
+        entry.phase = carrying.state.hit.to;
+        ray.origin = vec(carrying.state.hit.pointTo);
     }
     CHECK(step == std::size(steps));
     CHECK(twos == 4);
-    CHECK(carrying.media[0].phase == 0);
-    CHECK(carrying.media[1].phase == 0);
+    CHECK(carrying.carried[0].phase == 0);
+    CHECK(carrying.carried[1].phase == 0);
 }
 
 TEST_CASE("two instances of one tree keep their phases apart") {
@@ -77,17 +77,17 @@ TEST_CASE("two instances of one tree keep their phases apart") {
     outer.commit();
     // Embree 4 numbers a single instance's primitive 0.
     const unsigned prim = RTC_VERSION_MAJOR >= 4 ? 0 : none;
-    Carrying carrying{PhasetreeMedium{0, id[0], prim, 0}, PhasetreeMedium{0, id[1], prim, 0}};
+    Carrying carrying{PhasetreeCarriedPhase{0, id[0], prim, 0}, PhasetreeCarriedPhase{0, id[1], prim, 0}};
     Ray ray{{-2, 0.01f, 0}, {1, 0, 0}};
     std::vector<std::pair<unsigned, unsigned>> found;
     for (;;) {
         const RTCRayHit r = trace_one(outer, rayhit(ray), {.context = &carrying.context.context});
         if (!hits(r)) break;
         const unsigned which = r.hit.instID[0] == id[0] ? 0 : 1;
-        REQUIRE(carrying.state.hit.phaseLeft == carrying.media[which].phase);
-        carrying.media[which].phase = carrying.state.hit.phaseEntered;
-        found.push_back({which, carrying.state.hit.phaseEntered});
-        ray.origin = vec(carrying.state.hit.pointOut) + glm::vec3(which == 0 ? -0.15f : 0.15f, 0, 0);
+        REQUIRE(carrying.state.hit.from == carrying.carried[which].phase);
+        carrying.carried[which].phase = carrying.state.hit.to;
+        found.push_back({which, carrying.state.hit.to});
+        ray.origin = vec(carrying.state.hit.pointTo) + glm::vec3(which == 0 ? -0.15f : 0.15f, 0, 0);
         REQUIRE(found.size() < 20);
     }
     // Centres at ∓0.15, radii 0.5 and 0.2.

@@ -234,7 +234,7 @@ TEST_CASE("hits that are none, or another geometry's") {
     other.ray.tfar = infinity;
     expect(phasetreeDecodeHit(g, &other, nullptr, &hit), not_now, "is not a valid ray");
     CHECK(phasetreeDecodeHit(g, &good, nullptr, &hit) == PHASETREE_ERROR_NONE);
-    CHECK(hit.phaseEntered == static_cast<unsigned>(good.hit.v));
+    CHECK(hit.to == static_cast<unsigned>(good.hit.v));
 }
 
 TEST_CASE("Embree geometries that are not ours") {

@@ -71,7 +71,7 @@ TEST_CASE("a moving geometry is at each time the one that stands there") {
             REQUIRE(a.hit.u == b.hit.u);
             REQUIRE(glm::dot(na, ray.direction) < 0);
             const PhasetreeHit decoded = moving.geometry.decode(a);
-            REQUIRE(glm::distance(vec(decoded.pointIn), ray.origin + a.ray.tfar * ray.direction) < 16 * resolution);
+            REQUIRE(glm::distance(vec(decoded.pointFrom), ray.origin + a.ray.tfar * ray.direction) < 16 * resolution);
         }
         CHECK(hit > 200);
     }
@@ -116,23 +116,23 @@ TEST_CASE("rays that carry phases go through a moving object and out again") {
     for (const Ray& start : rays(2000, 54)) {
         const float time = std::uniform_real_distribution<float>(0, 1)(random);
         Ray ray = start;
-        Carrying carrying{PhasetreeMedium{moving.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID,
-                                          moving.geometry.phase(arr(ray.origin), time)}};
-        auto& [media, state, context] = carrying;
-        PhasetreeMedium& medium = media.front();
+        Carrying carrying{PhasetreeCarriedPhase{moving.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID,
+                                                moving.geometry.phase(arr(ray.origin), time)}};
+        auto& [carried, state, context] = carrying;
+        PhasetreeCarriedPhase& entry = carried.front();
         int of_this = 0;
         for (;; ++of_this) {
             RTCRayHit r = rayhit(ray);
             r.ray.time = time;
             query<1>(moving.scene, nullptr, r, {.context = &context.context});
             if (!hits(r)) break;
-            REQUIRE(state.hit.phaseLeft == medium.phase);
-            medium.phase = state.hit.phaseEntered;
-            ray.origin = vec(state.hit.pointOut);
+            REQUIRE(state.hit.from == entry.phase);
+            entry.phase = state.hit.to;
+            ray.origin = vec(state.hit.pointTo);
             REQUIRE(of_this < 50);
         }
         crossings += of_this;
-        REQUIRE(medium.phase == 0);
+        REQUIRE(entry.phase == 0);
     }
     CHECK(crossings > 2000);
 }

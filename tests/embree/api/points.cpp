@@ -70,7 +70,7 @@ TEST_CASE("the closest interface of a ball in layers is where geometry says") {
             REQUIRE(c.emptyRadius >= c.distance * (1 - tolerance) - 8 * resolution);
             REQUIRE(glm::distance(vec(c.point), p) == doctest::Approx(c.distance).epsilon(1e-4));
             REQUIRE(true_distance(vec(c.point)) < 4 * resolution);
-            REQUIRE(c.here != c.there);
+            REQUIRE(c.from != c.to);
         }
         // Nothing is closer, so the radius stays as it is.
         const float expected = true_distance(p);
@@ -79,8 +79,8 @@ TEST_CASE("the closest interface of a ball in layers is where geometry says") {
         REQUIRE_FALSE(none.found);
         REQUIRE(none.emptyRadius >= 0.9f * expected * 0.999f);
     }
-    CHECK(placed.geometry.closest({0.9f, 0, 0}, infinity).there == 0);
-    CHECK(placed.geometry.closest({0.9f, 0, 0}, infinity).here == 1);
+    CHECK(placed.geometry.closest({0.9f, 0, 0}, infinity).to == 0);
+    CHECK(placed.geometry.closest({0.9f, 0, 0}, infinity).from == 1);
     CHECK(placed.geometry.closest({30, 40, 0}, infinity).distance == doctest::Approx(49).epsilon(1e-4));
 }
 
@@ -123,8 +123,8 @@ TEST_CASE("the closest interface of an object of many operators: nothing is near
             const glm::vec3 d(normal(random), normal(random), normal(random));
             const unsigned l =
                 label(distances(tree, vec(c.point) + 3 * placed.geometry.statistics().resolution * d)).index;
-            here = here || l == c.here;
-            there = there || l == c.there;
+            here = here || l == c.from;
+            there = there || l == c.to;
         }
         REQUIRE(here);
         REQUIRE(there);

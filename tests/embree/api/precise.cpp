@@ -44,17 +44,17 @@ TEST_CASE("points and rays in double precision are those of C++") {
         CHECK(phases[i] == tracer.evaluator().label(p).index);
         CHECK(distances[i] == tracer.evaluator().safe_distance(p, tracer.value_error()));
         const auto expected = tracer.first_crossing({.origin = p, .direction = vector_of(rays[i].direction)});
-        CHECK(std::isfinite(found[i].tIn) == expected.has_value());
+        CHECK(std::isfinite(found[i].tFrom) == expected.has_value());
         CHECK(found[i].from == phases[i]);
         if (!expected) {
             CHECK(found[i].to == phases[i]);
             continue;
         }
         ++crossings;
-        CHECK(found[i].tIn == expected->t_in);
-        CHECK(found[i].tOut == expected->t_out);
-        CHECK(vector_of(found[i].pointIn) == expected->p_in);
-        CHECK(vector_of(found[i].pointOut) == expected->p_out);
+        CHECK(found[i].tFrom == expected->t_in);
+        CHECK(found[i].tTo == expected->t_out);
+        CHECK(vector_of(found[i].pointFrom) == expected->p_in);
+        CHECK(vector_of(found[i].pointTo) == expected->p_out);
         CHECK(vector_of(found[i].normal) == expected->normal);
         CHECK(found[i].to == expected->to.index);
     }
@@ -70,10 +70,10 @@ TEST_CASE("a walk in double precision chains and ends in the vacuum") {
         PhasetreePreciseCrossing c;
         REQUIRE(phasetreeFindCrossings(tree.get(), &ray, 1, &c, nullptr, nullptr) == none);
         CHECK(c.from == phase);
-        if (!std::isfinite(c.tIn)) break;
+        if (!std::isfinite(c.tFrom)) break;
         CHECK(c.to != c.from);
         phase = c.to;
-        std::copy(c.pointOut, c.pointOut + 3, ray.origin);
+        std::copy(c.pointTo, c.pointTo + 3, ray.origin);
         ray.carried = c.to;
     }
     CHECK(crossings >= 4);
@@ -98,7 +98,7 @@ TEST_CASE("double precision refuses wrong arguments, writes nothing, and can be 
     CHECK(phases[0] == 77);
     CHECK(distances[0] == 77);
     PhasetreePreciseCrossing c{};
-    c.tIn = 77;
+    c.tFrom = 77;
     const auto find = [&](const PhasetreePreciseRay& ray) {
         return phasetreeFindCrossings(t, &ray, 1, &c, nullptr, nullptr);
     };
@@ -111,7 +111,7 @@ TEST_CASE("double precision refuses wrong arguments, writes nothing, and can be 
     const auto cancel = [](void* user) { return *static_cast<bool*>(user); };
     bool is_cancelled = true;
     CHECK(phasetreeFindCrossings(t, &ray, 1, &c, cancel, &is_cancelled) == PHASETREE_ERROR_CANCELLED);
-    CHECK(c.tIn == 77);
+    CHECK(c.tFrom == 77);
     is_cancelled = false;
     CHECK(phasetreeFindCrossings(t, &ray, 1, &c, cancel, &is_cancelled) == none);
     ray.tMax = nan;

@@ -105,7 +105,7 @@ TEST_CASE("threads that make, edit, trace and release their own, and share trees
                 if (!hits(r) || std::abs(r.ray.tfar - expected) > 1e-3f) ++wrong;
                 if (!hits(trace_one(scene, rayhit({{-3, 0.01f, 0}, {1, 0, 0}})))) ++wrong;
                 if (copy.phase({0.7f, 0, 0}) != 1 || own.phase({0, 0, 0}) != 2) ++wrong;
-                if (own.closest({0.7f, 0, 0}, infinity).there == 1) ++wrong;
+                if (own.closest({0.7f, 0, 0}, infinity).to == 1) ++wrong;
                 // An error of this thread's own.
                 if (phasetreeReleaseTree(nullptr) != PHASETREE_ERROR_INVALID_HANDLE) ++wrong;
             } catch (const embree::Error&) {

@@ -55,9 +55,9 @@ TEST_CASE("a hit's place in the tree's space is where the object has it, moved a
             const glm::vec3 expected = ray.origin + r.ray.tfar * ray.direction;
             REQUIRE(glm::distance(vec(there.data()), expected) < 3e-5f);
             const PhasetreeHit decoded = inner.geometry.decode(r, instance.data());
-            const std::array<float, 3> in = inner.geometry.tree_point(arr(vec(decoded.pointIn)), time);
+            const std::array<float, 3> in = inner.geometry.tree_point(arr(vec(decoded.pointFrom)), time);
             REQUIRE(glm::distance(vec(in.data()), expected) < 3e-5f);
-            REQUIRE(glm::distance(glm::dvec3(vec(decoded.pointIn)), to_geometry(expected)) < 1e-4);
+            REQUIRE(glm::distance(glm::dvec3(vec(decoded.pointFrom)), to_geometry(expected)) < 1e-4);
             // By the tree alone: the interface is there.
             REQUIRE(std::abs(tracer.evaluator().distances(vec(there.data()), workspace)[static_cast<int>(r.hit.u)]) <
                     5e-5f);

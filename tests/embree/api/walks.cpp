@@ -13,21 +13,21 @@ namespace {
 
 // Goes on from each hit's bracket with the phase that was entered; what was entered, one after another.
 std::vector<unsigned> walk(RTCScene scene, unsigned geometry, Ray ray, unsigned phase) {
-    Carrying carrying{PhasetreeMedium{geometry, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase}};
-    auto& [media, state, context] = carrying;
-    PhasetreeMedium& medium = media.front();
+    Carrying carrying{PhasetreeCarriedPhase{geometry, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase}};
+    auto& [carried, state, context] = carrying;
+    PhasetreeCarriedPhase& entry = carried.front();
     std::vector<unsigned> entered;
     for (;;) {
         const RTCRayHit r = trace_one(scene, rayhit(ray), {.context = &context.context});
         if (!hits(r)) return entered;
-        REQUIRE(state.hit.phaseLeft == medium.phase);
-        REQUIRE(state.hit.phaseEntered != medium.phase);
-        REQUIRE(state.hit.tIn == r.ray.tfar);
-        REQUIRE(state.hit.tOut >= state.hit.tIn);
+        REQUIRE(state.hit.from == entry.phase);
+        REQUIRE(state.hit.to != entry.phase);
+        REQUIRE(state.hit.tFrom == r.ray.tfar);
+        REQUIRE(state.hit.tTo >= state.hit.tFrom);
         REQUIRE(state.hit.cell == r.hit.primID);
-        medium.phase = state.hit.phaseEntered;
-        ray.origin = vec(state.hit.pointOut);
-        entered.push_back(medium.phase);
+        entry.phase = state.hit.to;
+        ray.origin = vec(state.hit.pointTo);
+        entered.push_back(entry.phase);
         REQUIRE(entered.size() < 200);
     }
 }
@@ -128,9 +128,9 @@ TEST_CASE("a restart at a hit never meets it again and never passes a thin phase
             const RTCRayHit r = trace_one(stock.scene, rayhit(ray, near));
             if (!hits(r)) break;
             const PhasetreeHit hit = stock.geometry.decode(r);
-            REQUIRE(hit.tOut >= near);
-            entered.push_back(hit.phaseEntered);
-            near = hit.tOut;
+            REQUIRE(hit.tTo >= near);
+            entered.push_back(hit.to);
+            near = hit.tTo;
             REQUIRE(entered.size() < 100);
         }
         if (entered == through) ++stock_ok;
@@ -140,16 +140,16 @@ TEST_CASE("a restart at a hit never meets it again and never passes a thin phase
 
 TEST_CASE("a carried phase that is not the one at the start is an interface before the next one") {
     const Placed placed(object_tree(), with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT));
-    Carrying carrying{PhasetreeMedium{placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, 3}};
-    auto& [media, state, context] = carrying;
-    PhasetreeMedium& medium = media.front();
+    Carrying carrying{PhasetreeCarriedPhase{placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, 3}};
+    auto& [carried, state, context] = carrying;
+    PhasetreeCarriedPhase& entry = carried.front();
     const Ray ray{{0.9f, 0, 0}, {1, 0, 0}};  // within the wall of glass
     const RTCRayHit r = trace_one(placed.scene, rayhit(ray), {.context = &context.context});
     REQUIRE(hits(r));
     CHECK(r.ray.tfar < 0.0999f);  // the wall ends at 0.1
-    CHECK(state.hit.phaseLeft == 3);
-    CHECK(state.hit.phaseEntered == 1);
-    medium.phase = PHASETREE_UNKNOWN_PHASE;
+    CHECK(state.hit.from == 3);
+    CHECK(state.hit.to == 1);
+    entry.phase = PHASETREE_UNKNOWN_PHASE;
     const RTCRayHit unknown = trace_one(placed.scene, rayhit(ray), {.context = &context.context});
     REQUIRE(hits(unknown));
     CHECK(unknown.hit.u == 1);
@@ -160,15 +160,15 @@ TEST_CASE("packets carry a phase for each ray, by its id") {
     const Placed placed(object_tree(), with_flags(PHASETREE_GEOMETRY_FLAG_EXTENDED_CONTEXT));
     const auto all = rays_from_within(placed.geometry, 16 * 50, 34);
     for (std::size_t first = 0; first < all.size(); first += 16) {
-        std::array<PhasetreeMedium, 16> media{};
+        std::array<PhasetreeCarriedPhase, 16> carried{};
         std::array<PhasetreeRay, 16> states{};
         RTCRayHit16 packet{};
         alignas(64) int valid[16];
         for (unsigned i = 0; i < 16; ++i) {
             const auto& [ray, phase] = all[first + i];
-            media[i] = {placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase};
-            states[i].media = &media[i];
-            states[i].mediumCount = 1;
+            carried[i] = {placed.id, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, phase};
+            states[i].carried = &carried[i];
+            states[i].carriedCount = 1;
             valid[i] = -1;
             RTCRayHit r = rayhit(ray);
             r.ray.id = 15 - i;  // the order of ids is the application's
@@ -185,8 +185,8 @@ TEST_CASE("packets carry a phase for each ray, by its id") {
             const RTCRayHit r = get<16>(packet, i);
             if (all[first + i].second != 0) REQUIRE(hits(r));
             if (!hits(r)) continue;
-            REQUIRE(by_id[15 - i].hit.phaseLeft == all[first + i].second);
-            REQUIRE(by_id[15 - i].hit.tIn == r.ray.tfar);
+            REQUIRE(by_id[15 - i].hit.from == all[first + i].second);
+            REQUIRE(by_id[15 - i].hit.tFrom == r.ray.tfar);
         }
     }
 }
@@ -219,15 +219,15 @@ TEST_CASE("within an instance rays that carry phases go through it and out, thou
         const glm::vec3 aside = distance * glm::normalize(glm::cross(d, glm::vec3(normal(random), normal(random), 1)));
         const glm::vec3 from = to_world(aside - 3.0f * d);
         Ray ray{from, glm::normalize(to_world(aside) - from)};
-        Carrying carrying{PhasetreeMedium{0, id, RTC_VERSION_MAJOR >= 4 ? 0 : RTC_INVALID_GEOMETRY_ID, 0}};
-        auto& [media, state, context] = carrying;
-        PhasetreeMedium& medium = media.front();
+        Carrying carrying{PhasetreeCarriedPhase{0, id, RTC_VERSION_MAJOR >= 4 ? 0 : RTC_INVALID_GEOMETRY_ID, 0}};
+        auto& [carried, state, context] = carrying;
+        PhasetreeCarriedPhase& entry = carried.front();
         std::vector<unsigned> entered;
         while (hits(trace_one(outer, rayhit(ray), {.context = &context.context}))) {
-            REQUIRE(state.hit.phaseLeft == medium.phase);
-            medium.phase = state.hit.phaseEntered;
-            entered.push_back(medium.phase);
-            ray.origin = to_world(vec(state.hit.pointOut));
+            REQUIRE(state.hit.from == entry.phase);
+            entry.phase = state.hit.to;
+            entered.push_back(entry.phase);
+            ray.origin = to_world(vec(state.hit.pointTo));
             REQUIRE(entered.size() < 50);
         }
         REQUIRE(entered == through);

@@ -9,9 +9,9 @@ namespace phasetree::fuzz {
 void reject_some(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
-        promised(phasetreeGetPhaseLeft(args->hit, args->N, i) != phasetreeGetPhaseEntered(args->hit, args->N, i),
+        promised(phasetreeGetHitFrom(args->hit, args->N, i) != phasetreeGetHitTo(args->hit, args->N, i),
                  "a crossing is a change of phase");
-        if (phasetreeGetPhaseEntered(args->hit, args->N, i) == 1) args->valid[i] = 0;
+        if (phasetreeGetHitTo(args->hit, args->N, i) == 1) args->valid[i] = 0;
     }
 }
 

@@ -9,7 +9,7 @@ namespace phasetree::fuzz {
 
 // A query's context; the phases that its one ray, or all of a packet, carry.
 struct QueryContext {
-    PhasetreeMedium media[2]{};
+    PhasetreeCarriedPhase carried[2]{};
     PhasetreeRay rays[8]{};
     PhasetreeRayContext extended;
 };
@@ -72,15 +72,15 @@ RTCRay Calls::ray() {
 
 void Calls::prepare(QueryContext& context) {
     phasetreeInitRayContext(&context.extended);
-    for (PhasetreeMedium& m : context.media)
+    for (PhasetreeCarriedPhase& m : context.carried)
         m = {c_.below(4), c_.below(2) == 0 ? RTC_INVALID_GEOMETRY_ID : 0u,
              c_.below(2) == 0 ? RTC_INVALID_GEOMETRY_ID : 0u,
              c_.rarely()   ? PHASETREE_UNKNOWN_PHASE
              : c_.rarely() ? c_.byte()
                            : c_.below(4)};
     for (PhasetreeRay& r : context.rays) {
-        r.media = context.media;
-        r.mediumCount = c_.below(3);
+        r.carried = context.carried;
+        r.carriedCount = c_.below(3);
     }
     const unsigned carried = c_.below(4);
     context.extended.rays = carried == 0 ? nullptr : context.rays;

@@ -109,7 +109,7 @@ Color trace(const World& world, RTCRayHit ray) {
         const float cosine =
             (ray.hit.Ng_x * ray.ray.dir_x + ray.hit.Ng_y * ray.ray.dir_y + ray.hit.Ng_z * ray.ray.dir_z) / length;
         light *= 1 - 0.5f * std::pow(1 - std::fabs(cosine), 3.0f);
-        ray.ray.tnear = world.object.decode(ray).tOut;
+        ray.ray.tnear = world.object.decode(ray).tTo;
     }
     return {};
 }

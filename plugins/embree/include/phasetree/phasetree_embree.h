@@ -11,15 +11,15 @@
  * These hold for every call and are not repeated below.
  *
  * Units. A tree has one unit of length, that of its scene file; a "distance" is measured in it. Distances *along a ray*
- * (tIn, tOut) are in units of the length of the ray's direction, like Embree's tnear and tfar. Angles are in degrees.
+ * (tFrom, tTo) are in units of the length of the ray's direction, like Embree's tnear and tfar. Angles are in degrees.
  *
  * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
- * Sides. The two phases at an interface are called phaseLeft and phaseEntered for a hit (PhasetreeHit), from and to in
- * double precision (precise.h), and here and there for the closest interface (point.h). tIn and pointIn are on the
- * first side, tOut and pointOut on the second. RTCHit.Ng points to the side that the ray comes from; the normal of a
- * PhasetreePreciseCrossing points the other way.
+ * Sides. The two phases at an interface are called `from` and `to`: a ray passes from `from` to `to`. The same names
+ * end the members that belong to one side: tFrom and pointFrom are in `from`, tTo and pointTo in `to`. For the closest
+ * interface to a point (PhasetreeClosest), `from` is on the side of that point. RTCHit.Ng points into `from`, against
+ * the ray; the normal of a PhasetreePreciseCrossing points into `to`.
  *
  * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL. If the
  * error is not PHASETREE_ERROR_NONE, nothing has changed, the outputs are untouched, and phasetreeGetErrorMessage()

@@ -17,35 +17,35 @@ inline PhasetreeRay* extended_ray_of(const PhasetreeRayContext* context, unsigne
     return context && id < context->rayCount ? context->rays + id : nullptr;
 }
 
-/// The phase that the ray is in according to the application, of the object that a callback was called for. The
-/// interface identifies an instance by its innermost ID alone (PhasetreeMedium).
+/// The phase that the application says the ray is in, for the geometry that a callback was called for. An instance is
+/// identified by its innermost ID alone (PhasetreeCarriedPhase).
 inline std::optional<Phase> carried(const PhasetreeRay* ray, unsigned geometry, const Context& context) {
     if (!ray) return std::nullopt;
     unsigned level = 0;
 #if RTC_MAX_INSTANCE_LEVEL_COUNT > 1
     if (context.instStackSize > 0) level = context.instStackSize - 1;
 #endif
-    for (unsigned i = 0; i < ray->mediumCount; ++i) {
-        const PhasetreeMedium& medium = ray->media[i];
-        if (medium.geomID != geometry || medium.instID != context.instID[level]) continue;
+    for (unsigned i = 0; i < ray->carriedCount; ++i) {
+        const PhasetreeCarriedPhase& entry = ray->carried[i];
+        if (entry.geomID != geometry || entry.instID != context.instID[level]) continue;
 #if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
-        if (medium.instPrimID != context.instPrimID[level]) continue;
+        if (entry.instPrimID != context.instPrimID[level]) continue;
 #endif
-        if (medium.phase >= PHASETREE_MAX_PHASES) return std::nullopt;
-        return Phase{static_cast<std::uint8_t>(medium.phase)};
+        if (entry.phase >= PHASETREE_MAX_PHASES) return std::nullopt;
+        return Phase{static_cast<std::uint8_t>(entry.phase)};
     }
     return std::nullopt;
 }
 
 /// Writes a crossing for the application, where it is known in geometry space. `length` is that of the ray's direction.
 inline void write_crossing(PhasetreeHit& hit, const Crossing& crossing, unsigned cell, float length) {
-    hit.phaseLeft = crossing.from.index;
-    hit.phaseEntered = crossing.to.index;
+    hit.from = crossing.from.index;
+    hit.to = crossing.to.index;
     hit.cell = cell;
-    hit.tIn = crossing.t_in / length;
-    hit.tOut = crossing.t_out / length;
-    write_point(hit.pointIn, crossing.p_in);
-    write_point(hit.pointOut, crossing.p_out);
+    hit.tFrom = crossing.t_in / length;
+    hit.tTo = crossing.t_out / length;
+    write_point(hit.pointFrom, crossing.p_in);
+    write_point(hit.pointTo, crossing.p_out);
 }
 
 }  // namespace phasetree::embree::api

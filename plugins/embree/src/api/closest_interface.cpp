@@ -25,8 +25,8 @@ PhasetreeClosest closest_in(const Object& object, const Placement& placement, co
     result.emptyRadius = c.empty_radius;
     result.distance = c.distance;
     write_point(result.point, placement.point(c.point));
-    result.here = c.here.index;
-    result.there = c.there.index;
+    result.from = c.here.index;
+    result.to = c.there.index;
     return result;
 }
 

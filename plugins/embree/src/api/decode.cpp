@@ -121,25 +121,25 @@ PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const RTCRayHit* r
                 "rayhit->hit.primID is {}, but the geometry has {} cells; the hit belongs to another geometry",
                 rayhit->hit.primID, object.cells().size()));
         PhasetreeHit found{};
-        found.phaseLeft = checked_phase(rayhit->hit.u, "u");
-        found.phaseEntered = checked_phase(rayhit->hit.v, "v");
+        found.from = checked_phase(rayhit->hit.u, "u");
+        found.to = checked_phase(rayhit->hit.v, "v");
         found.cell = rayhit->hit.primID;
         const auto [ray, placement, blur] = ray_of_hit(data, *rayhit, object_to_world);
         const FlushSubnormals flush;
-        auto c = bracket(object, found.cell, ray, Phase{static_cast<std::uint8_t>(found.phaseLeft)},
-                         Phase{static_cast<std::uint8_t>(found.phaseEntered)});
+        auto c = bracket(object, found.cell, ray, Phase{static_cast<std::uint8_t>(found.from)},
+                         Phase{static_cast<std::uint8_t>(found.to)});
         glm::vec3 in = ray.origin + ray.far * ray.direction, out = in;
-        found.tIn = found.tOut = rayhit->ray.tfar;
+        found.tFrom = found.tTo = rayhit->ray.tfar;
         if (c) {
             move_on(*c, object.cells(), found.cell, ray.direction,
                     std::max(blur * ray.length, ulps * (glm::length(ray.origin) + ray.far)));
             in = c->p_in;
             out = c->p_out;
-            found.tIn = c->t_in / ray.length;
-            found.tOut = c->t_out / ray.length;
+            found.tFrom = c->t_in / ray.length;
+            found.tTo = c->t_out / ray.length;
         }
-        write_point(found.pointIn, data.motion.none() ? in : placement.point(in));
-        write_point(found.pointOut, data.motion.none() ? out : placement.point(out));
+        write_point(found.pointFrom, data.motion.none() ? in : placement.point(in));
+        write_point(found.pointTo, data.motion.none() ? out : placement.point(out));
         *hit = found;
     });
 }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "api/media.hpp"
+#include "api/carried_phases.hpp"
 #include "embree_core/lanes.hpp"
 #include "embree_core/walk.hpp"
 

@@ -59,20 +59,20 @@ std::vector<PreciseRay> checked_rays(const PhasetreePreciseRay* rays, std::size_
 }
 
 PhasetreePreciseCrossing returned(const std::optional<PreciseCrossing>& found, Phase around) {
-    PhasetreePreciseCrossing to{};
+    PhasetreePreciseCrossing result{};
     if (!found) {
-        to.tIn = to.tOut = std::numeric_limits<double>::infinity();
-        to.from = to.to = around.index;
-        return to;
+        result.tFrom = result.tTo = std::numeric_limits<double>::infinity();
+        result.from = result.to = around.index;
+        return result;
     }
-    to.tIn = found->t_in;
-    to.tOut = found->t_out;
-    copy(found->p_in, to.pointIn);
-    copy(found->p_out, to.pointOut);
-    copy(found->normal, to.normal);
-    to.from = found->from.index;
-    to.to = found->to.index;
-    return to;
+    result.tFrom = found->t_in;
+    result.tTo = found->t_out;
+    copy(found->p_in, result.pointFrom);
+    copy(found->p_out, result.pointTo);
+    copy(found->normal, result.normal);
+    result.from = found->from.index;
+    result.to = found->to.index;
+    return result;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ extern "C" {
  * inside it. */
 #define PHASETREE_MAX_PHASES 64
 #define PHASETREE_VACUUM 0u
-/* The phase is not known; see PhasetreeRay.media. */
+/* The phase is not known; see PhasetreeRay.carried. */
 #define PHASETREE_UNKNOWN_PHASE 0xffffffffu
 
 /* Opaque, reference-counted handles. */

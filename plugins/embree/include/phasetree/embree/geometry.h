@@ -27,7 +27,7 @@ typedef enum PhasetreeGeometryFlags {
     /* The RTCGeometry has one primitive per cell, one of the boxes into which the object is divided (see
      * PhasetreeGeometryOptions.buildQuality). They are in the BVH of the application's scene. Without this flag, there
      * is a single primitive with a scene of its own. Rays return the same hits up to a third faster, in packets or
-     * alone, whether or not they carry phases (PhasetreeRay.media). The restrictions are:
+     * alone, whether or not they carry phases (PhasetreeRay.carried). The restrictions are:
      *   - NO_FILTERS is required, because a filter function would see some crossings twice; POINT_QUERY is not allowed;
      *   - all phases must be shown;
      *   - the object can only be moved by instances.

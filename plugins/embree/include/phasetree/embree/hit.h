@@ -8,25 +8,27 @@
 extern "C" {
 #endif
 
-/* A crossing: a change of phase along a ray, bracketed by two points that are each proven to be in their phase.
+/* A crossing: a change of phase along a ray. It lies between two points on the ray, its bracket: pointFrom is proven to
+ * be in the phase `from`, and pointTo in the phase `to`.
  *
  * The bracket is at most one resolution long, or up to 2.75 resolutions where rounding puts a third phase between
- * abutting solids. phasetreeDecodeHit lengthens it by less than two resolutions. A reflected ray continues from pointIn
- * in phaseLeft, a transmitted ray from pointOut in phaseEntered. Do not offset the point along a normal: a ray that
- * carries its phase (PhasetreeRay) does not hit this crossing again. */
+ * abutting solids. phasetreeDecodeHit lengthens it by less than two resolutions.
+ *
+ * Continue a reflected ray from pointFrom, and a transmitted ray from pointTo. Do not offset either point along a
+ * normal: a ray that carries its phase (PhasetreeRay) does not hit this crossing again. */
 typedef struct PhasetreeHit {
-    unsigned int phaseLeft, phaseEntered;
+    unsigned int from, to; /* the phases before and after the crossing */
     unsigned int cell;
-    float tIn, tOut;               /* on the ray: tIn is in phaseLeft, tOut in phaseEntered */
-    float pointIn[3], pointOut[3]; /* in geometry space */
+    float tFrom, tTo;               /* of pointFrom and pointTo, along the ray */
+    float pointFrom[3], pointTo[3]; /* in geometry space */
 } PhasetreeHit;
 
-/* Returns the phase that the ray leaves, or enters, at hit i of N. Needs none of Embree's accessors, which are C++
- * only, so it also works in C filter functions. Valid only for hits of a phasetree geometry. */
-static inline unsigned int phasetreeGetPhaseLeft(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+/* Return the phases before (`from`) and after (`to`) hit i of N. Unlike Embree's accessors, which are C++ only, these
+ * functions also work in C filter functions. Valid only for hits of a phasetree geometry. */
+static inline unsigned int phasetreeGetHitFrom(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[3 * N + i];
 }
-static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
+static inline unsigned int phasetreeGetHitTo(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[4 * N + i];
 }
 
@@ -39,15 +41,15 @@ static inline unsigned int phasetreeGetPhaseEntered(const struct RTCHitN* hits, 
  *                3×4 column-major; the product of all transforms for nested instances. NULL if hit.instID[0] is
  *                RTC_INVALID_GEOMETRY_ID.
  *
- * pointIn and pointOut are in geometry space; apply objectToWorld to get world coordinates.
+ * pointFrom and pointTo are in geometry space; apply objectToWorld to get world coordinates.
  *
  * The bracket is recomputed from a few samples along the ray around tfar, using the short program of the hit's cell.
  * This takes no longer than tracing the ray. If primID does not name that cell, the whole object is evaluated, which
  * can take many times as long.
  *
- * tOut and pointOut are moved forward by less than two resolutions, so that the same ray with tnear = tOut is certain
- * to start in phaseEntered, despite rounding. An application that does not carry phases can therefore continue from
- * tOut. It does not hit this crossing again, and does not skip the next one if phases are thicker along the ray than
+ * tTo and pointTo are moved forward by less than two resolutions, so that the same ray with tnear = tTo is certain
+ * to start in to, despite rounding. An application that does not carry phases can therefore continue from
+ * tTo. It does not hit this crossing again, and does not skip the next one if phases are thicker along the ray than
  * about five resolutions. */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
@@ -55,28 +57,27 @@ PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, cons
 /* Returns the position of a hit in the tree's own space, with motion and instances undone: the point at which to
  * evaluate solid textures, so that they move with the object. This is the ray's point at tfar, up to rounding; nothing
  * is decoded or evaluated, and phases are ignored. rayhit and objectToWorld are as for phasetreeDecodeHit. For other
- * points, such as a decoded hit's pointIn and pointOut, use phasetreeGetTreePoint. */
+ * points, such as a decoded hit's pointFrom and pointTo, use phasetreeGetTreePoint. */
 PHASETREE_API PhasetreeError phasetreeGetHitTreePoint(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                       const float* objectToWorld, float treePoint[3]);
 
-/* A phase that a ray carries (not a participating medium): the ray starts in `phase` of the geometry geomID inside the
- * instance instID (and instPrimID, in Embree 4). instID is RTC_INVALID_GEOMETRY_ID without an instance, and the
- * innermost instance if they are nested. */
-typedef struct PhasetreeMedium {
+/* The phase of one geometry in which a ray starts. instID (and in Embree 4 instPrimID) name the instance of the
+ * geometry: the innermost one if instances are nested, and RTC_INVALID_GEOMETRY_ID without an instance. */
+typedef struct PhasetreeCarriedPhase {
     unsigned int geomID, instID, instPrimID;
     unsigned int phase;
-} PhasetreeMedium;
+} PhasetreeCarriedPhase;
 
 /* Per-ray input and output of a query with a PhasetreeRayContext. */
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
-     * phase at the ray's start, as with an ordinary context. If the carried phase is wrong by more than rounding, a
-     * crossing from it to the real phase is reported: at the ray's start if that is in a cell, otherwise where the ray
-     * enters the next cell. Owned by the application; not modified. */
-    const PhasetreeMedium* media;
-    unsigned int mediumCount;
-    /* Out: the crossing of the hit that a phasetree geometry reported last during the query. If the closest hit, which
-     * the query returns, is on a phasetree geometry, this is its crossing; its normal is in RTCHit. Unchanged by
+     * phase at the ray's start, as with an ordinary context. If a carried phase is wrong by more than rounding, the
+     * library reports a crossing from it to the real phase. This crossing is at the ray's start if that is in a cell,
+     * otherwise where the ray enters the next cell. Owned by the application; not modified. */
+    const PhasetreeCarriedPhase* carried;
+    unsigned int carriedCount;
+    /* Out: the crossing that belongs to the closest hit, if that hit is on a phasetree geometry. Its normal is in
+     * RTCHit. If another geometry is closer, this is a crossing that was found and then discarded. Unchanged by
      * occlusion queries. */
     PhasetreeHit hit;
 } PhasetreeRay;

@@ -80,14 +80,14 @@ PHASETREE_API PhasetreeError phasetreeGetDistancesN(PhasetreeGeometry geometry, 
 typedef struct PhasetreeClosest {
     bool found;
     /* No interface is closer than emptyRadius, guaranteed. If `found`, `point` is within one resolution of an interface
-     * between the phases `here` and `there`, and `distance` is its distance from the query point. If not, `distance` is
-     * the radius requested, and `point`, `here` and `there` are not set. In that case, emptyRadius is usually at least
+     * between the phases `from` and `to`, and `distance` is its distance from the query point. If not, `distance` is
+     * the radius requested, and `point`, `from` and `to` are not set. In that case, emptyRadius is usually at least
      * that radius. It is less if the search ended early (see phasetreeFindClosestInterface), or could not exclude an
      * interface in a box of about the resolution's size. */
     float emptyRadius;
     float distance;
     float point[3];
-    unsigned int here, there; /* `here` is the phase on the side of the query point, as far as it can be determined */
+    unsigned int from, to; /* `from` is on the side of the query point, as far as that can be determined */
 } PhasetreeClosest;
 
 /* Finds the closest interface to a point, between any phases that are not both opaque (PhasetreeGeometryOptions).

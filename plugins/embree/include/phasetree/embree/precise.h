@@ -38,17 +38,17 @@ typedef struct PhasetreePreciseRay {
     unsigned int carried; /* the phase that the ray is in; PHASETREE_UNKNOWN_PHASE for the one at its origin */
 } PhasetreePreciseRay;
 
-/* The next change of phase along a ray. If there is none, tIn and tOut are infinite, both phases are the one that the
+/* The next change of phase along a ray. If there is none, tFrom and tTo are infinite, both phases are the one that the
  * ray is in, and all other members are 0. */
 typedef struct PhasetreePreciseCrossing {
-    double tIn, tOut;      /* of pointIn and pointOut, in units of the length of the ray's direction */
-    double pointIn[3];     /* in `from`; a reflected ray starts here and carries `from` */
-    double pointOut[3];    /* in `to`; the ray goes on from here and carries `to` */
+    double tFrom, tTo;     /* of pointFrom and pointTo, in units of the length of the ray's direction */
+    double pointFrom[3];   /* in `from`; a reflected ray starts here and carries `from` */
+    double pointTo[3];     /* in `to`; the ray goes on from here and carries `to` */
     double normal[3];      /* of unit length, from `from` into `to`; RTCHit.Ng points the other way */
     unsigned int from, to; /* the phases before and after the crossing */
 } PhasetreePreciseCrossing;
 
-/* Finds the next crossing of each ray. A walk that restarts at pointOut and carries `to` repeats no crossing, and `to`
+/* Finds the next crossing of each ray. A walk that restarts at pointTo and carries `to` repeats no crossing, and `to`
  * of each is `from` of the next. Phases thinner along the ray than the precise resolution may be missed.
  *
  * crossings         receives `count` crossings.
