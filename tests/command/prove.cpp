@@ -89,7 +89,7 @@ TEST_CASE("without statements, phases are somewhere and in one piece, or not") {
     CHECK(o.code == 0);
     CHECK(has(o.out, R"(proved: {"present":{"phase":"glass"}})"));
     CHECK(has(o.out, R"(refuted: {"connected":{"phase":"glass"}}: it has at least 2 pieces; see "glass" at ()"));
-    CHECK(has(o.out, R"(refuted: {"present":{"phase":"iron"}}: the phase is nowhere)"));
+    CHECK(has(o.out, R"(refuted: {"present":{"phase":"iron"}}: no point has this phase)"));
 }
 
 TEST_CASE("measures use the unit and the densities of the scene, and options override them") {

@@ -19,8 +19,8 @@ namespace phasetree::measuring {
 
 namespace {
 
-Proof nowhere() {
-    return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
+Proof absent() {
+    return {Verdict::refuted, "no point has this phase", {}, 0, {}};
 }
 
 // Groups the leaves for which `is_wanted` holds. Leaves that share a face, or at least a point, are in the same group.
@@ -239,7 +239,7 @@ void unite(Cube& all, const Cube& other) {
 
 }  // namespace
 
-bool Evidence::is_nowhere(Phase phase) const {
+bool Evidence::is_absent(Phase phase) const {
     return std::ranges::none_of(octree.leaves, [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase.index); });
 }
 
@@ -262,14 +262,14 @@ Witness Evidence::middle_of(const OctreeLeaf& leaf) const {
 
 Proof decide(const Evidence& e, const IsPresent& s) {
     if (const auto points = e.points_of(PhaseSet::of(s.phase))) return {Verdict::proved, "", *points, 0, {}};
-    if (e.is_nowhere(s.phase)) return nowhere();
+    if (e.is_absent(s.phase)) return absent();
     return {};
 }
 
 Proof decide(const Evidence& e, const IsConnected& s) {
     const int phase = s.phase.index;
     const auto is_in = [&](const OctreeLeaf& leaf) { return leaf.is_only(phase); };
-    if (e.is_nowhere(s.phase)) return nowhere();
+    if (e.is_absent(s.phase)) return absent();
     const auto first = largest(e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]); });
     if (!first) return {};
     const auto may_meet = [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase); };
@@ -295,11 +295,11 @@ Proof decide(const Evidence& e, const IsConnected& s) {
 }
 
 Proof decide(const Evidence& e, const IsClosed& s) {
-    bool is_one_nowhere = false;
+    bool is_one_absent = false;
     const PhaseSet all = s.walls | s.inside;
-    for_each_phase(
-        all.bits, [&](int i) { is_one_nowhere = is_one_nowhere || e.is_nowhere(Phase{static_cast<std::uint8_t>(i)}); });
-    if (is_one_nowhere) return {Verdict::refuted, "one of the phases is nowhere", {}, 0, {}};
+    for_each_phase(all.bits,
+                   [&](int i) { is_one_absent = is_one_absent || e.is_absent(Phase{static_cast<std::uint8_t>(i)}); });
+    if (is_one_absent) return {Verdict::refuted, "no point has one of the phases", {}, 0, {}};
     if (e.points_of(all) && is_separated(e.octree, s.walls.bits, s.inside.bits))
         return {Verdict::proved, "", {}, 0, {}};
     const std::vector<std::uint32_t> path = leak(e.octree, s.walls.bits, s.inside.bits);
@@ -315,7 +315,7 @@ Proof decide(const Evidence& e, const IsClosed& s) {
 }
 
 Proof decide(const Evidence& e, const AreApart& s) {
-    if (e.is_nowhere(s.first) || e.is_nowhere(s.second)) return nowhere();
+    if (e.is_absent(s.first) || e.is_absent(s.second)) return absent();
     const auto may_meet = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_possible(p.index); }; };
     const auto is_in = [](Phase p) { return [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); }; };
     // Distances of boxes are rounded. Boxes that do not touch are at least one side of the smallest boxes apart.
@@ -334,7 +334,7 @@ Proof decide(const Evidence& e, const AreApart& s) {
 }
 
 Proof decide(const Evidence& e, const AreTouching& s) {
-    if (e.is_nowhere(s.first) || e.is_nowhere(s.second)) return nowhere();
+    if (e.is_absent(s.first) || e.is_absent(s.second)) return absent();
     if (const auto points = contact(e, s.first, s.second)) return {Verdict::proved, "", *points, 0, {}};
     if (decide(e, AreApart{s.first, s.second, 0}).verdict == Verdict::proved)
         return {Verdict::refuted, "they do not touch", {}, 0, {}};

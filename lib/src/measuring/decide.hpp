@@ -15,7 +15,7 @@ struct Evidence {
     const std::function<bool()>& is_stopped;
 
     /// Whether the phase is certainly in no box.
-    bool is_nowhere(Phase) const;
+    bool is_absent(Phase) const;
     /// A point of each of these phases; nullopt if one of them has no known point.
     std::optional<std::vector<Witness>> points_of(PhaseSet) const;
     /// The point in the middle of a box that is certainly in one phase.

@@ -51,7 +51,7 @@ class Thickness {
     }
 
     Proof run() {
-        if (may_meet_.empty()) return {Verdict::refuted, "the phase is nowhere", {}, 0, {}};
+        if (may_meet_.empty()) return {Verdict::refuted, "no point has this phase", {}, 0, {}};
         prove(may_meet_);
         if (e_.is_stopped()) return {};
         if (open_.empty() && e_.points_of(PhaseSet::of(phase_))) return {Verdict::proved, "", {}, 0, {}};

@@ -298,7 +298,7 @@ class ThicknessSearch {
     }
     // First upwards, until a thickness is refuted. Then both ends move towards each other as far as these boxes allow.
     void search(const Evidence& e, WallThickness& w) {
-        if (e.is_nowhere(w.phase)) return;
+        if (e.is_absent(w.phase)) return;
         constexpr double growth = 1.4;
         const double longest = 2 * e.octree.whole().half_diagonal();
         for (double t = w.low > 0 ? w.low * growth : 2 * e.octree.side(); t < std::min(w.high, longest); t *= growth)
