@@ -24,24 +24,25 @@ typedef enum PhasetreeGeometryFlags {
     /* Registers phasetreePointQueryFunction with the geometry. Every rtcPointQuery that can reach the geometry must
      * then have a PhasetreePointQuery as its user pointer. */
     PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2,
-    /* The RTCGeometry has one primitive per cell, one of the boxes into which the object is divided (see
-     * PhasetreeGeometryOptions.buildQuality). They are in the BVH of the application's scene. Without this flag, there
-     * is a single primitive with a scene of its own. Rays return the same hits up to a third faster, in packets or
-     * alone, whether or not they carry phases (PhasetreeRay.carried). The restrictions are:
+    /* Makes each cell a primitive of the RTCGeometry. Cells are the boxes into which the object is divided (see
+     * PhasetreeGeometryOptions.buildQuality). The BVH of the application's scene then contains the cells. Without this
+     * flag, the RTCGeometry has a single primitive, which traces rays in an inner scene. Hits are the same with both.
+     * With this flag, rays are up to a third faster, in packets or alone, whether or not they carry phases
+     * (PhasetreeRay.carried). The restrictions are:
      *   - NO_FILTERS is required, because a filter function would see some crossings twice; POINT_QUERY is not allowed;
      *   - all phases must be shown;
      *   - the object can only be moved by instances.
-     * The number of primitives in the application's scene grows by the number of cells, and changes with
-     * phasetreeSetGeometryTree. The geometry's own scene is still built when it is first needed: by
-     * phasetreeFindClosestInterface, or by phasetreeDecodeHit for a hit whose primID does not name its cell. */
+     * phasetreeSetGeometryTree changes the number of primitives. The inner scene is still built when it is first
+     * needed: by phasetreeFindClosestInterface, or by phasetreeDecodeHit for a hit whose primID does not name its
+     * cell. */
     PHASETREE_GEOMETRY_FLAG_CELL_PRIMITIVES = 1 << 3
 } PhasetreeGeometryFlags;
 
 /* Options of phasetreeNewGeometry and phasetreeSetGeometryTree. Initialise them with phasetreeInitGeometryOptions. */
 typedef struct PhasetreeGeometryOptions {
     unsigned int flags; /* PhasetreeGeometryFlags; ignored by phasetreeSetGeometryTree */
-    /* The length, in the tree's unit, that the bracket around a crossing normally does not exceed (see PhasetreeHit for
-     * the exception). A phase that is thinner along a ray may be missed. 0 selects 2·10⁻⁶ of the diagonal of the tree's
+    /* The maximum length of the bracket around a crossing, in the tree's unit (PhasetreeHit describes an exception). A
+     * ray may miss a phase that is thinner than this along the ray. 0 selects 2·10⁻⁶ of the diagonal of the tree's
      * bounds, or 10⁻⁶ of their largest coordinate if that is more. All values are clamped: to at most a hundredth of
      * the diagonal, then to at least 2.5·10⁻⁷ of the diagonal or of the largest coordinate, whichever is more.
      * phasetreeGetGeometryStatistics returns the resolution in use. If it is not the one requested,
@@ -116,22 +117,22 @@ static inline void phasetreeInitGeometryOptions(PhasetreeGeometryOptions* option
  * A hit is a change of phase along a ray. Embree's members of the ray and the hit are set as follows.
  *     tfar         Where the ray leaves the phase that it is in.
  *     Ng           The interface's unit normal in geometry space. It points to the side that the ray comes from.
- *     u, v         The index of the phase left, and of the phase entered.
+ *     u, v         The indices of the phases before (`from`) and after (`to`) the crossing.
  *     primID       The cell.
  *     geomID, instID, instPrimID   As usual.
  * A ray starts in the phase found at tnear, unless its context carries a different one (PhasetreeRayContext).
  * Directions may have any length. Rays whose origin or direction is not finite hit nothing.
  *
  * Filter functions of the RTCGeometry and, in Embree 3, of the context are called for the crossings of shown phases on
- * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, each crossing leaves
- * the phase that the previous one entered. Otherwise, crossings that are not shown may lie between them.
- * geometryUserPtr is the pointer of phasetreeSetGeometryUserData. Embree 4 does not pass a filter function in the
- * arguments of a query to user geometries; pass it as PhasetreeRayContext.filter instead.
+ * the ray, once each and in order along the ray, until one is accepted. If all phases are shown, `from` of each
+ * crossing is `to` of the previous one. Otherwise, there may be hidden crossings between them. geometryUserPtr is the
+ * pointer of phasetreeSetGeometryUserData. Embree 4 does not pass a filter function in the arguments of a query to user
+ * geometries; pass it as PhasetreeRayContext.filter instead.
  *
- * OWNERSHIP. Embree does not notify anyone when it destroys a geometry. Therefore *the handle must live as long as any
- * scene that contains the RTCGeometry is committed or traced*; release it after the scene. If it is freed earlier, the
- * RTCGeometry becomes empty: nothing is hit, and nothing crashes unless one of its callbacks is running at that moment.
- * The handle holds one reference to the RTCGeometry; Embree's scenes hold their own. */
+ * OWNERSHIP. *Release the handle after the last commit and trace of every scene that contains the RTCGeometry.* Embree
+ * does not notify the library when it destroys a geometry. If the handle is freed earlier, the RTCGeometry becomes
+ * empty: rays do not hit it. This is safe unless one of its callbacks is running at that moment. The handle holds one
+ * reference to the RTCGeometry; Embree's scenes hold their own. */
 PHASETREE_API PhasetreeError phasetreeNewGeometry(unsigned int apiVersion, RTCDevice device, PhasetreeTree tree,
                                                   const PhasetreeGeometryOptions* options, PhasetreeGeometry* geometry);
 
@@ -160,8 +161,8 @@ PHASETREE_API PhasetreeError phasetreeGetGeometryFromEmbree(RTCGeometry embreeGe
 PHASETREE_API PhasetreeError phasetreeSetGeometryUserData(PhasetreeGeometry geometry, void* userPtr);
 PHASETREE_API PhasetreeError phasetreeGetGeometryUserData(PhasetreeGeometry geometry, void** userPtr);
 
-/* Stores, for each phase, a number and a pointer of the application's, such as its own material for that phase. They
- * are initially 0 and NULL. The library never uses them. They belong to the phase index, 0 … PHASETREE_MAX_PHASES − 1,
+/* Stores a number and a pointer of the application for each phase, such as its material. They are initially 0 and NULL,
+ * and the library never uses them. They belong to the phase index, 0 … PHASETREE_MAX_PHASES − 1,
  * whether or not the tree has that phase, and they survive phasetreeSetGeometryTree. Either output may be NULL. Setting
  * them is exclusive. */
 PHASETREE_API PhasetreeError phasetreeSetGeometryPhaseUserData(PhasetreeGeometry geometry, unsigned int phase,
@@ -243,10 +244,10 @@ typedef struct PhasetreeGeometryStatistics {
 PHASETREE_API PhasetreeError phasetreeGetGeometryStatistics(PhasetreeGeometry geometry,
                                                             PhasetreeGeometryStatistics* statistics);
 
-/* Returns a warning in UTF-8 if the tree is so far from the origin, for its size, that 32-bit coordinates are coarse,
- * or if the resolution in use is not the one requested; otherwise "". The string is valid until
- * phasetreeSetGeometryTree is called or the geometry is freed. A tree that is too far away to be traced at all is
- * rejected with PHASETREE_ERROR_INVALID_TREE. */
+/* Returns a warning in UTF-8, or "" if there is none. There is a warning in two cases: the tree is so far from the
+ * origin, relative to its size, that 32-bit coordinates are coarse; or the resolution in use is not the one requested.
+ * The string is valid until phasetreeSetGeometryTree is called or the geometry is freed. (A tree that is too far away
+ * to be traced is rejected with PHASETREE_ERROR_INVALID_TREE.) */
 PHASETREE_API PhasetreeError phasetreeGetGeometryWarning(PhasetreeGeometry geometry, const char** warning);
 
 #if defined(__cplusplus)

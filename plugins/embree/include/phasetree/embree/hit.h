@@ -32,9 +32,9 @@ static inline unsigned int phasetreeGetHitTo(const struct RTCHitN* hits, unsigne
     return (unsigned int)((const float*)hits)[4 * N + i];
 }
 
-/* Decodes the hit of an ordinary ray query: finds the bracket of the crossing, and moves its far end forward a little
- * (see below). Decode a hit to continue a ray from it. To shade a surface, RTCHit.u and v (the two phases) and Ng (the
- * normal) are enough.
+/* Decodes the hit of an ordinary ray query: finds the bracket of the crossing, and moves its far end slightly forward
+ * (see below). Decode a hit only to continue a ray from it. To shade a surface, RTCHit.u and v (the two phases) and Ng
+ * (the normal) are enough.
  *
  * rayhit         as left by the query: the ray's origin, direction, tnear, time and tfar, and a hit of this geometry.
  * objectToWorld  the transform of the instance through which the ray hit the geometry, at the ray's time: 12 floats,
@@ -47,10 +47,10 @@ static inline unsigned int phasetreeGetHitTo(const struct RTCHitN* hits, unsigne
  * This takes no longer than tracing the ray. If primID does not name that cell, the whole object is evaluated, which
  * can take many times as long.
  *
- * tTo and pointTo are moved forward by less than two resolutions, so that the same ray with tnear = tTo is certain
- * to start in to, despite rounding. An application that does not carry phases can therefore continue from
- * tTo. It does not hit this crossing again, and does not skip the next one if phases are thicker along the ray than
- * about five resolutions. */
+ * tTo and pointTo are moved forward by less than two resolutions. The same ray with tnear = tTo is then certain to
+ * start in `to`, despite rounding, so an application that does not carry phases can continue from tTo. It does not hit
+ * this crossing again, and does not skip the next one if phases are thicker along the ray than about five resolutions.
+ */
 PHASETREE_API PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const struct RTCRayHit* rayhit,
                                                 const float* objectToWorld, PhasetreeHit* hit);
 

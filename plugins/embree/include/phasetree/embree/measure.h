@@ -1,6 +1,7 @@
-/* Measuring and proving: volumes, masses and moments of a tree's phases as certain intervals, and statements about the
- * tree that are proved or refuted. Neither needs Embree. See phasetree_embree.h for the conventions, and
- * phasetree/measuring/measure.hpp and prove.hpp for what is guaranteed. */
+/* Measuring and proving. phasetreeMeasureTree computes volumes, masses and moments of a tree's phases, each as an
+ * interval that is guaranteed to contain the value. phasetreeProveStatements proves or refutes statements about a tree.
+ * Neither needs Embree. See phasetree_embree.h for the conventions, and phasetree/measuring/measure.hpp and prove.hpp
+ * for the guarantees. */
 #ifndef PHASETREE_EMBREE_MEASURE_H
 #define PHASETREE_EMBREE_MEASURE_H
 
@@ -15,7 +16,7 @@ extern "C" {
 /* Both calls use the threads of TBB's default arena. Results do not depend on their number, unless time ends a call or
  * the application cancels it. Lengths are in the tree's unit, volumes in this unit cubed. */
 
-/* A number that certainly lies between low and high, and an estimate of it. */
+/* A number that is guaranteed to lie between low and high, and an estimate of it. */
 typedef struct PhasetreeMeasured {
     double low, high, estimate;
 } PhasetreeMeasured;
@@ -30,7 +31,7 @@ typedef struct PhasetreeBody {
     PhasetreeMeasured inertia[6];
 } PhasetreeBody;
 
-/* What is known of a phase. */
+/* The measures of a phase. */
 typedef struct PhasetreeMeasuredPhase {
     PhasetreeBody body;
     /* The sides of the smallest box around the phase. Infinite intervals if the phase may be empty. */
@@ -56,7 +57,7 @@ typedef struct PhasetreeMeasureOptions {
     /* A density for each of the tree's phases, the vacuum included, in units of mass per cubed unit of length; NaN for
      * a phase without one. NULL if no phase has one. The densities in a scene file are not used. */
     const double* densities;
-    /* Polled from any thread; return true to stop with what is known by then. May be NULL. */
+    /* Polled from any thread; return true to stop with the results so far. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
     /* Receives an estimate of the fraction done, increasing up to 1. Called from one thread at a time. May be NULL. */
@@ -79,9 +80,9 @@ static inline void phasetreeInitMeasureOptions(PhasetreeMeasureOptions* options)
 /* Measures all phases of a tree.
  *
  * options  NULL for the defaults.
- * phases   receives one element for each of the tree's phases (phasetreeGetTreePhaseCount). The first one, that of the
- *          vacuum, has only a volume: that of the vacuum in a box around the object. A phase that the tree does not
- *          use has the volume 0.
+ * phases   receives one element for each of the tree's phases (phasetreeGetTreePhaseCount). For the vacuum, only the
+ *          volume is set, to that of the vacuum in a box around the object. A phase that the tree does not use has the
+ *          volume 0.
  * all      receives the phases with densities as one body; all members are 0 if there are none. May be NULL.
  * end      receives the reason for the end. May be NULL.
  *
@@ -91,17 +92,17 @@ PHASETREE_API PhasetreeError phasetreeMeasureTree(PhasetreeTree tree, const Phas
                                                   PhasetreeMeasuredPhase* phases, PhasetreeBody* all,
                                                   PhasetreeMeasureEnd* end);
 
-/* Kinds of statements. All of them require their phases to be somewhere. */
+/* Kinds of statements. All of them require that each of their phases has points. */
 typedef enum PhasetreeStatementKind {
-    PHASETREE_STATEMENT_PRESENT = 0,       /* the phase is somewhere */
+    PHASETREE_STATEMENT_PRESENT = 0,       /* some point has this phase */
     PHASETREE_STATEMENT_CONNECTED = 1,     /* the phase is in one piece */
-    PHASETREE_STATEMENT_CLOSED = 2,        /* every path from `inside` to the space around crosses one of `phases` */
+    PHASETREE_STATEMENT_CLOSED = 2,        /* every path from `inside` to the outside crosses one of `phases` */
     PHASETREE_STATEMENT_APART = 3,         /* the two phases do not touch, and are at least atLeast apart */
     PHASETREE_STATEMENT_TOUCHING = 4,      /* the two phases touch somewhere */
     PHASETREE_STATEMENT_WALL = 5,          /* the phase is nowhere thinner than atLeast */
     PHASETREE_STATEMENT_VOLUME = 6,        /* the sum of volumes times weights is from atLeast to atMost */
-    PHASETREE_STATEMENT_NO_DEAD_NODES = 7, /* leaving out any node changes the phase of some point */
-    /* the box of the tree's nodes is at most atMost times as long along each axis as the object */
+    PHASETREE_STATEMENT_NO_DEAD_NODES = 7, /* removing any node changes the phase of some point */
+    /* the bounding box computed from the tree's nodes is at most atMost times as long along each axis as the object */
     PHASETREE_STATEMENT_TIGHT_BOUNDS = 8
 } PhasetreeStatementKind;
 
@@ -109,13 +110,13 @@ typedef enum PhasetreeStatementKind {
  * ignored. */
 typedef struct PhasetreeStatement {
     PhasetreeStatementKind kind;
-    /* The phases that the statement is about: one for PRESENT, CONNECTED and WALL, two for APART and TOUCHING, any
-     * number for CLOSED, whose walls they are, and for VOLUME. */
+    /* The phases that the statement is about: one for PRESENT, CONNECTED and WALL; two for APART and TOUCHING; any
+     * number for VOLUME and for CLOSED, where they are the walls. */
     PhasetreePhaseSet phases;
     PhasetreePhaseSet inside; /* CLOSED: the phases inside the walls */
     double atLeast, atMost;   /* APART and WALL: a distance, atLeast; VOLUME: both limits; TIGHT_BOUNDS: atMost */
-    /* WALL: how far from a point of the phase the centre of a ball of diameter atLeast that lies in the phase may be;
-     * 0 for atLeast, otherwise more than half of it. */
+    /* WALL: every point of the phase must be within this distance of the centre of a ball of diameter atLeast that lies
+     * in the phase. 0 selects atLeast; other values must be more than half of it. */
     double reach;
     /* VOLUME: a weight, such as a density, for each of the tree's phases; not negative. NULL for 1. */
     const double* weights;
@@ -140,7 +141,7 @@ typedef enum PhasetreeVerdict {
     PHASETREE_VERDICT_UNDECIDED = 2
 } PhasetreeVerdict;
 
-/* A point, and the phase that certainly is there. */
+/* A point, and its phase, which is proven. */
 typedef struct PhasetreeWitness {
     float point[3];
     unsigned int phase;
@@ -149,7 +150,7 @@ typedef struct PhasetreeWitness {
 /* The size of PhasetreeProof.reason, including the null terminator. */
 #define PHASETREE_REASON_BYTES 128
 
-/* What is known of a statement. */
+/* The verdict on a statement, and its reasons. */
 typedef struct PhasetreeProof {
     PhasetreeVerdict verdict;
     char reason[PHASETREE_REASON_BYTES]; /* why, in words; cut off if it is longer. "" if there is nothing to add */
@@ -163,9 +164,9 @@ typedef struct PhasetreeProof {
 typedef struct PhasetreeProveOptions {
     /* The side of the smallest boxes; smaller features stay undecided. 0 selects 1/256 of the longest side. */
     double resolution;
-    double seconds;  /* what is open after this time stays undecided; HUGE_VAL for no limit. Positive */
-    size_t maxBoxes; /* the same for the number of boxes of one division */
-    /* Polled from any thread; return true to stop with what is known by then. May be NULL. */
+    double seconds;  /* time limit, after which open statements stay undecided; HUGE_VAL for none. Positive */
+    size_t maxBoxes; /* limit on the number of boxes of each subdivision; likewise */
+    /* Polled from any thread; return true to stop with the results so far. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
     /* Receives an estimate of the fraction done. Called from one thread at a time. May be NULL. */
@@ -184,7 +185,7 @@ static inline void phasetreeInitProveOptions(PhasetreeProveOptions* options) {
     options->progressUserPtr = NULL;
 }
 
-/* Decides statements about a tree. What is proved is true everywhere, not only at sampled points.
+/* Decides statements about a tree. A proved statement holds everywhere, not only at sampled points.
  *
  * statements    `count` of them.
  * options       NULL for the defaults.

@@ -11,8 +11,9 @@ extern "C" {
 
 /* Options of phasetreeMakeGeometryMesh. Initialise them with phasetreeInitMeshOptions. */
 typedef struct PhasetreeMeshOptions {
-    float spacing; /* of the grid, about the size of the smallest detail kept; 0 for a 256th of the longest side. At
-                    * most 1024 spacings along a side of the object's bounds */
+    /* Distance between grid points, about the size of the smallest detail kept. 0 selects a 256th of the longest side
+     * of the object's bounds; the minimum is a 1024th. */
+    float spacing;
     /* Polled from any thread; return true to cancel with PHASETREE_ERROR_CANCELLED. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
@@ -39,8 +40,8 @@ typedef struct PhasetreeMesh {
     const unsigned char* front;  /* triangleCount phases: the one with the lower index; 0 is the vacuum */
     size_t vertexCount, triangleCount;
     float spacing; /* the spacing used */
-    /* The number of crossings along the grid's lines, and of those that the mesh does not show: at edges of the object,
-     * and where a phase is thinner than the spacing. */
+    /* The number of crossings along the grid's lines, and how many of them are missing from the mesh. They are missing
+     * at edges of the object, and where a phase is thinner than the spacing. */
     size_t crossings, skipped;
 } PhasetreeMesh;
 
