@@ -54,7 +54,7 @@ inline constexpr Parameter expected_phase{"phase", "", "Name of the phase."};
 inline constexpr Parameter two_phases{"phases", "", "Names of the two phases."};
 
 struct PresentParameters {
-    static constexpr KindInfo info{"present", "The phase is somewhere."};
+    static constexpr KindInfo info{"present", "Some point has this phase."};
     std::string phase{};
 
     template <class V>

@@ -132,8 +132,8 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back(
         {std::string(chapter_without_pictures),
          "Statements in `\"expect\"`, `{\"kind\": {parameters}}`, which `phasetree check --prove` proves "
-         "or refutes. Lengths are in the scene's unit. Every phase that a statement names must be "
-         "somewhere; the phase may be the \"vacuum\" in all but \"closed\", \"wall\", \"volume\" and "
+         "or refutes. Lengths are in the scene's unit. Every statement also requires its phases to be "
+         "present. A phase may be the \"vacuum\", except in \"closed\", \"wall\", \"volume\" and "
          "\"mass\".",
          pages_of(ExpectationKinds())});
     for (Chapter& chapter : chapters)

@@ -23,7 +23,7 @@ typedef struct PhasetreeHit {
     float pointFrom[3], pointTo[3]; /* in geometry space */
 } PhasetreeHit;
 
-/* Return the phases before (`from`) and after (`to`) hit i of N. Unlike Embree's accessors, which are C++ only, these
+/* Returns the phase before (`from`) or after (`to`) hit i of N. Unlike Embree's accessors, which are C++ only, these
  * functions also work in C filter functions. Valid only for hits of a phasetree geometry. */
 static inline unsigned int phasetreeGetHitFrom(const struct RTCHitN* hits, unsigned int N, unsigned int i) {
     return (unsigned int)((const float*)hits)[3 * N + i];
