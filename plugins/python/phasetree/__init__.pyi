@@ -122,8 +122,8 @@ phase, or of all phases except the vacuum, is a manifold."""
 class Measures(NamedTuple):
     r"""Volumes, masses and moments of the phases of an object; see Object.measure.
 
-    The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
-    are in the unit of the scene, usually metres."""
+    The last axis of each array holds [low, high, estimate]. The number is guaranteed to lie between low and high.
+    Lengths are in the unit of the scene, usually metres."""
     names: tuple[str, ...]
     volume: np.ndarray
     mass: np.ndarray
@@ -145,7 +145,7 @@ class Proof(NamedTuple):
 class Solution(NamedTuple):
     r"""The result of solve: the number at which a volume or mass has the given value, with its guaranteed bounds.
 
-    The arrays hold [low, high, estimate]: the measure certainly lies between the first two."""
+    The arrays hold [low, high, estimate]. The measure is guaranteed to lie between low and high."""
     value: float
     low: float
     high: float
@@ -543,20 +543,20 @@ class Object:
     Objects are joined with methods rather than operators, because the order matters: a.over(b), a.under(b),
     a.contact(b, …). Arrays identify phases by their index in `phases`.
 
-    label, trace and intersect are in single precision. locate, crossings and next_crossing are the same in double
-    precision."""
+    label, trace and intersect work in single precision. locate, crossings and next_crossing are their counterparts in
+    double precision."""
     @property
     def names(self):
         r"""The names of the phases, the vacuum first."""
     def with_phases(self, *phases):
-        r"""The same object with its phases in this order. Where two phases are equally far, the order decides.
+        r"""The same object with its phases in this order. Where two phases have the same distance, the first one wins.
 
 The list must contain all phases of the object, and may contain others. A material given here replaces the
 phase's own."""
     def label(self, points):
         r"""The phase at points given as an array of shape (…, 3): uint8, an index into `phases`.
 
-A contiguous float32 array is not copied. A point with a coordinate that is not finite is in the vacuum."""
+A contiguous float32 array is not copied. Points with infinite or NaN coordinates are in the vacuum."""
     def phi(self, points):
         r"""Φ at points: float32 (…, phases), the signed distance to each phase, negative in the phase.
 
@@ -589,12 +589,13 @@ tolerance: the accepted relative error of the distance."""
         r"""The phase at points in double precision: uint8 (…), an index into `phases`.
 
 points: of shape (…, 3), in the unit of the object. A contiguous float64 array is not copied. The equations are
-those of `label`, evaluated in double precision. A point with a coordinate that is not finite is in the vacuum."""
+those of `label`, evaluated in double precision. Points with infinite or NaN coordinates are in the vacuum."""
     def safe_distance(self, points):
-        r"""A radius around each point within which the phase certainly does not change: float64 (…).
+        r"""The radius of a ball around each point that is guaranteed to contain only one phase: float64 (…).
 
-points: of shape (…, 3), in the unit of the object, like the radius. It is 0 at interfaces, at most the distance
-to the closest one, infinite if the object has only one phase, and NaN for a point that is not finite."""
+points: of shape (…, 3). Points and radii are in the unit of the object. A radius is 0 at an interface, and at
+most the distance to the closest one. It is infinite if the object has only one phase, and NaN for a point that
+is not finite."""
     def crossings(self, origins, directions, phases=..., limit=...):
         r"""Every crossing along rays in double precision, as Crossings with float64 arrays.
 
@@ -609,28 +610,28 @@ all cores and does not need `prepare`. Raises Error if the object is empty or un
     def next_crossing(self, origins, directions, phases=..., limit=...):
         r"""The first crossing along each ray in double precision, as NextCrossings.
 
-Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
-reflected, at `near` with `before`. No offset is needed, and no crossing is found twice."""
+Arguments and guarantees are those of `crossings`. To continue a ray, start at `far` in the phase `after`. To
+reflect it, start at `near` in the phase `before`. No offset is needed, and no crossing is found twice."""
     def measure(self, tolerance=..., seconds=..., densities=..., progress=...):
         r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
-Each number comes with an interval that certainly contains it, unless a rounding error of a distance exceeds
-half of `Object.resolution`.
+Each number comes with an interval that is guaranteed to contain it, unless a rounding error of a distance
+exceeds half of `Object.resolution`.
 
 tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
 also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
-masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
-guess of the fraction done, up to 1.
+masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and
+an estimate of the fraction done, up to 1.
 
 Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
 an argument is out of its range."""
     def prove(self, *statements, unit=..., resolution=..., seconds=..., progress=...):
-        r"""What is known of statements about the object, as a list of Proof.
+        r"""Proves or refutes statements about the object. Returns a list of Proof.
 
 statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
 phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
 need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
-seconds: a time limit, by default none. progress: called with "proving" and a guess of the fraction done,
+seconds: a time limit, by default none. progress: called with "proving" and an estimate of the fraction done,
 up to 1.
 
 Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of
@@ -1122,7 +1123,7 @@ class Scene:
     object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
     meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
     Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
-    and groups. An object that has instances appears only there, not also where its own map puts it. groups: {name:
+    and groups. An object with instances appears only where they place it, not at its own map as well. groups: {name:
     places}.
 
     unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
@@ -1146,10 +1147,10 @@ Files within the folder of the scene file are named relative to it."""
 image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
 progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
 
-planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
-command. denoise: True for the best method available, "oidn", or "regression", whose result does not depend on
-the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G"
-and "noisy.B".
+planes: the names of the planes to record in Image.planes, such as ["depth", "normal"], or "all", as for
+--planes of the command. denoise: True for the best method available, "oidn", or "regression", whose result does
+not depend on the version of Open Image Denoise. Image.planes then has the picture before denoising as
+"noisy.R", "noisy.G" and "noisy.B".
 
 time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
 time ends the render. at: the time in seconds at which animated values are evaluated."""
@@ -1177,10 +1178,10 @@ class View:
 
 The camera stays as the user turned it, unless the camera of the new scene differs from that of the last one."""
     def scene(self):
-        r"""The scene as the page has changed it, without what the tab View shows differently.
+        r"""The scene with the changes made in the page, except those of the tab View.
 
 An object that was shown without a scene has a sky, a camera and plain colours; `scene().object` is the object.
-Raises SceneError if the text that was typed in the page is wrong, and Error after close()."""
+Raises SceneError if the text typed in the page has an error, and Error after close()."""
     def close(self):
         r"""Ends the view. The page then shows that it has lost the connection."""
     url: str
@@ -1206,7 +1207,7 @@ class Expression:
     def within(self, low, high):
         r"""The same formula, cut to a box. Each corner is a point, or a number for three equal coordinates."""
     def field(self):
-        r"""The formula as a field. Raises Error, with the place in the formula, if the slope has no bound."""
+        r"""The formula as a field. Raises Error, with the position in the formula, if the slope has no bound."""
     def __add__(self, other: Expression | float) -> Expression: ...
     def __radd__(self, other: Expression | float) -> Expression: ...
     def __sub__(self, other: Expression | float) -> Expression: ...
@@ -1245,12 +1246,12 @@ make: a function that returns the object for a number. target: the volume, in cu
 the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the target. phase: a
 Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names, to densities;
 phases that are not in it have no mass (unlike in Object.measure). tolerance: the width of the final bracket, by
-default a thousandth of the first. seconds: a time limit. progress: called with "solving" and a guess of the
+default a thousandth of the first. seconds: a time limit. progress: called with "solving" and an estimate of the
 fraction done.
 
-The bracket is halved repeatedly. An end of the bracket is moved only if the guaranteed interval of the measure
-proves on which side of the target the measure lies. So the final bracket certainly contains a crossing; there may
-be others.
+The bracket is halved repeatedly. An end moves only if the guaranteed interval of the measure lies entirely on one
+side of the target. The measure is therefore guaranteed to pass the target within the final bracket; it may do so
+several times.
 
 Raises Error if both ends are on the same side, or if an argument is out of its range."""
 

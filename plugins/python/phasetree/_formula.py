@@ -86,7 +86,7 @@ class Expression(Value):
         return Expression(self._what, self._of, corners)
 
     def field(self):
-        """The formula as a field. Raises Error, with the place in the formula, if the slope has no bound."""
+        """The formula as a field. Raises Error, with the position in the formula, if the slope has no bound."""
         if self._field is None:
             self._field = _registry.functions["formula"](self.text, self._bounds)
         return self._field

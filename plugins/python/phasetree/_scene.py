@@ -93,7 +93,7 @@ class Scene(Value):
     object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
     meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
     Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
-    and groups. An object that has instances appears only there, not also where its own map puts it. groups: {name:
+    and groups. An object with instances appears only where they place it, not at its own map as well. groups: {name:
     places}.
 
     unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
@@ -235,10 +235,10 @@ class Scene(Value):
         image: settings that replace the scene's own, such as samples=16, width=400. crop: (x0, y0, x1, y1) in pixels.
         progress: True for a line on standard error, or a function of the stage and the fraction done, in [0, 1].
 
-        planes: the names of those wanted in Image.planes, such as ["depth", "normal"], or "all", as for --planes of the
-        command. denoise: True for the best method available, "oidn", or "regression", whose result does not depend on
-        the version of Open Image Denoise. Image.planes then has the picture before denoising as "noisy.R", "noisy.G"
-        and "noisy.B".
+        planes: the names of the planes to record in Image.planes, such as ["depth", "normal"], or "all", as for
+        --planes of the command. denoise: True for the best method available, "oidn", or "regression", whose result does
+        not depend on the version of Open Image Denoise. Image.planes then has the picture before denoising as
+        "noisy.R", "noisy.G" and "noisy.B".
 
         time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
         time ends the render. at: the time in seconds at which animated values are evaluated.

@@ -15,7 +15,7 @@ from phasetree._trees import Object
 class Solution(NamedTuple):
     """The result of solve: the number at which a volume or mass has the given value, with its guaranteed bounds.
 
-    The arrays hold [low, high, estimate]: the measure certainly lies between the first two.
+    The arrays hold [low, high, estimate]. The measure is guaranteed to lie between low and high.
     """
 
     value: float  #: a number in the bracket at which the measure is close to the target
@@ -35,12 +35,12 @@ def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seco
     the mass. low, high: the first bracket, at whose ends the measure must be on different sides of the target. phase: a
     Phase or its name, by default all but the vacuum. densities: a dict from phases, or their names, to densities;
     phases that are not in it have no mass (unlike in Object.measure). tolerance: the width of the final bracket, by
-    default a thousandth of the first. seconds: a time limit. progress: called with "solving" and a guess of the
+    default a thousandth of the first. seconds: a time limit. progress: called with "solving" and an estimate of the
     fraction done.
 
-    The bracket is halved repeatedly. An end of the bracket is moved only if the guaranteed interval of the measure
-    proves on which side of the target the measure lies. So the final bracket certainly contains a crossing; there may
-    be others.
+    The bracket is halved repeatedly. An end moves only if the guaranteed interval of the measure lies entirely on one
+    side of the target. The measure is therefore guaranteed to pass the target within the final bracket; it may do so
+    several times.
 
     Raises Error if both ends are on the same side, or if an argument is out of its range.
     """

@@ -117,8 +117,8 @@ class PhaseMesh(NamedTuple):
 class Measures(NamedTuple):
     """Volumes, masses and moments of the phases of an object; see Object.measure.
 
-    The last axis of each array holds [low, high, estimate]. The number certainly lies between low and high. Lengths
-    are in the unit of the scene, usually metres.
+    The last axis of each array holds [low, high, estimate]. The number is guaranteed to lie between low and high.
+    Lengths are in the unit of the scene, usually metres.
     """
 
     names: tuple[str, ...]  #: the names of the N phases, without the vacuum
@@ -292,8 +292,8 @@ class Object(Value):
     Objects are joined with methods rather than operators, because the order matters: a.over(b), a.under(b),
     a.contact(b, …). Arrays identify phases by their index in `phases`.
 
-    label, trace and intersect are in single precision. locate, crossings and next_crossing are the same in double
-    precision.
+    label, trace and intersect work in single precision. locate, crossings and next_crossing are their counterparts in
+    double precision.
     """
 
     __slots__ = ("_evaluator_", "_handle", "_precise_", "_precise_evaluator_", "_prepared_", "phases")
@@ -354,7 +354,7 @@ class Object(Value):
         return self._refuse(other, "-")
 
     def with_phases(self, *phases):
-        """The same object with its phases in this order. Where two phases are equally far, the order decides.
+        """The same object with its phases in this order. Where two phases have the same distance, the first one wins.
 
         The list must contain all phases of the object, and may contain others. A material given here replaces the
         phase's own.
@@ -392,7 +392,7 @@ class Object(Value):
     def label(self, points):
         """The phase at points given as an array of shape (…, 3): uint8, an index into `phases`.
 
-        A contiguous float32 array is not copied. A point with a coordinate that is not finite is in the vacuum.
+        A contiguous float32 array is not copied. Points with infinite or NaN coordinates are in the vacuum.
         """
         array, shape = _points(points)
         return self._evaluator.label(array).reshape(shape)[()]
@@ -475,16 +475,17 @@ class Object(Value):
         """The phase at points in double precision: uint8 (…), an index into `phases`.
 
         points: of shape (…, 3), in the unit of the object. A contiguous float64 array is not copied. The equations are
-        those of `label`, evaluated in double precision. A point with a coordinate that is not finite is in the vacuum.
+        those of `label`, evaluated in double precision. Points with infinite or NaN coordinates are in the vacuum.
         """
         array, shape = _points(points, dtype=np.float64)
         return self._precise_evaluator.locate(array).reshape(shape)[()]
 
     def safe_distance(self, points):
-        """A radius around each point within which the phase certainly does not change: float64 (…).
+        """The radius of a ball around each point that is guaranteed to contain only one phase: float64 (…).
 
-        points: of shape (…, 3), in the unit of the object, like the radius. It is 0 at interfaces, at most the distance
-        to the closest one, infinite if the object has only one phase, and NaN for a point that is not finite.
+        points: of shape (…, 3). Points and radii are in the unit of the object. A radius is 0 at an interface, and at
+        most the distance to the closest one. It is infinite if the object has only one phase, and NaN for a point that
+        is not finite.
         """
         array, shape = _points(points, dtype=np.float64)
         try:
@@ -511,8 +512,8 @@ class Object(Value):
     def next_crossing(self, origins, directions, phases=None, limit=float("inf")):
         """The first crossing along each ray in double precision, as NextCrossings.
 
-        Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
-        reflected, at `near` with `before`. No offset is needed, and no crossing is found twice.
+        Arguments and guarantees are those of `crossings`. To continue a ray, start at `far` in the phase `after`. To
+        reflect it, start at `near` in the phase `before`. No offset is needed, and no crossing is found twice.
         """
         arrays, shape = self._precise_rays(origins, directions, phases, limit)
         t, before, after, *vectors = self._precise.next_crossing(*arrays)
@@ -547,13 +548,13 @@ class Object(Value):
     def measure(self, tolerance=1e-3, seconds=None, densities=None, progress=None):
         """Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
-        Each number comes with an interval that certainly contains it, unless a rounding error of a distance exceeds
-        half of `Object.resolution`.
+        Each number comes with an interval that is guaranteed to contain it, unless a rounding error of a distance
+        exceeds half of `Object.resolution`.
 
         tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
         also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
-        masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
-        guess of the fraction done, up to 1.
+        masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and
+        an estimate of the fraction done, up to 1.
 
         Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
         an argument is out of its range.
@@ -569,12 +570,12 @@ class Object(Value):
         return Measures(tuple(self.names[i] for i in found[0]), *found[1:])
 
     def prove(self, *statements, unit="m", resolution=0, seconds=None, progress=None):
-        """What is known of statements about the object, as a list of Proof.
+        """Proves or refutes statements about the object. Returns a list of Proof.
 
         statements: dicts as in "expect" of a scene file, such as {"wall": {"phase": "glass", "at_least": 0.002}}. A
         phase is given by its name, or as a Phase. unit: that of the object's lengths, for volumes and masses. Masses
         need phases with a density. resolution: the side of the smallest boxes; 0 selects 1/256 of the longest side.
-        seconds: a time limit, by default none. progress: called with "proving" and a guess of the fraction done,
+        seconds: a time limit, by default none. progress: called with "proving" and an estimate of the fraction done,
         up to 1.
 
         Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of

@@ -90,10 +90,10 @@ class View:
         _as_scene(what).save(self.file)
 
     def scene(self):
-        """The scene as the page has changed it, without what the tab View shows differently.
+        """The scene with the changes made in the page, except those of the tab View.
 
         An object that was shown without a scene has a sky, a camera and plain colours; `scene().object` is the object.
-        Raises SceneError if the text that was typed in the page is wrong, and Error after close().
+        Raises SceneError if the text typed in the page has an error, and Error after close().
         """
         if not self._end.alive:
             raise Error("the view is closed, and its scene is gone; call scene() before close()")
