@@ -49,11 +49,11 @@ int main(int argc, char** argv) {
 #endif
         if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
         PhasetreeHit hit;
-        const char *left, *entered;
+        const char *from, *to;
         check(phasetreeDecodeHit(geometry, &r, NULL, &hit));
-        check(phasetreeGetTreePhaseName(tree, hit.from, &left));
-        check(phasetreeGetTreePhaseName(tree, hit.to, &entered));
-        printf("%.5f  %s -> %s\n", hit.tFrom, left, entered);
+        check(phasetreeGetTreePhaseName(tree, hit.from, &from));
+        check(phasetreeGetTreePhaseName(tree, hit.to, &to));
+        printf("%.5f  %s -> %s\n", hit.tFrom, from, to);
         start = fmaxf(hit.tTo, nextafterf(hit.tFrom, INFINITY));
     }
     rtcReleaseScene(scene);
