@@ -92,4 +92,78 @@ TEST_CASE("intervals agree with the labels of random points in random objects") 
     CHECK(measured > 40);
 }
 
+TEST_CASE("boxes say only what is true of the points in them") {
+    const FlushSubnormals flush;
+    std::size_t decided = 0, cut = 0;
+    for (const NodeKind& kind : node_kinds()) {
+        Random rng = random_for(77, kind);
+        for (int tree = 0; tree < (long_tests() ? 40 : 1); ++tree) {
+            const Phased object = kind.object(rng, 2);
+            std::optional<TraceableObject> traceable;
+            try {
+                traceable = prepare_to_trace(object);
+            } catch (const ModelError&) {
+                continue;  // unbounded or empty
+            }
+            INFO(kind.name << " " << tree);
+            Program program = record(object);
+            const Evaluator evaluator(program);
+            Evaluator::Workspace workspace;
+            rewriting::Arena arena;
+            const rewriting::WorkingProgram whole = rewriting::rewrite(program, arena);
+            const measuring::MeasureContext context{
+                {whole, program.constants, PhaseSet(), 0.5f * traceable->resolution}, {}, traceable->resolution};
+            building::CellBudget budget(std::size_t{1} << 40);
+            building::WorkerPool pool(budget, program.constants);
+            building::Worker worker{pool};
+            const auto check_points = [&](const measuring::ExaminedBox& box) {
+                for (int i = 0; i < 8; ++i) {
+                    const glm::vec3 p = rng.in(box.node.box);
+                    const Phase label = evaluator.label(p, workspace);
+                    if (box.only) {
+                        ++decided;
+                        CHECK(*box.only == label);
+                        continue;
+                    }
+                    bool is_listed = false;
+                    for (const measuring::PhaseInBox& q : box.phases) {
+                        is_listed = is_listed || q.phase == label;
+                        if (!std::isfinite(q.slack)) continue;
+                        // Half of it covers rounding errors of labels, the other half those of the linear function.
+                        CHECK(q.slack >= double{traceable->resolution});
+                        double f = q.component.at_low;
+                        for (int j = 0; j < 3; ++j)
+                            f += q.component.change[static_cast<std::size_t>(j)] *
+                                 double{(p[j] - box.node.box.low[j]) / box.node.box.extent()[j]};
+                        const double error = 1e-6 * (1 + std::abs(f)) * double{box.node.box.diagonal()};
+                        if (f + q.slack < -error) {
+                            ++cut;
+                            CHECK(label == q.phase);
+                        }
+                        if (f - q.slack > error) {
+                            ++cut;
+                            CHECK(label != q.phase);
+                        }
+                    }
+                    CHECK(is_listed);
+                }
+            };
+            const auto descend = [&](auto&& self, const measuring::Node& node, int depth) -> void {
+                const rewriting::ArenaScope programs(worker.programs), scratch(worker.scratch);
+                const measuring::Division division(node, context, worker);
+                for (std::size_t i = 0; i < division.count(); ++i) {
+                    const measuring::ExaminedBox box = division.examine(i);
+                    check_points(box);
+                    // Deep boxes matter as much as large ones, and one child in four is enough to get there.
+                    if (!box.only && box.can_be_divided && depth < 8 && (depth < 1 || rng.chance(0.25)))
+                        self(self, box.node, depth + 1);
+                }
+            };
+            descend(descend, {traceable->bounds, whole}, 0);
+        }
+    }
+    CHECK(decided > 10'000);
+    CHECK(cut > 10'000);
+}
+
 }  // namespace test_measure_random
