@@ -1,11 +1,19 @@
-// Estimates of areas from lines through a ball with known crossings: when they stop, and what they report.
+// Estimates of areas from lines: agreement with closed forms, when they stop, and what they report.
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cmath>
 
 #include "phasetree/measuring/areas.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 namespace test_measure_areas {
 
@@ -14,7 +22,7 @@ using namespace phasetree;
 namespace {
 
 constexpr double pi = 3.141592653589793;
-constexpr Phase first{1};
+constexpr Phase first{1}, second{2};
 
 // The crossings of a ball about the origin.
 LineTracer ball(double radius) {

@@ -1,14 +1,16 @@
-// Measures of random objects against the labels of random points.
+// Measures of random objects, and what is known about the boxes in them, against the labels of random points.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "measuring/divide.hpp"
 #include "phasetree/evaluation/evaluator.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/measuring/measure.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "rewriting/rewrite.hpp"
 #include "support/random_tree.hpp"
 
 namespace test_measure_random {

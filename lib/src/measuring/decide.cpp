@@ -222,8 +222,7 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
 // centres of boxes.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
-    DisjointSets groups =
-        groups_of(e, true, [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; });
+    DisjointSets groups = groups_of(e, true, [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; });
     const auto leaves_in = [&](Phase p) {
         return leaves_where(e.octree, [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); });
     };
@@ -303,8 +302,7 @@ Proof decide(const Evidence& e, const IsClosed& s) {
     for_each_phase(
         all.bits, [&](int i) { is_one_nowhere = is_one_nowhere || e.is_nowhere(Phase{static_cast<std::uint8_t>(i)}); });
     if (is_one_nowhere) return {Verdict::refuted, "one of the phases is nowhere", {}, 0, {}};
-    if (e.points_of(all) && is_separated(e, s.walls.bits, s.inside.bits))
-        return {Verdict::proved, "", {}, 0, {}};
+    if (e.points_of(all) && is_separated(e, s.walls.bits, s.inside.bits)) return {Verdict::proved, "", {}, 0, {}};
     const std::vector<std::uint32_t> path = leak(e, s.walls.bits, s.inside.bits);
     if (path.empty()) return {};
     Proof proof{Verdict::refuted, "a path leads outside", {}, 0, {}};
@@ -324,8 +322,8 @@ Proof decide(const Evidence& e, const AreApart& s) {
     // Distances of boxes are rounded. Boxes that do not touch are at least one side of the smallest boxes apart.
     const double rounding = 1e-12 * e.octree.whole().half_diagonal();
     const double limit = std::max(s.at_least * (1 + 1e-12) + rounding, 0.5 * e.octree.side());
-    const auto close = ClosestLeaves(e, limit)
-                           .run(leaves_where(e.octree, may_meet(s.first)), leaves_where(e.octree, may_meet(s.second)));
+    const auto close = ClosestLeaves(e, limit).run(leaves_where(e.octree, may_meet(s.first)),
+                                                   leaves_where(e.octree, may_meet(s.second)));
     if (!close && e.points_of(PhaseSet::of(s.first) | PhaseSet::of(s.second))) return {Verdict::proved, "", {}, 0, {}};
     if (const auto points = contact(e, s.first, s.second)) return {Verdict::refuted, "they touch", *points, 0, {}};
     const auto closer = ClosestLeaves(e, s.at_least * (1 - 1e-6) - rounding)

@@ -30,8 +30,8 @@ inline void unite(Cube& all, const Cube& other) {
     }
 }
 
-/// Counts the steps of the same rays in both boxes. The rays come from all sides and cross the stated box. Each is traced
-/// through all of its crossings.
+/// Counts the steps of the same rays in both boxes. The rays come from all sides and cross the stated box. Each is
+/// traced through all of its crossings.
 inline MarchingCost marching_cost(const Evidence& e, const Phased& object, const Bounds& stated, const Cube& tight) {
     std::vector<HalfSpace> around;
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,9 +48,8 @@ inline MarchingCost marching_cost(const Evidence& e, const Phased& object, const
         float t = 0;
         std::optional<Phase> carried = vacuum;
         for (int i = 0; i < most_crossings; ++i) {
-            const auto crossing =
-                tracer.first_crossing(origin, direction, t, std::numeric_limits<float>::max(), carried,
-                                      Evaluator::thread_workspace(), &counters);
+            const auto crossing = tracer.first_crossing(origin, direction, t, std::numeric_limits<float>::max(),
+                                                        carried, Evaluator::thread_workspace(), &counters);
             if (!crossing) break;
             t = crossing->t_out;
             carried = crossing->to;

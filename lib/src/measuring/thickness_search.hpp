@@ -49,7 +49,8 @@ class ThicknessSearch {
 
     bool stopped() {
         if (options_.cancelled && options_.cancelled()) is_stopped_ = true;
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >= options_.seconds) is_stopped_ = true;
+        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >= options_.seconds)
+            is_stopped_ = true;
         return is_stopped_;
     }
     Verdict attempt(const Evidence& e, WallThickness& w, double thickness) const {
