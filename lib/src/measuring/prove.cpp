@@ -72,8 +72,12 @@ class Prover {
             try {
                 const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
                 const Evidence evidence{octree, evaluator_, is_stopped};
-                for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
-                    if (is_open(i) && !std::holds_alternative<HasNoDeadNodes>(statements_[i])) decide_one(evidence, i);
+                // Walls last: where points are expensive, they may take all of the time.
+                for (const bool is_for_walls : {false, true})
+                    for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
+                        if (is_open(i) && std::holds_alternative<IsThick>(statements_[i]) == is_for_walls &&
+                            !std::holds_alternative<HasNoDeadNodes>(statements_[i]))
+                            decide_one(evidence, i);
             } catch (const DivisionStopped& e) {
                 if (e.exceeded_max_boxes) give_up("more boxes are needed than allowed");
                 break;
