@@ -1,4 +1,6 @@
 // `phasetree check --prove`, and "unit" and "density" in scenes: verdicts, exit codes, places and defaults.
+#include <csignal>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -161,6 +163,44 @@ TEST_CASE("mistakes in units, densities and statements are reported at their pla
         }
     }
     CHECK(has(run(flask(""), {"check", "--json"}).err, "--json requires --prove"));
+}
+
+TEST_CASE("Ctrl-C at any moment ends proofs and measurements at once, with what is known by then") {
+    const Run run;
+    write_text(run.directory / "scene.json", flask(expect(R"({"wall": {"phase": "glass", "at_least": 1.99}})")));
+    struct Command {
+        std::vector<std::string> words;
+        std::string known;  // printed however early the interruption comes, unless the scene is still being read
+    };
+    for (const Command& c : {Command{{"check", "--prove", "--resolution", "0.02", "--time", "5m"}, "wall"},
+                             Command{{"measure", "--tolerance", "1e-9", "--time", "5m"}, "glass"}}) {
+        bool is_known = false;
+        for (const double moment : {0.0, 0.02, 0.05, 0.1, 0.3, 0.8}) {
+            std::optional<double> ready, sent;
+            const auto interrupt = [&](pid_t process) {
+                if (!ready && catches(process, SIGINT)) ready = processor_seconds(process);
+                if (sent || !ready || processor_seconds(process) < *ready + moment * sanitizer_slowdown) return;
+                sent = processor_seconds(process);
+                ::kill(process, SIGINT);
+            };
+            std::vector<std::string> words = c.words;
+            words.insert(words.begin() + 1, "scene.json");
+            const Outcome o = run.run(words, "", interrupt);
+            INFO(c.words[0], " after ", moment, " s: ", o.out, o.err);
+            CHECK(o.code == 130);
+            REQUIRE(sent);
+            CHECK(o.processor_seconds < *sent + 1.5 * sanitizer_slowdown);
+            if (has(o.err, "interrupted while the scene was being read; nothing is known yet")) {
+                CHECK(o.out.empty());
+                continue;
+            }
+            is_known = true;
+            CHECK(has(o.err, "interrupted; printed what was known by then"));
+            CHECK(has(o.out, c.known));
+            if (c.words[0] == "check") CHECK(has(o.out, "undecided: "));
+        }
+        CHECK(is_known);
+    }
 }
 
 }  // namespace test_command_prove

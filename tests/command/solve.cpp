@@ -234,6 +234,38 @@ TEST_CASE("Ctrl-C prints the bracket so far and exits with 130") {
     CHECK(shell.directory.size() == 1);
 }
 
+TEST_CASE("the value of a keyframe is found at the time of the keyframe, or at --at") {
+    const SolveShell shell;
+    write_text(shell.directory / "scene.json", R"({"version": 1, "phases": {"glass": null},
+"tree": {"set": {"phase": "glass", "of": {"sphere": {"radius": {"keys": [[0, 0.02], [2, 0.05]]}}}}}})");
+    const std::string radius = "/tree/set/of/sphere/radius", until = "volume(glass) = 330 ml";
+    const double found = std::cbrt(330e-6 * 3 / (4 * pi));
+    const auto last = checked(shell.solve({"--set", radius + "/keys/1/1", "--until", until, "--json"}), found);
+    CHECK(last["seconds"] == 2);
+    const auto first = checked(
+        shell.solve({"--set", radius + "/keys/0/1=0.01:0.1", "--until", until, "--json", "-o", "solved.json"}), found);
+    CHECK(first["seconds"] == 0);
+    CHECK(bytes_of(shell.directory / "solved.json").find("[2, 0.05]") != std::string::npos);
+    // At 1 s the radius is the mean of both keys.
+    const auto between = checked(shell.solve({"--set", radius + "/keys/1/1", "--until", until, "--json", "--at", "1"}),
+                                 2 * found - 0.02);
+    CHECK(between["seconds"] == 1);
+    CHECK(shell.solve({"--set", radius + "/keys/1/1", "--until", until}).out.find("time                2 s\n") !=
+          std::string::npos);
+
+    const Outcome keyed = shell.solve({"--set", radius, "--until", until});
+    CHECK(keyed.code == 2);
+    CHECK(keyed.err.find("--set: \"" + radius + "\" has keyframes; choose the value of one of them: " + radius +
+                         "/keys/0/1 (at 0 s), " + radius + "/keys/1/1 (at 2 s)\n") != std::string::npos);
+    const Outcome time = shell.solve({"--set", radius + "/keys/1/0", "--until", until});
+    CHECK(time.code == 2);
+    CHECK(time.err.find("is the time of a keyframe; choose with --at SECONDS when the object is measured") !=
+          std::string::npos);
+    // The time of the last key decides how large the ball is at 1 s.
+    (void)checked(shell.solve({"--set", radius + "/keys/1/0=1.01:40", "--until", until, "--json", "--at", "1"}),
+                  0.03 / (found - 0.02));
+}
+
 TEST_CASE("mistakes are reported in words: one error, exit code 2, or 1 if output cannot be written") {
     const SolveShell shell;
     struct Mistake {

@@ -1,6 +1,5 @@
-// Measuring: intervals contain what is known in closed form, whatever the object's place and orientation; boxes say
-// only what is true of random points in them, for every kind of node; areas agree with closed forms; results do not
-// depend on threads; bad input is rejected in words.
+// Measuring: intervals contain what is known in closed form, whatever the object's place and orientation; results do
+// not depend on threads; bad input is rejected in words.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -10,10 +9,6 @@
 #include <cmath>
 #include <string>
 
-#include "measuring/divide.hpp"
-#include "phasetree/evaluation/evaluator.hpp"
-#include "phasetree/math/float_mode.hpp"
-#include "phasetree/measuring/areas.hpp"
 #include "phasetree/measuring/measure.hpp"
 #include "phasetree/nodes/fields/box.hpp"
 #include "phasetree/nodes/fields/capped_cone.hpp"
@@ -30,8 +25,6 @@
 #include "phasetree/nodes/warps/rotate.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/nodes/warps/warped.hpp"
-#include "phasetree/trace/tracer.hpp"
-#include "rewriting/rewrite.hpp"
 #include "support/random_tree.hpp"
 
 namespace test_measure {
@@ -256,80 +249,6 @@ TEST_CASE("masses, and several phases as one body") {
     CHECK_FALSE(std::isfinite(massless.all->centre[0].high));
 }
 
-TEST_CASE("boxes say only what is true of the points in them") {
-    const FlushSubnormals flush;
-    std::size_t decided = 0, cut = 0;
-    for (const NodeKind& kind : node_kinds()) {
-        Random rng = random_for(77, kind);
-        for (int tree = 0; tree < (long_tests() ? 40 : 1); ++tree) {
-            const Phased object = kind.object(rng, 2);
-            std::optional<TraceableObject> traceable;
-            try {
-                traceable = prepare_to_trace(object);
-            } catch (const ModelError&) {
-                continue;  // unbounded or empty
-            }
-            INFO(kind.name << " " << tree);
-            Program program = record(object);
-            const Evaluator evaluator(program);
-            Evaluator::Workspace workspace;
-            rewriting::Arena arena;
-            const rewriting::WorkingProgram whole = rewriting::rewrite(program, arena);
-            const measuring::MeasureContext context{
-                {whole, program.constants, PhaseSet(), 0.5f * traceable->resolution}, {}, traceable->resolution};
-            building::CellBudget budget(std::size_t{1} << 40);
-            building::WorkerPool pool(budget, program.constants);
-            building::Worker worker{pool};
-            const auto check_points = [&](const measuring::ExaminedBox& box) {
-                for (int i = 0; i < 8; ++i) {
-                    const glm::vec3 p = rng.in(box.node.box);
-                    const Phase label = evaluator.label(p, workspace);
-                    if (box.only) {
-                        ++decided;
-                        CHECK(*box.only == label);
-                        continue;
-                    }
-                    bool is_listed = false;
-                    for (const measuring::PhaseInBox& q : box.phases) {
-                        is_listed = is_listed || q.phase == label;
-                        if (!std::isfinite(q.slack)) continue;
-                        // Half of it covers rounding errors of labels, the other half those of the linear function.
-                        CHECK(q.slack >= double{traceable->resolution});
-                        double f = q.component.at_low;
-                        for (int j = 0; j < 3; ++j)
-                            f += q.component.change[static_cast<std::size_t>(j)] *
-                                 double{(p[j] - box.node.box.low[j]) / box.node.box.extent()[j]};
-                        const double error = 1e-6 * (1 + std::abs(f)) * double{box.node.box.diagonal()};
-                        if (f + q.slack < -error) {
-                            ++cut;
-                            CHECK(label == q.phase);
-                        }
-                        if (f - q.slack > error) {
-                            ++cut;
-                            CHECK(label != q.phase);
-                        }
-                    }
-                    CHECK(is_listed);
-                }
-            };
-            const auto descend = [&](auto&& self, const measuring::Node& node, int depth) -> void {
-                const rewriting::ArenaScope programs(worker.programs), scratch(worker.scratch);
-                const measuring::Division division(node, context, worker);
-                for (std::size_t i = 0; i < division.count(); ++i) {
-                    const measuring::ExaminedBox box = division.examine(i);
-                    check_points(box);
-                    // Deep boxes matter as much as large ones, and one child in four is enough to get there.
-                    if (!box.only && box.can_be_divided && depth < 8 && (depth < 1 || rng.chance(0.25)))
-                        self(self, box.node, depth + 1);
-                }
-            };
-            descend(descend, {traceable->bounds, whole}, 0);
-        }
-    }
-    CHECK(decided > 10'000);
-    CHECK(cut > 10'000);
-}
-
 TEST_CASE("the result is the same for any number of threads, and after a cancelled measurement, to the last bit") {
     const auto bits_of = [](const MeasureResult& r) {
         std::vector<std::uint64_t> bits{r.boxes};
@@ -422,43 +341,6 @@ TEST_CASE("a phase that is hidden has a volume of zero") {
     CHECK(volume_of(r, first).contains(0));
     CHECK(volume_of(r, first).high < 1e-4);
     CHECK(is_near(volume_of(r, second), 4 * pi / 3, rounding));
-}
-
-TEST_CASE("areas of phases and contacts are within a few standard errors of closed forms") {
-    // A ball whose lower half is replaced by a block around it.
-    const Phased object =
-        Under{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
-                     Set{.phase = second, .of = warped(Translate{.by = {0, 0, -1}}, Box{.size = {3, 3, 2}})}}};
-    const InterfaceTracer tracer(object);
-    const LineTracer lines = line_tracer(tracer);
-    const AreaOptions options{.tolerance = 0.02};
-    const AreaResult found = estimate_areas(tracer.bounds(), lines, options);
-    const auto is_right = [](const EstimatedArea& a, double area) {
-        return std::abs(a.area - area) < 5 * a.standard_error + 1e-6 && a.standard_error < 0.05 * area;
-    };
-    CHECK(found.is_within_tolerance);
-    REQUIRE(found.phases.size() == 2);
-    CHECK(is_right(found.phases[0], 3 * pi));
-    CHECK(is_right(found.phases[1], 2 * 9 + 4 * 6));
-    REQUIRE(found.contacts.size() == 3);
-    CHECK(is_right(found.contacts[0], 2 * pi));              // vacuum and the ball
-    CHECK(is_right(found.contacts[1], 2 * 9 + 4 * 6 - pi));  // vacuum and the block
-    CHECK(is_right(found.contacts[2], pi));                  // ball and block
-    CHECK(found.contacts[2].first == first);
-    CHECK(found.contacts[2].second == second);
-
-    tbb::task_arena one(1);
-    const AreaResult again = one.execute([&] { return estimate_areas(tracer.bounds(), lines, options); });
-    CHECK(again.lines == found.lines);
-    for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(again.contacts[i].area == found.contacts[i].area);
-        CHECK(again.contacts[i].standard_error == found.contacts[i].standard_error);
-    }
-    CHECK_THROWS_WITH_AS(estimate_areas(Bounds::everything(), lines), doctest::Contains("unbounded"), ModelError);
-    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.tolerance = 0}), doctest::Contains("tolerance"),
-                         ModelError);
-    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.seconds = -1}), doctest::Contains("time"),
-                         ModelError);
 }
 
 TEST_CASE("bad input is rejected in words") {

@@ -1,11 +1,19 @@
-// Estimates of areas from lines through a ball with known crossings: when they stop, and what they report.
+// Estimates of areas from lines: agreement with closed forms, when they stop, and what they report.
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cmath>
 
 #include "phasetree/measuring/areas.hpp"
 #include "phasetree/model/handle.hpp"
+#include "phasetree/nodes/fields/box.hpp"
+#include "phasetree/nodes/fields/sphere.hpp"
+#include "phasetree/nodes/phased/set.hpp"
+#include "phasetree/nodes/phased/under.hpp"
+#include "phasetree/nodes/warps/translate.hpp"
+#include "phasetree/nodes/warps/warped.hpp"
+#include "phasetree/trace/tracer.hpp"
 
 namespace test_measure_areas {
 
@@ -14,7 +22,7 @@ using namespace phasetree;
 namespace {
 
 constexpr double pi = 3.141592653589793;
-constexpr Phase first{1};
+constexpr Phase first{1}, second{2};
 
 // The crossings of a ball about the origin.
 LineTracer ball(double radius) {
@@ -79,6 +87,43 @@ TEST_CASE("a cancelled estimate is that of fewer lines") {
     const AreaResult none = estimate_areas(bounds, ball(1.5), options);
     CHECK(none.lines == 2048);  // which are so few that they are always traced
     CHECK_FALSE(none.is_within_tolerance);
+}
+
+TEST_CASE("areas of phases and contacts are within a few standard errors of closed forms") {
+    // A ball whose lower half is replaced by a block around it.
+    const Phased object =
+        Under{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
+                     Set{.phase = second, .of = warped(Translate{.by = {0, 0, -1}}, Box{.size = {3, 3, 2}})}}};
+    const InterfaceTracer tracer(object);
+    const LineTracer lines = line_tracer(tracer);
+    const AreaOptions options{.tolerance = 0.02};
+    const AreaResult found = estimate_areas(tracer.bounds(), lines, options);
+    const auto is_right = [](const EstimatedArea& a, double area) {
+        return std::abs(a.area - area) < 5 * a.standard_error + 1e-6 && a.standard_error < 0.05 * area;
+    };
+    CHECK(found.is_within_tolerance);
+    REQUIRE(found.phases.size() == 2);
+    CHECK(is_right(found.phases[0], 3 * pi));
+    CHECK(is_right(found.phases[1], 2 * 9 + 4 * 6));
+    REQUIRE(found.contacts.size() == 3);
+    CHECK(is_right(found.contacts[0], 2 * pi));              // vacuum and the ball
+    CHECK(is_right(found.contacts[1], 2 * 9 + 4 * 6 - pi));  // vacuum and the block
+    CHECK(is_right(found.contacts[2], pi));                  // ball and block
+    CHECK(found.contacts[2].first == first);
+    CHECK(found.contacts[2].second == second);
+
+    tbb::task_arena one(1);
+    const AreaResult again = one.execute([&] { return estimate_areas(tracer.bounds(), lines, options); });
+    CHECK(again.lines == found.lines);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(again.contacts[i].area == found.contacts[i].area);
+        CHECK(again.contacts[i].standard_error == found.contacts[i].standard_error);
+    }
+    CHECK_THROWS_WITH_AS(estimate_areas(Bounds::everything(), lines), doctest::Contains("unbounded"), ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.tolerance = 0}), doctest::Contains("tolerance"),
+                         ModelError);
+    CHECK_THROWS_WITH_AS(estimate_areas(tracer.bounds(), lines, {.seconds = -1}), doctest::Contains("time"),
+                         ModelError);
 }
 
 }  // namespace test_measure_areas

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 
 #include "phasetree/trace/precise_tracer.hpp"
@@ -89,7 +90,9 @@ void check_scene(const Scene& scene, Random& rng, int rays, bool is_exact, Total
 
 // Checks rays through 100 scenes, which scene(number, random numbers) makes.
 template <class MakeScene>
-Totals check_scenes(std::uint64_t seed, int rays, bool is_exact, MakeScene&& scene) {
+Totals check_scenes(std::uint64_t seed, int rays_in_short_form, bool is_exact, MakeScene&& scene) {
+    const char* const chosen = std::getenv("PHASETREE_RAYS_PER_TREE");
+    const int rays = chosen ? std::max(1, std::atoi(chosen)) : long_tests() ? 120'000 : rays_in_short_form;
     std::vector<Totals> each(100);
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t n) {
         Random rng(1000 * seed + n);
@@ -102,18 +105,21 @@ Totals check_scenes(std::uint64_t seed, int rays, bool is_exact, MakeScene&& sce
 
 void report(const char* what, const Totals& t) {
     for (const std::string& c : t.complaints) MESSAGE(c);
-    MESSAGE(what, ": ", t.rays, " rays, ", t.crossings, " crossings, ", t.normals, " normals; ", t.wrong, " wrong, ",
+    MESSAGE(std::string(what), ": ", t.rays, " rays, ", t.crossings, " crossings, ", t.normals, " normals; ", t.wrong, " wrong, ",
             t.unchained, " not chained, ", t.uncertified, " not certified, ", t.wide, " wide, ", t.bad_normals,
             " normals or places off");
 }
 
 }  // namespace
 
-// The long form has 10⁸ crossings, counting those of restarted walks, and takes about three hours of processor time.
-// Run it outside CTest on a machine with few cores, because CTest ends after an hour.
+// The long form has 10⁸ crossings in 200 trees, counting those of restarted walks, and takes about three hours of
+// processor time. Run it outside CTest on a machine with few cores, because CTest ends after an hour:
+//
+//     PHASETREE_LONG_TESTS=1 build/release/tests/test-lib -sf='*/precise_crossings.cpp' -tc='no crossing*,nor in*'
+//
+// PHASETREE_RAYS_PER_TREE=N runs another part of it: the first N of the 120,000 rays of each tree.
 TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
-    const Totals totals =
-        check_scenes(401, long_tests() ? 120'000 : 50, true, [](int, Random& rng) { return exact_scene(rng); });
+    const Totals totals = check_scenes(401, 50, true, [](int, Random& rng) { return exact_scene(rng); });
     report("exact constants", totals);
     CHECK(totals.errors() == 0);
     CHECK(totals.crossings > totals.rays);
@@ -121,7 +127,7 @@ TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
 }
 
 TEST_CASE("nor in trees with rotations, scales, junctions, thin walls and vessels") {
-    const Totals totals = check_scenes(402, long_tests() ? 120'000 : 40, false, [](int n, Random& rng) {
+    const Totals totals = check_scenes(402, 40, false, [](int n, Random& rng) {
         return n % 10 == 0   ? traced::junction(rng, false)
                : n % 10 == 1 ? traced::junction(rng, true)
                : n % 10 == 2 ? traced::abutting(rng, false)

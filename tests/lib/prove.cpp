@@ -337,6 +337,18 @@ TEST_CASE("time, boxes and cancellation leave statements undecided, with the rea
     CHECK(prove(s.object, statements, options)[0].reason == "time ran out");
 }
 
+TEST_CASE("walls cannot be thicker than the object, however large the number") {
+    const Phased object = set(glass, ball({}, 1));
+    ProveOptions options;
+    options.resolution = 0.2;
+    for (const double at_least : {5.0, 1e30, 1e300}) {
+        const Proof proof = prove(object, std::vector<Statement>{IsThick{glass, at_least}}, options)[0];
+        CHECK(proof.verdict == Verdict::refuted);
+        REQUIRE(proof.witnesses.size() == 1);
+        CHECK(glm::length(proof.witnesses[0].point) < 1);
+    }
+}
+
 TEST_CASE("statements that make no sense are errors") {
     const Phased object = set(glass, ball({}, 1));
     const auto error = [&](const Statement& s) {

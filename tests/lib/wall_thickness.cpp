@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "phasetree/measuring/prove.hpp"
 #include "phasetree/nodes/fields/difference.hpp"
@@ -46,6 +48,27 @@ TEST_CASE("the place of a thin wall is where a dent is") {
     CHECK(walls[0].high < 1.1);
     REQUIRE(walls[0].place);
     CHECK(glm::length(Point(*walls[0].place) - Point(0.3, 0.2, 0)) < 1);
+}
+
+TEST_CASE("the steps that a loose box costs are counted") {
+    // A slanted cut leaves a cap of height 0.05, in the box of the ball.
+    const Phased small =
+        IntersectShape{.of = set(glass, ball({}, 1)), .shape = Plane{.normal = {0.6f, 0, 0.8f}, .offset = -0.95f}};
+    const auto steps = [](const Phased& object) {
+        const std::vector<Statement> statements{HasTightBounds{1.5}};
+        const Proof proof = prove(object, statements)[0];
+        CHECK(proof.verdict == Verdict::refuted);
+        const std::string before = "takes ";
+        const std::size_t at = proof.reason.find(before), instead = proof.reason.find(" steps per ray instead of ");
+        REQUIRE(at != std::string::npos);
+        REQUIRE(instead != std::string::npos);
+        return std::pair(std::stod(proof.reason.substr(at + before.size())),
+                         std::stod(proof.reason.substr(instead + 26)));
+    };
+    const auto [loose, tight] = steps(small);
+    CHECK(loose >= 1);           // each ray meets the stated box
+    CHECK(tight < 0.6 * loose);  // most rays pass the cap's box
+    CHECK(tight > 0);
 }
 
 TEST_CASE("boxes that are much longer than the object are refuted, and others are proved") {

@@ -4,6 +4,7 @@ import json
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -59,6 +60,67 @@ class Measures(unittest.TestCase):
         self.assertEqual({stage for stage, share in told if stage} - {"measuring"}, set())
         self.assertEqual(shares, sorted(shares))
         self.assertTrue(all(0 < share <= 1 for share in shares))
+
+    def test_areas_and_thickness(self):
+        m = self.object.measure(tolerance=0.05, areas=True)
+        self.assertIsNone(m.thickness)
+        for (area, error), exact in zip(m.area, (4 * np.pi, 7.0)):
+            self.assertLess(abs(area - exact), 6 * error + 1e-6)
+            self.assertLess(error, 0.06 * exact)
+        np.testing.assert_array_equal(m.contact[0, 1:], m.area)
+        np.testing.assert_array_equal(m.contact[1, 2], 0)
+        np.testing.assert_array_equal(m.contact, m.contact.swapaxes(0, 1))
+        m = WATER(pt.box([1, 2, 0.5])).measure(tolerance=0.1, thickness=True)
+        self.assertIsNone(m.area)
+        low, high = m.thickness[0]
+        self.assertLessEqual(low, 0.5)
+        self.assertGreaterEqual(high, 0.5)
+        self.assertLess(high, 0.7)
+        self.assertEqual(m.thinnest.shape, (1, 3))
+        self.assertTrue((np.abs(m.thinnest[0]) <= (0.5, 1, 0.25)).all())
+
+    def test_ctrl_c_at_any_moment_keeps_what_is_known(self):
+        slow = GLASS(pt.sphere(1).displace(amplitude=0.1, scale=0.3, octaves=3))
+        exact = slow.measure(tolerance=0.1).volume[0]
+        calls = {
+            "measure": lambda: slow.measure(tolerance=1e-9),
+            "prove": lambda: slow.prove({"wall": {"phase": "glass", "at_least": 1.7}}, resolution=0.001),
+            "solve": lambda: pt.solve(lambda r: GLASS(pt.sphere(r)), 1, 0.1, 2, tolerance=1e-12),
+        }
+        known = dict.fromkeys(calls, 0)
+        for name, call in calls.items():
+            for moment in (0.01, 0.05, 0.2, 0.6):
+                sent = []
+
+                def interrupt(*_):
+                    sent.append(time.process_time())
+                    raise KeyboardInterrupt
+
+                before = signal.signal(signal.SIGALRM, interrupt)
+                signal.setitimer(signal.ITIMER_REAL, moment)
+                try:
+                    with self.subTest(name, moment=moment), self.assertRaises(KeyboardInterrupt) as raised:
+                        call()
+                finally:
+                    signal.setitimer(signal.ITIMER_REAL, 0)
+                    signal.signal(signal.SIGALRM, before)
+                # Processor time of all threads, so that a busy machine does not matter.
+                self.assertLess(time.process_time() - sent[0], 1.5)
+                if not isinstance(raised.exception, pt.Interrupted):
+                    continue
+                known[name] += 1
+                result = raised.exception.result
+                if name == "measure":
+                    self.assertEqual(result.stopped, "interrupted")
+                    self.assertTrue(result.volume[0, 0] <= exact[1] and result.volume[0, 1] >= exact[0])
+                elif name == "prove":
+                    self.assertEqual((result[0].verdict, result[0].reason), ("undecided", "interrupted"))
+                else:
+                    self.assertLess(result.at_low[1], 1)
+                    self.assertGreater(result.at_high[0], 1)
+        self.assertGreaterEqual(known["measure"], 3)
+        self.assertGreaterEqual(known["prove"], 3)
+        self.assertGreaterEqual(known["solve"], 1)
 
     def test_an_interruption_prints_what_is_known(self):
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:

@@ -85,6 +85,9 @@ class LabelFiles(unittest.TestCase):
         centres = self.centres(fields)
         self.assertEqual(len(centres), len(voxels))
         self.assertEqual(numbers(fields["space directions"].split()[0]), [0.375, 0, 0])
+        comments = [line for line in (self.path / "labels.seg.nrrd").read_bytes().split(b"\n") if line.startswith(b"#")]
+        self.assertEqual(comments, [b"# Labels of phases at the centres of voxels: 0 vacuum, 1 glass, 2 a \\\\ b",
+                                    b"# Coordinates are those of the scene"])
         found = [names[v] for v in voxels]
         self.assertTrue(found == self.labels_at("scene.json", centres))
         self.assertTrue(all(found.count(name) > 100 for name in names))
@@ -95,6 +98,7 @@ class LabelFiles(unittest.TestCase):
         self.run_command("export", "scene.json", "-o", "a.nrrd", "--spacing", "0.5")
         self.run_command("export", "scene.json", "-o", "b.nrrd", "--spacing", "0.5", "--scale", "3")
         (a, _, plain), (b, _, scaled) = nrrd(self.path / "a.nrrd"), nrrd(self.path / "b.nrrd")
+        self.assertIn(b"# Coordinates are those of the scene, multiplied by 3\n", (self.path / "b.nrrd").read_bytes())
         self.assertEqual(plain, scaled)
         self.assertNotIn("space units", b)
         for x, y in zip(numbers(a["space origin"]), numbers(b["space origin"])):

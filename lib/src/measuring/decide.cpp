@@ -6,8 +6,6 @@
 // not connect them.
 #include "measuring/decide.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,9 +23,12 @@ Proof absent() {
 
 // Groups the leaves for which `is_wanted` holds. Leaves that share a face, or at least a point, are in the same group.
 template <class IsWanted>
-DisjointSets groups_of(const PhaseOctree& octree, bool by_faces, const IsWanted& is_wanted) {
+DisjointSets groups_of(const Evidence& e, bool by_faces, const IsWanted& is_wanted) {
+    const PhaseOctree& octree = e.octree;
+    StopPoll poll(e.is_stopped);
     DisjointSets groups(octree.leaves.size());
     for (std::size_t i = 0; i < octree.leaves.size(); ++i) {
+        poll();
         if (!is_wanted(octree.leaves[i])) continue;
         const auto unite = [&](std::size_t other) {
             if (is_wanted(octree.leaves[other])) groups.join(i, other);
@@ -55,7 +56,9 @@ std::optional<std::uint32_t> largest(const PhaseOctree& octree, const IsWanted& 
 // there is a direction in which the phase's component does not rise anywhere in the leaf, and each leaf on that side is
 // in the phase, drains, or does not meet the phase. A point of the phase may then move in that direction until it
 // leaves the leaf, and stays in the phase.
-bool all_drain(const PhaseOctree& octree, int phase) {
+bool all_drain(const Evidence& e, int phase) {
+    const PhaseOctree& octree = e.octree;
+    StopPoll poll(e.is_stopped);
     const std::vector<OctreeLeaf>& leaves = octree.leaves;
     std::vector<bool> is_good(leaves.size());
     std::queue<std::uint32_t> fresh;
@@ -81,7 +84,8 @@ bool all_drain(const PhaseOctree& octree, int phase) {
         }
         return false;
     };
-    for (; !fresh.empty(); fresh.pop())
+    for (; !fresh.empty(); fresh.pop()) {
+        poll();
         for (int direction = 0; direction < 6; ++direction)
             octree.across_face(leaves[fresh.front()], direction, [&](std::size_t i) {
                 if (is_good[i] || !leaves[i].is_possible(phase) || !drains(leaves[i])) return;
@@ -89,6 +93,7 @@ bool all_drain(const PhaseOctree& octree, int phase) {
                 fresh.push(static_cast<std::uint32_t>(i));
                 --left;
             });
+    }
     return left == 0;
 }
 
@@ -99,7 +104,9 @@ bool is_at_boundary(const PhaseOctree& octree, const OctreeLeaf& leaf) {
 }
 
 // Whether boxes that may meet the inside are separated by boxes in the walls from the space around the object.
-bool is_separated(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t inside) {
+bool is_separated(const Evidence& e, std::uint64_t walls, std::uint64_t inside) {
+    const PhaseOctree& octree = e.octree;
+    StopPoll poll(e.is_stopped);
     std::vector<bool> is_reached(octree.leaves.size());
     std::queue<std::uint32_t> fresh;
     bool is_inside_reached = false;
@@ -112,13 +119,18 @@ bool is_separated(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t 
     };
     for (std::size_t i = 0; i < octree.leaves.size(); ++i)
         if (is_at_boundary(octree, octree.leaves[i])) reach(i);
-    for (; !fresh.empty() && !is_inside_reached; fresh.pop()) octree.around_leaf(octree.leaves[fresh.front()], reach);
+    for (; !fresh.empty() && !is_inside_reached; fresh.pop()) {
+        poll();
+        octree.around_leaf(octree.leaves[fresh.front()], reach);
+    }
     return !is_inside_reached;
 }
 
 // The leaves of a path through boxes outside the walls, from a box that is in a phase of `inside` to the space around
 // the object.
-std::vector<std::uint32_t> leak(const PhaseOctree& octree, std::uint64_t walls, std::uint64_t inside) {
+std::vector<std::uint32_t> leak(const Evidence& e, std::uint64_t walls, std::uint64_t inside) {
+    const PhaseOctree& octree = e.octree;
+    StopPoll poll(e.is_stopped);
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> from(octree.leaves.size(), none);
     std::queue<std::uint32_t> fresh;
@@ -129,6 +141,7 @@ std::vector<std::uint32_t> leak(const PhaseOctree& octree, std::uint64_t walls, 
             fresh.push(from[i]);
         }
     for (; !fresh.empty(); fresh.pop()) {
+        poll();
         const std::uint32_t at = fresh.front();
         const OctreeLeaf& leaf = octree.leaves[at];
         if (leaf.is_certain() && (leaf.possible & inside) != 0) {
@@ -154,7 +167,7 @@ struct ClosestPair {
 // The closest pair of leaves, one from each list, if they are closer than `limit`.
 class ClosestLeaves {
   public:
-    ClosestLeaves(const PhaseOctree& octree, double limit) : octree_(octree) { best_.distance = limit; }
+    ClosestLeaves(const Evidence& e, double limit) : octree_(e.octree), poll_(e.is_stopped) { best_.distance = limit; }
     std::optional<ClosestPair> run(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
         if (!a.empty() && !b.empty()) search(a, b);
         return is_found_ ? std::optional(best_) : std::nullopt;
@@ -162,6 +175,7 @@ class ClosestLeaves {
 
   private:
     void search(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+        poll_();
         const Cube of_a = cube_of(octree_, a), of_b = cube_of(octree_, b);
         const double distance = of_a.distance(of_b);
         if (!(distance < best_.distance)) return;
@@ -182,6 +196,7 @@ class ClosestLeaves {
     }
 
     const PhaseOctree& octree_;
+    StopPoll poll_;
     ClosestPair best_{0, 0, 0};
     bool is_found_ = false;
 };
@@ -207,8 +222,7 @@ std::pair<glm::vec3, glm::vec3> closest_points(const Cube& a, const Cube& b) {
 // centres of boxes.
 std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b) {
     const std::uint64_t both = (PhaseSet::of(a) | PhaseSet::of(b)).bits;
-    DisjointSets groups =
-        groups_of(e.octree, true, [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; });
+    DisjointSets groups = groups_of(e, true, [&](const OctreeLeaf& leaf) { return (leaf.possible & ~both) == 0; });
     const auto leaves_in = [&](Phase p) {
         return leaves_where(e.octree, [p](const OctreeLeaf& leaf) { return leaf.is_only(p.index); });
     };
@@ -221,20 +235,8 @@ std::optional<std::vector<Witness>> contact(const Evidence& e, Phase a, Phase b)
     const auto is_elsewhere = [&](std::uint32_t i) { return groups.root(i) != group; };
     std::erase_if(of_a, is_elsewhere);
     std::erase_if(of_b, is_elsewhere);
-    const auto closest = ClosestLeaves(e.octree, std::numeric_limits<double>::infinity()).run(of_a, of_b);
+    const auto closest = ClosestLeaves(e, std::numeric_limits<double>::infinity()).run(of_a, of_b);
     return std::vector{e.middle_of(e.octree.leaves[closest->first]), e.middle_of(e.octree.leaves[closest->second])};
-}
-
-Cube empty_cube() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-}
-
-void unite(Cube& all, const Cube& other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        all.low[i] = std::min(all.low[i], other.low[i]);
-        all.high[i] = std::max(all.high[i], other.high[i]);
-    }
 }
 
 }  // namespace
@@ -273,7 +275,7 @@ Proof decide(const Evidence& e, const IsConnected& s) {
     const auto first = largest(e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]); });
     if (!first) return {};
     const auto may_meet = [&](const OctreeLeaf& leaf) { return leaf.is_possible(phase); };
-    DisjointSets apart = groups_of(e.octree, false, may_meet);
+    DisjointSets apart = groups_of(e, false, may_meet);
     const auto elsewhere = largest(
         e.octree, [&](std::size_t i) { return is_in(e.octree.leaves[i]) && apart.root(i) != apart.root(*first); });
     if (elsewhere) {
@@ -287,10 +289,10 @@ Proof decide(const Evidence& e, const IsConnected& s) {
                 0,
                 {}};
     }
-    DisjointSets together = groups_of(e.octree, true, is_in);
+    DisjointSets together = groups_of(e, true, is_in);
     for (const std::uint32_t i : leaves_where(e.octree, is_in))
         if (together.root(i) != together.root(*first)) return {};
-    if (!all_drain(e.octree, phase)) return {};
+    if (!all_drain(e, phase)) return {};
     return {Verdict::proved, "", {}, 0, {}};
 }
 
@@ -300,9 +302,8 @@ Proof decide(const Evidence& e, const IsClosed& s) {
     for_each_phase(all.bits,
                    [&](int i) { is_one_absent = is_one_absent || e.is_absent(Phase{static_cast<std::uint8_t>(i)}); });
     if (is_one_absent) return {Verdict::refuted, "no point has one of the phases", {}, 0, {}};
-    if (e.points_of(all) && is_separated(e.octree, s.walls.bits, s.inside.bits))
-        return {Verdict::proved, "", {}, 0, {}};
-    const std::vector<std::uint32_t> path = leak(e.octree, s.walls.bits, s.inside.bits);
+    if (e.points_of(all) && is_separated(e, s.walls.bits, s.inside.bits)) return {Verdict::proved, "", {}, 0, {}};
+    const std::vector<std::uint32_t> path = leak(e, s.walls.bits, s.inside.bits);
     if (path.empty()) return {};
     Proof proof{Verdict::refuted, "a path leads outside", {}, 0, {}};
     for (const std::uint32_t i : path) {
@@ -321,11 +322,11 @@ Proof decide(const Evidence& e, const AreApart& s) {
     // Distances of boxes are rounded. Boxes that do not touch are at least one side of the smallest boxes apart.
     const double rounding = 1e-12 * e.octree.whole().half_diagonal();
     const double limit = std::max(s.at_least * (1 + 1e-12) + rounding, 0.5 * e.octree.side());
-    const auto close = ClosestLeaves(e.octree, limit)
-                           .run(leaves_where(e.octree, may_meet(s.first)), leaves_where(e.octree, may_meet(s.second)));
+    const auto close = ClosestLeaves(e, limit).run(leaves_where(e.octree, may_meet(s.first)),
+                                                   leaves_where(e.octree, may_meet(s.second)));
     if (!close && e.points_of(PhaseSet::of(s.first) | PhaseSet::of(s.second))) return {Verdict::proved, "", {}, 0, {}};
     if (const auto points = contact(e, s.first, s.second)) return {Verdict::refuted, "they touch", *points, 0, {}};
-    const auto closer = ClosestLeaves(e.octree, s.at_least * (1 - 1e-6) - rounding)
+    const auto closer = ClosestLeaves(e, s.at_least * (1 - 1e-6) - rounding)
                             .run(leaves_where(e.octree, is_in(s.first)), leaves_where(e.octree, is_in(s.second)));
     if (!closer) return {};
     const auto [a, b] =
@@ -339,44 +340,6 @@ Proof decide(const Evidence& e, const AreTouching& s) {
     if (decide(e, AreApart{s.first, s.second, 0}).verdict == Verdict::proved)
         return {Verdict::refuted, "they do not touch", {}, 0, {}};
     return {};
-}
-
-Proof decide(const Evidence& e, const HasTightBounds& s, const Bounds& stated) {
-    // Boxes around everything that may be, and that certainly is, in a phase other than the vacuum.
-    Cube outer = empty_cube(), inner = outer;
-    for (const OctreeLeaf& leaf : e.octree.leaves) {
-        if ((leaf.possible & ~std::uint64_t{1}) == 0) continue;
-        const Cube cube = e.octree.cube(leaf);
-        unite(outer, cube);
-        if (leaf.is_certain()) unite(inner, cube);
-    }
-    double least = 0, most = 0, least_diagonal = 0, stated_diagonal = 0;
-    int axis = 0;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const double side = static_cast<double>(stated.high[i]) - static_cast<double>(stated.low[i]);
-        // What is beyond the stated box is only rounding.
-        const double outer_side = std::min(side, outer.high[k] - outer.low[k]),
-                     inner_side = inner.high[k] - inner.low[k];
-        if (side > outer_side * least) {
-            least = side / outer_side;
-            axis = i;
-        }
-        most = inner_side > 0 ? std::max(most, side / inner_side) : std::numeric_limits<double>::infinity();
-        stated_diagonal += side * side;
-        least_diagonal += outer_side * outer_side;
-    }
-    Proof proof;
-    if (least > s.at_most) {
-        proof.verdict = Verdict::refuted;
-        proof.reason = fmt::format(
-            "the box of the tree is {:.3g} times as long along {} as the object, so the default resolution is {:.3g} "
-            "times as coarse as necessary",
-            least, "xyz"[axis], std::sqrt(stated_diagonal / least_diagonal));
-    } else if (most <= s.at_most) {
-        proof.verdict = Verdict::proved;
-    }
-    return proof;
 }
 
 }  // namespace phasetree::measuring

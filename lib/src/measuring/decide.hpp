@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "measuring/phase_octree.hpp"
@@ -7,6 +8,15 @@
 #include "phasetree/measuring/prove.hpp"
 
 namespace phasetree::measuring {
+
+/// The numbers of levels of the first and of the finest octree in which statements are decided.
+inline constexpr int first_levels = 5;
+inline int last_levels(const TraceableObject& object, const ProveOptions& options) {
+    constexpr double boxes_along_longest_side = 256;
+    const glm::dvec3 extent(object.bounds.extent());
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    return levels_for(object, options.resolution > 0 ? options.resolution : longest / boxes_along_longest_side);
+}
 
 /// What is known of the object when a statement is decided.
 struct Evidence {
@@ -22,15 +32,13 @@ struct Evidence {
     Witness middle_of(const OctreeLeaf&) const;
 };
 
-/// Decide a statement; the verdict is "undecided" if these boxes do not suffice.
+/// Decide a statement; the verdict is "undecided" if these boxes do not suffice. Throws DivisionStopped.
 Proof decide(const Evidence&, const IsPresent&);
 Proof decide(const Evidence&, const IsConnected&);
 Proof decide(const Evidence&, const IsClosed&);
 Proof decide(const Evidence&, const AreApart&);
 Proof decide(const Evidence&, const AreTouching&);
 Proof decide(const Evidence&, const IsThick&);
-/// `stated` is the box that follows from the tree's nodes.
-Proof decide(const Evidence&, const HasTightBounds&, const Bounds& stated);
 
 /// The indices of the leaves for which `is_wanted` holds.
 template <class IsWanted>

@@ -52,6 +52,9 @@ class Thickness {
 
     Proof run() {
         if (may_meet_.empty()) return {Verdict::refuted, "no point has this phase", {}, 0, {}};
+        // Also keeps squares of lengths below from overflowing.
+        if (const auto points = e_.points_of(PhaseSet::of(phase_)); points && radius_ > whole_.half_diagonal())
+            return {Verdict::refuted, "no ball of this diameter fits into the object", *points, 0, {}};
         prove(may_meet_);
         if (e_.is_stopped()) return {};
         if (open_.empty() && e_.points_of(PhaseSet::of(phase_))) return {Verdict::proved, "", {}, 0, {}};
@@ -244,7 +247,9 @@ class Thickness {
             boxes[0].low[i] = p[i] - reach_;
             boxes[0].high[i] = p[i] + reach_;
         }
+        StopPoll poll(e_.is_stopped);
         for (std::size_t count = 0; !boxes.empty(); ++count) {
+            poll();
             const Cube box = boxes.back();
             boxes.pop_back();
             if (box.distance(p) > reach_ * (1 + 1e-9)) continue;

@@ -326,11 +326,13 @@ bool PhaseOctree::is_excluded(const OctreeLeaf& leaf, int phase) const {
     return false;
 }
 
-void PhaseOctree::narrow() {
+void PhaseOctree::narrow(const std::function<bool()>& is_stopped) {
+    StopPoll poll(is_stopped);
     std::queue<std::uint32_t> fresh;
     for (std::size_t i = 0; i < leaves.size(); ++i)
         if (!leaves[i].is_certain()) fresh.push(static_cast<std::uint32_t>(i));
     for (; !fresh.empty(); fresh.pop()) {
+        poll();
         OctreeLeaf& leaf = leaves[fresh.front()];
         std::uint64_t excluded = 0;
         for_each_phase(leaf.is_certain() ? 0 : leaf.possible, [&](int phase) {
@@ -355,7 +357,7 @@ std::size_t PhaseOctree::find(const Cell& cell) const {
 PhaseOctree divided(const Phased& object, const TraceableObject& traceable, int levels, std::size_t max_boxes,
                     const std::function<bool()>& is_stopped) {
     PhaseOctree octree = OctreeDivision(object, traceable, levels, max_boxes, is_stopped).run();
-    octree.narrow();
+    octree.narrow(is_stopped);
     return octree;
 }
 

@@ -11,6 +11,25 @@
 
 namespace phasetree::measuring {
 
+/// Thrown when work on boxes is stopped, or when there are more boxes than allowed.
+struct DivisionStopped {
+    bool exceeded_max_boxes = false;
+};
+
+/// Throws DivisionStopped in a long loop once the work is to end. Asks only every so many calls.
+class StopPoll {
+  public:
+    explicit StopPoll(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
+    void operator()() {
+        constexpr std::uint32_t calls_between_polls = 1024;
+        if (++calls_ % calls_between_polls == 0 && is_stopped_()) throw DivisionStopped();
+    }
+
+  private:
+    const std::function<bool()>& is_stopped_;
+    std::uint32_t calls_ = 0;
+};
+
 /// A box of doubles.
 struct Cube {
     std::array<double, 3> low{}, high{};
@@ -89,7 +108,8 @@ struct PhaseOctree {
     /// Excludes phases from boxes by what neighbouring boxes contain. Suppose that a phase's component does not rise in
     /// a box towards one of its faces. Then a point of the phase in the box can move through this face without leaving
     /// the phase. So if no box on the other side can contain the phase, this box does not contain it either.
-    void narrow();
+    /// Throws DivisionStopped.
+    void narrow(const std::function<bool()>& is_stopped);
 
   private:
     bool is_excluded(const OctreeLeaf&, int phase) const;
@@ -129,11 +149,6 @@ struct PhaseOctree {
             if (is_there) in_region(part_low, part_extent, f);
         }
     }
-};
-
-/// Thrown by divided() when it is stopped, or when there are more boxes than allowed.
-struct DivisionStopped {
-    bool exceeded_max_boxes = false;
 };
 
 /// Divides the cube around an object to this many levels. `is_stopped` is called from any thread.

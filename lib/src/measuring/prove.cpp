@@ -9,7 +9,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "measuring/check_statement.hpp"
 #include "measuring/decide.hpp"
+#include "measuring/loose_bounds.hpp"
+#include "measuring/thickness_search.hpp"
 #include "phasetree/math/float_mode.hpp"
 
 namespace phasetree {
@@ -19,15 +22,6 @@ namespace measuring {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int first_levels = 5;
-constexpr double boxes_along_longest_side = 256;
-
-double side_of_smallest_boxes(const TraceableObject& object, const ProveOptions& options) {
-    if (options.resolution > 0) return options.resolution;
-    const glm::dvec3 extent(object.bounds.extent());
-    return std::max({extent.x, extent.y, extent.z}) / boxes_along_longest_side;
-}
 
 class Prover {
   public:
@@ -73,13 +67,17 @@ class Prover {
     void divide(double share) {
         begin_stage(share);
         const std::function<bool()> is_stopped = [this] { return stopped(); };
-        const int last = levels_for(traceable_, side_of_smallest_boxes(traceable_, options_));
+        const int last = last_levels(traceable_, options_);
         for (int levels = std::min(first_levels, last); levels <= last && is_any_open(levels) && !stopped(); ++levels) {
             try {
                 const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
                 const Evidence evidence{octree, evaluator_, is_stopped};
-                for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
-                    if (is_open(i) && !std::holds_alternative<HasNoDeadNodes>(statements_[i])) decide_one(evidence, i);
+                // Walls last: where points are expensive, they may take all of the time.
+                for (const bool is_for_walls : {false, true})
+                    for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
+                        if (is_open(i) && std::holds_alternative<IsThick>(statements_[i]) == is_for_walls &&
+                            !std::holds_alternative<HasNoDeadNodes>(statements_[i]))
+                            decide_one(evidence, i);
             } catch (const DivisionStopped& e) {
                 if (e.exceeded_max_boxes) give_up("more boxes are needed than allowed");
                 break;
@@ -127,7 +125,7 @@ class Prover {
                 if constexpr (std::is_same_v<S, HasVolume> || std::is_same_v<S, HasNoDeadNodes>)
                     return Proof();  // decided by decide_volumes() or decide_nodes()
                 else if constexpr (std::is_same_v<S, HasTightBounds>)
-                    return decide(evidence, statement, bounds(object_));
+                    return decide(evidence, statement, object_);
                 else
                     return decide(evidence, statement);
             },
@@ -243,137 +241,6 @@ class Prover {
     std::vector<bool> is_measured_;
     double end_of_stage_ = 0;  // in seconds since the start
     std::atomic<bool> is_stopped_{false}, is_cancelled_{false};
-};
-
-// Finds the thickness at which IsThick changes from proved to refuted.
-class ThicknessSearch {
-  public:
-    ThicknessSearch(const Phased& object, const ProveOptions& options)
-        : object_(object),
-          options_(options),
-          traceable_(prepare_to_trace(object)),
-          evaluator_(record(object)),
-          start_(Clock::now()) {
-        for_each_phase(phases(object).bits & ~PhaseSet::of(vacuum).bits,
-                       [&](int i) { found_.push_back({Phase{static_cast<std::uint8_t>(i)}}); });
-    }
-
-    std::vector<WallThickness> run() {
-        const FlushSubnormals flush;
-        const int last = levels_for(traceable_, side_of_smallest_boxes(traceable_, options_));
-        const std::function<bool()> is_stopped = [this] { return stopped(); };
-        const auto is_open = [](const WallThickness& w) { return !(w.high <= close_enough * w.low); };
-        for (int levels = std::min(first_levels, last); levels <= last && !stopped(); ++levels) {
-            if (std::ranges::none_of(found_, is_open)) break;
-            try {
-                const PhaseOctree octree = divided(object_, traceable_, levels, options_.max_boxes, is_stopped);
-                const Evidence evidence{octree, evaluator_, is_stopped};
-                for (WallThickness& w : found_)
-                    if (is_open(w) && !stopped()) search(evidence, w);
-            } catch (const DivisionStopped&) {
-                break;
-            }
-            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
-        }
-        if (options_.progress) options_.progress(1.f);
-        return found_;
-    }
-
-  private:
-    static constexpr double close_enough = 1.05;
-
-    bool stopped() {
-        if (options_.cancelled && options_.cancelled()) is_stopped_ = true;
-        if (std::chrono::duration<double>(Clock::now() - start_).count() >= options_.seconds) is_stopped_ = true;
-        return is_stopped_;
-    }
-    Verdict attempt(const Evidence& e, WallThickness& w, double thickness) const {
-        const Proof proof = decide(e, IsThick{w.phase, thickness});
-        if (proof.verdict == Verdict::proved) w.low = std::max(w.low, thickness);
-        if (proof.verdict == Verdict::refuted && !proof.witnesses.empty() && thickness < w.high) {
-            w.high = thickness;
-            w.place = proof.witnesses.front().point;
-        }
-        return proof.verdict;
-    }
-    // First upwards, until a thickness is refuted. Then both ends move towards each other as far as these boxes allow.
-    void search(const Evidence& e, WallThickness& w) {
-        if (e.is_absent(w.phase)) return;
-        constexpr double growth = 1.4;
-        const double longest = 2 * e.octree.whole().half_diagonal();
-        for (double t = w.low > 0 ? w.low * growth : 2 * e.octree.side(); t < std::min(w.high, longest); t *= growth)
-            if (stopped() || attempt(e, w, t) == Verdict::refuted) break;
-        for (const Verdict wanted : {Verdict::proved, Verdict::refuted}) {
-            constexpr int most_steps = 4;
-            double low = std::max(w.low, e.octree.side()), high = w.high;
-            for (int step = 0; step < most_steps && std::isfinite(high) && high > close_enough * low; ++step) {
-                if (stopped()) return;
-                const double middle = std::sqrt(low * high);
-                const bool is_wanted = attempt(e, w, middle) == wanted;
-                (is_wanted == (wanted == Verdict::proved) ? low : high) = middle;
-            }
-        }
-    }
-
-    const Phased& object_;
-    const ProveOptions& options_;
-    TraceableObject traceable_;
-    Evaluator evaluator_;
-    Clock::time_point start_;
-    std::vector<WallThickness> found_;
-    std::atomic<bool> is_stopped_{false};
-};
-
-// Rejects statements with invalid phases, or with lengths out of range.
-struct CheckStatement {
-    void phase(Phase p) const {
-        if (p.index >= Phase::capacity) throw ModelError(fmt::format("there is no phase {}", p.index));
-    }
-    void different(Phase a, Phase b) const {
-        phase(a);
-        phase(b);
-        if (a == b) throw ModelError("the two phases of a statement must differ");
-    }
-    void length(double v, bool is_zero_allowed, const char* what) const {
-        if (!(v >= 0 && std::isfinite(v) && (is_zero_allowed || v > 0)))
-            throw ModelError(fmt::format("{} must be {} number, but is {}", what,
-                                         is_zero_allowed ? "a finite, non-negative" : "a finite, positive", v));
-    }
-    void operator()(const IsPresent& s) const { phase(s.phase); }
-    void operator()(const IsConnected& s) const { phase(s.phase); }
-    void operator()(const IsClosed& s) const {
-        if (s.walls.empty() || s.inside.empty()) throw ModelError("\"closed\" needs walls, and phases inside them");
-        if (!(s.walls & s.inside).empty()) throw ModelError("a phase cannot be both a wall and inside the walls");
-        if ((s.walls | s.inside).contains(vacuum))
-            throw ModelError("the vacuum surrounds the object, so it is neither a wall nor inside walls");
-    }
-    void operator()(const AreApart& s) const {
-        different(s.first, s.second);
-        length(s.at_least, true, "the distance");
-    }
-    void operator()(const AreTouching& s) const { different(s.first, s.second); }
-    void operator()(const IsThick& s) const {
-        phase(s.phase);
-        if (s.phase == vacuum) throw ModelError("the vacuum has no walls");
-        length(s.at_least, false, "the thickness");
-        length(s.reach, true, "the reach");
-        if (s.reach > 0 && !(s.reach > 0.5 * s.at_least))
-            throw ModelError(fmt::format("the reach must be more than half of the thickness, {}, but is {}",
-                                         0.5 * s.at_least, s.reach));
-    }
-    void operator()(const HasVolume& s) const {
-        for (const auto& [p, weight] : s.weights) {
-            phase(p);
-            if (p == vacuum) throw ModelError("the vacuum has no volume");
-            length(weight, true, "a weight");
-        }
-        if (!(s.at_least <= s.at_most)) throw ModelError("the least volume must not be more than the greatest");
-    }
-    void operator()(const HasNoDeadNodes&) const {}
-    void operator()(const HasTightBounds& s) const {
-        if (!(s.at_most >= 1 && std::isfinite(s.at_most)))
-            throw ModelError(fmt::format("the factor must be a number of at least 1, but is {}", s.at_most));
-    }
 };
 
 }  // namespace

@@ -17,6 +17,9 @@ class SceneError(Error):
     message: str
     suggestion: str | None
 
+class Interrupted(KeyboardInterrupt):
+    result: Any
+
 class Material:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
@@ -122,8 +125,8 @@ phase, or of all phases except the vacuum, is a manifold."""
 class Measures(NamedTuple):
     r"""Volumes, masses and moments of the phases of an object; see Object.measure.
 
-    The last axis of each array holds [low, high, estimate]. The number is guaranteed to lie between low and high.
-    Lengths are in the unit of the scene, usually metres."""
+    The last axis of each array up to `high` holds [low, high, estimate]. The number certainly lies between low and
+    high. Areas are statistical estimates. Lengths are in the unit of the scene, usually metres."""
     names: tuple[str, ...]
     volume: np.ndarray
     mass: np.ndarray
@@ -133,6 +136,10 @@ class Measures(NamedTuple):
     high: np.ndarray
     stopped: str
     boxes: int
+    area: np.ndarray | None
+    contact: np.ndarray | None
+    thickness: np.ndarray | None
+    thinnest: np.ndarray | None
 
 class Proof(NamedTuple):
     r"""What is known of a statement about an object; see Object.prove."""
@@ -610,9 +617,9 @@ all cores and does not need `prepare`. Raises Error if the object is empty or un
     def next_crossing(self, origins, directions, phases=..., limit=...):
         r"""The first crossing along each ray in double precision, as NextCrossings.
 
-Arguments and guarantees are those of `crossings`. To continue a ray, start at `far` in the phase `after`. To
-reflect it, start at `near` in the phase `before`. No offset is needed, and no crossing is found twice."""
-    def measure(self, tolerance=..., seconds=..., densities=..., progress=...):
+Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
+reflected, at `near` with `before`. No offset is needed, and no crossing is found twice."""
+    def measure(self, tolerance=..., seconds=..., densities=..., progress=..., areas=..., thickness=...):
         r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
 Each number comes with an interval that is guaranteed to contain it, unless a rounding error of a distance
@@ -620,11 +627,13 @@ exceeds half of `Object.resolution`.
 
 tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
 also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
-masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and
-an estimate of the fraction done, up to 1.
+masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
+guess of the fraction done, up to 1. areas: also estimate the areas of surfaces and contacts, to a standard
+error of `tolerance` or 0.002. thickness: also find how thin each phase is where it is thinnest. Each of these
+takes up to `seconds` more.
 
 Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
-an argument is out of its range."""
+an argument is out of its range. Ctrl-C raises Interrupted, whose `result` has what was known by then."""
     def prove(self, *statements, unit=..., resolution=..., seconds=..., progress=...):
         r"""Proves or refutes statements about the object. Returns a list of Proof.
 
@@ -635,7 +644,8 @@ seconds: a time limit, by default none. progress: called with "proving" and an e
 up to 1.
 
 Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of
-`Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded."""
+`Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded. Ctrl-C
+raises Interrupted, whose `result` has what was known by then."""
     @property
     def bounds(self):
         r"""A box around everything but the vacuum: (low, high). Infinite where unbounded; None if empty."""
@@ -1253,7 +1263,8 @@ The bracket is halved repeatedly. An end moves only if the guaranteed interval o
 side of the target. The measure is therefore guaranteed to pass the target within the final bracket; it may do so
 several times.
 
-Raises Error if both ends are on the same side, or if an argument is out of its range."""
+Raises Error if both ends are on the same side, or if an argument is out of its range. Ctrl-C raises Interrupted,
+whose `result` is the Solution with the bracket so far, or KeyboardInterrupt if there is none yet."""
 
 def load(path: str | PathLike[str]) -> Scene:
     r"""Reads a scene file. Raises SceneError with file, line and column. Comments and names of shapes are not kept.

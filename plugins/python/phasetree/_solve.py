@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from phasetree import _phasetree
-from phasetree._errors import Error
+from phasetree._errors import Error, interrupted
 from phasetree._phases import Phase
 from phasetree._trees import Object
 
@@ -24,7 +24,7 @@ class Solution(NamedTuple):
     measure: np.ndarray  #: float64 (3): at the value; infinite if there was no time to measure it
     at_low: np.ndarray  #: float64 (3): at the lower end, certainly on one side of the target
     at_high: np.ndarray  #: float64 (3): at the upper end, certainly on the other
-    stopped: str  #: "tolerance", "undecided" (32-bit coordinates allow no narrower bracket) or "time"
+    stopped: str  #: "tolerance", "undecided" (32-bit coordinates allow no narrower bracket), "time" or "interrupted"
     measurements: int  #: how often an object was measured
 
 
@@ -42,7 +42,8 @@ def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seco
     side of the target. The measure is therefore guaranteed to pass the target within the final bracket; it may do so
     several times.
 
-    Raises Error if both ends are on the same side, or if an argument is out of its range.
+    Raises Error if both ends are on the same side, or if an argument is out of its range. Ctrl-C raises Interrupted,
+    whose `result` is the Solution with the bracket so far, or KeyboardInterrupt if there is none yet.
     """
     names = _object(make(float(low))).names
     wanted = names[1:] if phase is None else [_name(phase)]
@@ -65,9 +66,13 @@ def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seco
 
     numbers = [(names.index(name), weight) for name, weight in weights.items()]
     seconds = None if seconds is None else float(seconds)
-    stopped, best, first, last, undecided, count = _phasetree.solve(
-        handle, numbers, float(target), float(low), float(high), float(tolerance), seconds, progress
-    )
+    try:
+        found = _phasetree.solve(
+            handle, numbers, float(target), float(low), float(high), float(tolerance), seconds, progress
+        )
+    except KeyboardInterrupt as e:
+        raise interrupted(e, _bracket) from None
+    stopped, best, first, last, undecided, count = found
     if stopped == "same side":
         raise Error(
             f"there is no bracket: the measure is {_interval(first)}, and {_interval(last)}; both are "
@@ -80,6 +85,14 @@ def solve(make, target, low, high, phase=None, densities=None, tolerance=0, seco
         )
     if best is None:
         raise Error("time ran out before both ends of the bracket were measured; allow more seconds")
+    return Solution(best[0], first[0], last[0], best[1][0], first[1][0], last[1][0], stopped, count)
+
+
+def _bracket(found):
+    """The Solution so far; None if there is no bracket yet."""
+    stopped, best, first, last, _, count = found
+    if best is None or first is None or last is None:
+        return None
     return Solution(best[0], first[0], last[0], best[1][0], first[1][0], last[1][0], stopped, count)
 
 

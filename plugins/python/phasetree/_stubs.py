@@ -152,6 +152,7 @@ def text():
     out += "import numpy as np\n\n__version__: str\nbuild_id: str\n\n"
     out += "class Error(ValueError): ...\n\nclass SceneError(Error):\n    file: str\n    line: int\n    column: int\n"
     out += "    message: str\n    suggestion: str | None\n\n"
+    out += "class Interrupted(KeyboardInterrupt):\n    result: Any\n\n"
     for name in _CLASSES.values():
         out += f"class {name}:\n    kind: str\n    def parameters(self) -> dict[str, Any]: ...\n\n"
     out += "class Phase:\n    name: str\n    material: Material | None\n    density: float | None\n"

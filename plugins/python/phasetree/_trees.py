@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from phasetree import _phasetree, _reference
-from phasetree._errors import Error
+from phasetree._errors import Error, Interrupted, interrupted
 from phasetree._formula import Expression
 from phasetree._phases import Phase, merged, vacuum
 from phasetree._registry import classes, functions
@@ -117,8 +117,8 @@ class PhaseMesh(NamedTuple):
 class Measures(NamedTuple):
     """Volumes, masses and moments of the phases of an object; see Object.measure.
 
-    The last axis of each array holds [low, high, estimate]. The number is guaranteed to lie between low and high.
-    Lengths are in the unit of the scene, usually metres.
+    The last axis of each array up to `high` holds [low, high, estimate]. The number is guaranteed to lie between low
+    and high. Areas are statistical estimates. Lengths are in the unit of the scene, usually metres.
     """
 
     names: tuple[str, ...]  #: the names of the N phases, without the vacuum
@@ -128,8 +128,15 @@ class Measures(NamedTuple):
     inertia: np.ndarray  #: float64 (N, 3, 3, 3): the tensor of inertia about the centre of mass
     low: np.ndarray  #: float64 (N, 3, 3): the smallest x, y and z of the phase
     high: np.ndarray  #: float64 (N, 3, 3): the largest x, y and z of the phase
-    stopped: str  #: "tolerance", "precision" (32-bit coordinates allow no better), "time" or "boxes" (too many)
+    stopped: str  #: "tolerance", "precision" (32-bit coordinates allow no better), "time", "boxes" (too many) or "interrupted"
     boxes: int  #: the number of boxes examined
+    area: np.ndarray | None = None  #: with areas=True, float64 (N, 2): the area of the surface, and its standard error
+    #: With areas=True, float64 (N + 1, N + 1, 2): the area of contact of two phases, the vacuum first, and its error.
+    contact: np.ndarray | None = None
+    #: With thickness=True, float64 (N, 2): the phase is certainly nowhere thinner than the first, but somewhere thinner
+    #: than the second; (0, inf) if nothing is known.
+    thickness: np.ndarray | None = None
+    thinnest: np.ndarray | None = None  #: with thickness=True, float64 (N, 3): where; nan if unknown
 
 
 class Proof(NamedTuple):
@@ -545,7 +552,7 @@ class Object(Value):
         made = _phasetree.mesh(self._prepared, spacing, progress)
         return PhaseMesh(*made[:4], self.names, *made[4:])
 
-    def measure(self, tolerance=1e-3, seconds=None, densities=None, progress=None):
+    def measure(self, tolerance=1e-3, seconds=None, densities=None, progress=None, areas=False, thickness=False):
         """Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
         Each number comes with an interval that is guaranteed to contain it, unless a rounding error of a distance
@@ -554,10 +561,12 @@ class Object(Value):
         tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
         also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
         masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and
-        an estimate of the fraction done, up to 1.
+        an estimate of the fraction done, up to 1. areas: also estimate the areas of surfaces and contacts, to a
+        standard error of `tolerance` or 0.002. thickness: also find the smallest thickness of each phase. Each of
+        these takes up to `seconds` more.
 
         Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
-        an argument is out of its range.
+        an argument is out of its range. Ctrl-C raises Interrupted, whose `result` has what was known by then.
         """
         numbers = []
         for phase, density in (densities or {}).items():
@@ -566,8 +575,33 @@ class Object(Value):
                 raise Error(f'the object has no phase {name!r}; it has {", ".join(self.names)}')
             numbers.append((self.names.index(name), float(density)))
         seconds = None if seconds is None else float(seconds)
-        found = _phasetree.measure(self._handle, float(tolerance), seconds, numbers, progress)
-        return Measures(tuple(self.names[i] for i in found[0]), *found[1:])
+
+        def measures(found):
+            return Measures(tuple(self.names[i] for i in found[0]), *found[1:]) if found[0] else None
+
+        try:
+            found = measures(_phasetree.measure(self._handle, float(tolerance), seconds, numbers, progress))
+        except KeyboardInterrupt as e:
+            raise interrupted(e, measures) from None
+        if areas:
+
+            def add_areas(parts):
+                return found._replace(**_areas(self.names, found.names, *parts))
+
+            try:
+                found = add_areas(_phasetree.areas(self._prepared, float(tolerance), seconds, progress))
+            except KeyboardInterrupt as e:
+                raise Interrupted(found) if not hasattr(e, "result") else interrupted(e, add_areas) from None
+        if thickness:
+
+            def add_walls(walls):
+                return found._replace(**_walls(self.names, found.names, walls))
+
+            try:
+                found = add_walls(_phasetree.thicknesses(self._handle, seconds, progress))
+            except KeyboardInterrupt as e:
+                raise Interrupted(found) if not hasattr(e, "result") else interrupted(e, add_walls) from None
+        return found
 
     def prove(self, *statements, unit="m", resolution=0, seconds=None, progress=None):
         """Proves or refutes statements about the object. Returns a list of Proof.
@@ -579,14 +613,18 @@ class Object(Value):
         up to 1.
 
         Nothing false is proved and nothing true is refuted, unless a rounding error of a distance exceeds half of
-        `Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded.
+        `Object.resolution`. Raises Error if a statement is malformed, or if the object is empty or unbounded. Ctrl-C
+        raises Interrupted, whose `result` has what was known by then.
         """
         densities = [(i, p.density) for i, p in enumerate(self.phases) if p.density is not None]
         text = json.dumps({"expect": list(statements)}, ensure_ascii=False, default=_name_of_phase)
         seconds = None if seconds is None else float(seconds)
-        found = _phasetree.prove(
-            self._handle, list(self.names), text, unit, densities, float(resolution), seconds, progress
-        )
+        try:
+            found = _phasetree.prove(
+                self._handle, list(self.names), text, unit, densities, float(resolution), seconds, progress
+            )
+        except KeyboardInterrupt as e:
+            raise interrupted(e, lambda known: [Proof(*one) for one in known] or None) from None
         return [Proof(*one) for one in found]
 
     @property
@@ -610,6 +648,29 @@ class Object(Value):
 
     def __repr__(self):
         return f"<Object of {_listed(self.names[1:])}, {self.nodes} nodes>"
+
+
+def _areas(all_names, names, areas, contacts):
+    """The arrays of Measures from lists of (phase, area, error) and (first, second, area, error)."""
+    area, contact = np.zeros((len(names), 2)), np.zeros((len(names) + 1, len(names) + 1, 2))
+    place = {all_names.index(name): k + 1 for k, name in enumerate(names)}
+    place[0] = 0
+    for phase, *numbers in areas:
+        area[place[phase] - 1] = numbers
+    for first, second, *numbers in contacts:
+        contact[place[first], place[second]] = contact[place[second], place[first]] = numbers
+    return {"area": area, "contact": contact}
+
+
+def _walls(all_names, names, walls):
+    """The arrays of Measures from a list of (phase, low, high, place)."""
+    thickness, thinnest = np.tile([0, np.inf], (len(names), 1)), np.full((len(names), 3), np.nan)
+    for phase, low, high, place in walls:
+        k = names.index(all_names[phase])
+        thickness[k] = low, high
+        if place is not None:
+            thinnest[k] = place
+    return {"thickness": thickness, "thinnest": thinnest}
 
 
 def _material(phase):

@@ -33,4 +33,19 @@ using Progress = std::function<void(const char* stage, float share)>;
 void run_beside(const pybind11::object& tell,
                 const std::function<void(const std::function<bool()>& cancelled, const Progress& progress)>& work);
 
+/// Like run_beside(), and returns made(): what is known when the work has ended. If Ctrl-C or `tell` ends it, the
+/// exception gets that as its attribute `result`.
+template <class Made>
+auto run_for_result(const pybind11::object& tell,
+                    const std::function<void(const std::function<bool()>& cancelled, const Progress& progress)>& work,
+                    const Made& made) {
+    try {
+        run_beside(tell, work);
+    } catch (pybind11::error_already_set& e) {
+        if (e.value()) e.value().attr("result") = made();
+        throw;
+    }
+    return made();
+}
+
 }  // namespace phasetree::python

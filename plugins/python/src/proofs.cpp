@@ -17,6 +17,23 @@ namespace phasetree::python {
 
 namespace {
 
+py::list listed(const std::vector<Proof>& found, const std::vector<tracer::Expectation>& expected,
+                const std::vector<std::string>& names) {
+    py::list all;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Proof& p = found[i];
+        py::list points;
+        for (const Witness& w : p.witnesses)
+            points.append(py::make_tuple(py::make_tuple(w.point.x, w.point.y, w.point.z), names[w.phase.index]));
+        const double size = expected[i].unit;
+        py::object interval = py::none();
+        if (std::isfinite(p.measured.low) && std::isfinite(p.measured.high))
+            interval = py::make_tuple(p.measured.low / size, p.measured.high / size);
+        all.append(py::make_tuple(std::string(name_of(p.verdict)), p.reason, points, p.resolution, interval));
+    }
+    return all;
+}
+
 // `text` is a scene file that has only "expect". `densities` holds pairs of a phase's number and its density in kg/m³.
 py::list proofs(const Phased& object, const std::vector<std::string>& names, const std::string& text,
                 const std::string& unit, const std::vector<std::pair<int, double>>& densities, double resolution,
@@ -35,24 +52,14 @@ py::list proofs(const Phased& object, const std::vector<std::string>& names, con
     options.resolution = resolution;
     if (seconds) options.seconds = *seconds;
     std::vector<Proof> found;
-    run_beside(tell, [&](const auto& cancelled, const auto& progress) {
-        options.cancelled = cancelled;
-        options.progress = [&](float share) { progress("proving", share); };
-        found = prove(object, statements, options);
-    });
-    py::list all;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const Proof& p = found[i];
-        py::list points;
-        for (const Witness& w : p.witnesses)
-            points.append(py::make_tuple(py::make_tuple(w.point.x, w.point.y, w.point.z), names[w.phase.index]));
-        const double size = expected[i].unit;
-        py::object interval = py::none();
-        if (std::isfinite(p.measured.low) && std::isfinite(p.measured.high))
-            interval = py::make_tuple(p.measured.low / size, p.measured.high / size);
-        all.append(py::make_tuple(std::string(name_of(p.verdict)), p.reason, points, p.resolution, interval));
-    }
-    return all;
+    return run_for_result(
+        tell,
+        [&](const auto& cancelled, const auto& progress) {
+            options.cancelled = cancelled;
+            options.progress = [&](float share) { progress("proving", share); };
+            found = prove(object, statements, options);
+        },
+        [&] { return listed(found, expected, names); });
 }
 
 }  // namespace

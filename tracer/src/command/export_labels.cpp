@@ -128,6 +128,7 @@ int export_labels(const SceneFile& file, const LabelExport& wanted) {
         const auto scale = static_cast<double>(wanted.scale.value_or(1));
         volume.origin *= scale;
         volume.spacing *= scale;
+        volume.scale = scale;
         volume.unit = unit_of(wanted, model);
         write_file(is_openvdb(wanted) ? labels_as_openvdb(volume, cancelled) : labels_as_nrrd(volume, cancelled),
                    wanted.output);

@@ -14,6 +14,7 @@
 #include "command/metres.hpp"
 #include "command/number_in.hpp"
 #include "command/quantity.hpp"
+#include "command/reading.hpp"
 #include "command/streams.hpp"
 #include "embree_core/line_tracer.hpp"
 #include "embree_core/prepared_object.hpp"
@@ -71,15 +72,31 @@ std::vector<WallThickness> thicknesses_of(const Document& document, const SceneT
     return made_of_tree(document, [&] { return wall_thicknesses(tree.object, options); });
 }
 
-int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
-    const AvailableThreads threads;
+struct WhatToMeasure {
+    Document document;
+    SceneTree tree;
+    LengthUnit unit;
+    std::vector<std::pair<Phase, double>> densities;
+};
+
+WhatToMeasure read_what_to_measure(const SceneFile& file, const MeasureCommand& chosen) {
+    const EndingAtOnce at_once = ending_before_results();
     const Document document = read_document(file);
     const SceneModel model = read_scene_model(document);
     const SceneTree tree = tree_of_model(document, model, chosen.object);
     const LengthUnit unit = length_unit(chosen.unit, model);
     const std::vector<std::pair<Phase, double>> densities = densities_of(chosen.densities, tree, model);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
+    return {document, tree, unit, densities};
+}
+
+int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
+    const AvailableThreads threads;
     const InterruptGuard guard;
+    const WhatToMeasure given = read_what_to_measure(file, chosen);
+    const Document& document = given.document;
+    const SceneTree& tree = given.tree;
+    const LengthUnit& unit = given.unit;
     const Clock::time_point start = Clock::now();
     AreaResult areas;
     try {
@@ -93,7 +110,7 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
     }
     MeasureOptions options;
     options.tolerance = chosen.tolerance;
-    options.densities = densities;
+    options.densities = given.densities;
     options.cancelled = [] { return interrupted(); };
     LateProgress progress(ProgressOutput::standard_error(false), "measuring the object");
     options.progress = [&](float done) { progress.tell(done); };

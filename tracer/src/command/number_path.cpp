@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command/errors.hpp"
+#include "phasetree/io/keys.hpp"
 #include "phasetree/io/suggest.hpp"
 
 namespace phasetree::tracer {
@@ -59,18 +60,41 @@ Value child_of(Value value, const std::string& path, const std::string& step) {
     return value[index];
 }
 
-Value value_at(const Document& document, const std::string& pointer) {
+// Which keyframe a number belongs to.
+struct InKey {
+    std::optional<double> seconds;  // the time of the keyframe whose value contains the number
+    bool is_time = false;
+};
+
+// Sets `in_key` if the path leads into {"keys": [[seconds, value], …]}.
+Value value_at(const Document& document, const std::string& pointer, InKey& in_key) {
     Value value = document.root();
+    std::vector<std::string> steps;
     std::size_t at = 0;
     while (at < pointer.size()) {
         const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
-        value = child_of(value, pointer.substr(0, at), pointer.substr(at + 1, end - at - 1));
+        const std::string step = pointer.substr(at + 1, end - at - 1);
+        const bool is_item_of_key = steps.size() >= 2 && steps[steps.size() - 2] == "keys" && value.is_array() &&
+                                    value.size() == 2 && value[0].is_number();
+        if (is_item_of_key && step == "0") in_key.is_time = true;
+        if (is_item_of_key && step == "1") in_key.seconds = value[0].number();
+        steps.push_back(step);
+        value = child_of(value, pointer.substr(0, at), step);
         at = end;
     }
     return value;
 }
 
-double number_of(const Document& document, const std::string& pointer) {
+// The keyframes of a value, as paths that can be chosen.
+std::string paths_of_keys(const std::string& pointer, Value keys) {
+    std::vector<std::string> paths;
+    for (std::size_t i = 0; i < std::min(keys.size(), most_listed); ++i)
+        if (keys[i].is_array() && keys[i].size() == 2 && keys[i][0].is_number())
+            paths.push_back(fmt::format("{}/keys/{}/1 (at {} s)", pointer, i, keys[i][0].number()));
+    return fmt::format("{}{}", fmt::join(paths, ", "), keys.size() > most_listed ? " …" : "");
+}
+
+double number_of(const Document& document, const std::string& pointer, InKey& in_key) {
     bool is_escaped = true;  // each ~ is followed by 0 or 1
     for (std::size_t at = pointer.find('~'); at != pointer.npos; at = pointer.find('~', at + 1))
         is_escaped = is_escaped && at + 1 < pointer.size() && (pointer[at + 1] == '0' || pointer[at + 1] == '1');
@@ -79,9 +103,12 @@ double number_of(const Document& document, const std::string& pointer) {
             fmt::format("--set: must be the path of a number in the scene file, such as "
                         "/tree/set/of/sphere/radius, but is \"{}\"",
                         pointer));
-    const Value value = value_at(document, pointer);
+    const Value value = value_at(document, pointer, in_key);
     if (pointer == "/version") throw UsageError("--set: \"/version\" is the version of the scene format");
     if (value.is_number()) return value.number();
+    if (value.is_object() && Keys::are_in(value) && value.find("keys")->is_array())
+        throw UsageError(fmt::format("--set: \"{}\" has keyframes; choose the value of one of them: {}", pointer,
+                                     paths_of_keys(pointer, *value.find("keys"))));
     std::vector<std::string> keys;
     for (const Value member : value) keys.emplace_back(member.key());
     const bool lists = value.is_object() && !keys.empty() && keys.size() <= most_listed;
@@ -112,7 +139,10 @@ NumberToSet number_to_set(const std::string& text, const Document& document) {
     const bool has_bracket = split != text.npos && text.find('/', split) == text.npos;
     NumberToSet number;
     number.pointer = text.substr(0, has_bracket ? split : text.npos);
-    const double there = number_of(document, number.pointer);
+    InKey in_key;
+    const double there = number_of(document, number.pointer, in_key);
+    number.key_seconds = in_key.seconds;
+    number.is_time_of_key = in_key.is_time;
     if (has_bracket) {
         set_bracket(number, text.substr(split + 1));
         return number;

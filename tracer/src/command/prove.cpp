@@ -12,6 +12,7 @@
 #include "command/exit_codes.hpp"
 #include "command/load.hpp"
 #include "command/number_in.hpp"
+#include "command/reading.hpp"
 #include "command/streams.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
@@ -187,6 +188,29 @@ int code_of(const std::vector<Finding>& findings, bool is_expected) {
     return has(Verdict::undecided) ? exit_code::undecided : exit_code::success;
 }
 
+// A scene, and the statements about it.
+struct WhatToProve {
+    Document document;
+    NodePlaces places;
+    SceneTree tree;
+    std::vector<Expectation> expected;
+    bool is_expected = false;  // whether the scene has statements of its own
+};
+
+WhatToProve read_what_to_prove(const SceneFile& file, const ProveCommand& chosen) {
+    const EndingAtOnce at_once = ending_before_results();
+    const Document document = read_document(file);
+    NodePlaces places;
+    const SceneModel model = read_scene_model(document, places);
+    const SceneTree tree = tree_of_model(document, model, chosen.object);
+    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
+    std::vector<Expectation> expected =
+        read_expectations(document, {model.phases, model.unit ? model.unit->metres : 1, model.densities});
+    const bool is_expected = !expected.empty();
+    if (!is_expected) expected = usual_expectations(tree);
+    return {document, places, tree, expected, is_expected};
+}
+
 }  // namespace
 
 void add_prove_options(CLI::App& command, ProveCommand& options) {
@@ -208,21 +232,16 @@ void add_prove_options(CLI::App& command, ProveCommand& options) {
 
 int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     const AvailableThreads threads;
-    const Document document = read_document(file);
-    NodePlaces places;
-    const SceneModel model = read_scene_model(document, places);
-    const SceneTree tree = tree_of_model(document, model, chosen.object);
-    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
-    std::vector<Expectation> expected =
-        read_expectations(document, {model.phases, model.unit ? model.unit->metres : 1, model.densities});
-    const bool is_expected = !expected.empty();
-    if (!is_expected) expected = usual_expectations(tree);
+    const InterruptGuard guard;
+    const WhatToProve given = read_what_to_prove(file, chosen);
+    const Document& document = given.document;
+    const SceneTree& tree = given.tree;
+    const std::vector<Expectation>& expected = given.expected;
     std::vector<Statement> statements;
     for (const Expectation& e : expected) statements.push_back(e.statement);
     // Loose bounds and dead nodes are looked for in any case, for warnings.
     statements.emplace_back(HasTightBounds());
     statements.emplace_back(HasNoDeadNodes());
-    const InterruptGuard guard;
     LateProgress progress(ProgressOutput::standard_error(false), "proving");
     ProveOptions options;
     options.resolution = chosen.resolution;
@@ -232,14 +251,14 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     const std::vector<Proof> proofs = made_of_tree(document, [&] { return prove(tree.object, statements, options); });
     std::vector<Finding> findings;
     for (std::size_t i = 0; i < expected.size(); ++i) findings.push_back({expected[i], proofs[i]});
-    const std::vector<PlacedEffect> effects = placed_effects(proofs.back().nodes, places);
-    warn_of_dead_nodes(effects, places);
+    const std::vector<PlacedEffect> effects = placed_effects(proofs.back().nodes, given.places);
+    warn_of_dead_nodes(effects, given.places);
     warn_of_loose_bounds(file.shown(), document, proofs[expected.size()]);
     if (chosen.as_json)
         print_json(file.shown(), document, findings, effects, tree.phases);
     else
         print_text(file.shown(), document, findings, tree.phases);
-    if (!interrupted()) return code_of(findings, is_expected);
+    if (!interrupted()) return code_of(findings, given.is_expected);
     say("phasetree: interrupted; printed what was known by then\n");
     return code_of_interruption(false);
 }

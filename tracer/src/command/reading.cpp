@@ -41,6 +41,12 @@ EndingAtOnce ending_at_once(std::string_view what, bool can_resume) {
             fmt::format("{}phasetree: interrupted while {}; no file was written\n", start, what)};
 }
 
+EndingAtOnce ending_before_results() {
+    const char* start = ProgressOutput::standard_error(false).terminal ? "\r\x1b[K" : "";
+    return {{exit_code::interrupted, exit_code::failure},
+            fmt::format("{}phasetree: interrupted while the scene was being read; nothing is known yet\n", start)};
+}
+
 Document read_document_showing(const SceneFile& file, bool quiet) {
     std::error_code unknown;
     const std::uintmax_t size = file.is_standard_input() ? 0 : std::filesystem::file_size(file.name, unknown);

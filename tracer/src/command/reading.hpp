@@ -14,6 +14,8 @@ namespace phasetree::tracer {
 // While both this object and an InterruptGuard exist, a signal ends the command at once. `what` completes the message
 // "interrupted while", and `can_resume` says whether a checkpoint exists.
 EndingAtOnce ending_at_once(std::string_view what, bool can_resume);
+// For commands that only print: an interruption while the scene is read says that nothing is known yet.
+EndingAtOnce ending_before_results();
 
 // As read_document and load_scene, with progress. They throw the same exceptions.
 Document read_document_showing(const SceneFile& file, bool quiet);

@@ -16,6 +16,7 @@
 #include "command/number_path.hpp"
 #include "command/overwritten_files.hpp"
 #include "command/quantity.hpp"
+#include "command/reading.hpp"
 #include "command/solve_report.hpp"
 #include "command/streams.hpp"
 #include "output/file.hpp"
@@ -101,6 +102,16 @@ void check_is_no_density(const std::string& pointer) {
                     pointer));
 }
 
+// The scene at the time for which to solve: --at; otherwise the time of the keyframe whose value is to be found. Throws
+// UsageError.
+Document at_time_of(const NumberToSet& number, const SceneFile& file, const Document& document) {
+    if (number.is_time_of_key && !file.at)
+        throw UsageError(
+            fmt::format("--set: \"{}\" is the time of a keyframe; choose with --at SECONDS when the object is measured",
+                        number.pointer));
+    return number.key_seconds && !file.at ? document.at(*number.key_seconds) : document;
+}
+
 [[noreturn]] void throw_same_side(const NumberToSet& number, const Quantity& q, const SolveResult& r) {
     const bool is_below = r.low->measure.high < q.target.value;
     throw UsageError(fmt::format(
@@ -128,23 +139,40 @@ SolveOptions options_of(const SolveCommand& chosen, LateProgress& progress) {
     return options;
 }
 
-int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
-    const AvailableThreads threads;
-    if (chosen.output) check_file_writable(*chosen.output);
-    const Document document = read_document(file);
+struct WhatToSolve {
+    Document document;
+    Quantity quantity;
+    NumberToSet number;
+};
+
+WhatToSolve read_what_to_solve(const SceneFile& file, const SolveCommand& chosen) {
+    const EndingAtOnce at_once = ending_before_results();
+    const Document as_read = read_document(file);
     if (chosen.output) {
-        check_overwrites(file, document, named_files_of("--output", std::span(&*chosen.output, 1)));
-        check_same_folder(document, document.root(), *chosen.output);
+        check_overwrites(file, as_read, named_files_of("--output", std::span(&*chosen.output, 1)));
+        check_same_folder(as_read, as_read.root(), *chosen.output);
     }
-    const SceneModel model = read_scene_model(document);
+    SceneModel model = read_scene_model(as_read);
+    const NumberToSet number = number_to_set(chosen.number, as_read);
+    check_is_no_density(number.pointer);
+    const Document document = at_time_of(number, file, as_read);
+    if (document.seconds() != as_read.seconds()) model = read_scene_model(document);
     const SceneTree tree = tree_of_model(document, model, chosen.object);
     (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
     const Quantity quantity = quantity_of(chosen.quantity, tree, length_unit(chosen.unit, model),
                                           densities_of(chosen.densities, tree, model));
-    const NumberToSet number = number_to_set(chosen.number, document);
-    check_is_no_density(number.pointer);
-    EditedScene scene(file, document, number.pointer, chosen.object);
+    return {document, quantity, number};
+}
+
+int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
+    const AvailableThreads threads;
+    if (chosen.output) check_file_writable(*chosen.output);
     const InterruptGuard guard;
+    const WhatToSolve given = read_what_to_solve(file, chosen);
+    const Document& document = given.document;
+    const NumberToSet& number = given.number;
+    const Quantity& quantity = given.quantity;
+    EditedScene scene(file, document, number.pointer, chosen.object);
     LateProgress progress(ProgressOutput::standard_error(false), "solving");
     const SolveResult result = made_of_tree(document, [&] {
         return solve([&](double x) { return scene.object(x); }, quantity.target, number.low, number.high,
@@ -153,7 +181,9 @@ int solve_scene(const SceneFile& file, const SolveCommand& chosen) {
     progress.tell(1);
     if (result.end == SolveEnd::same_side) throw_same_side(number, quantity, result);
     if (result.end == SolveEnd::undecided && !result.best) throw_undecided_end(number, quantity, *result.undecided);
-    const SolveReport report{file.shown(), number.pointer, quantity, result};
+    const bool is_animated = number.key_seconds || file.at;
+    const SolveReport report{file.shown(), number.pointer, quantity, result,
+                             is_animated ? std::optional(document.seconds()) : std::nullopt};
     if (chosen.as_json)
         print_solution_json(report);
     else
@@ -207,7 +237,8 @@ void add_solve(CLI::App& app, Run& run) {
         "PATH is the number's place in the scene file, as a JSON pointer, such as\n"
         "/shapes/level/plane/offset; items of lists count from 0. Units of volume are mm3, ml, cm3, cl,\n"
         "dl, l and m3, units of mass mg, g, kg and t. Without a unit, a volume is in cubed units of\n"
-        "length, and a mass in kilograms.\n"
+        "length, and a mass in kilograms. If the number is the value of a keyframe, the object is measured at\n"
+        "the time of this keyframe, unless --at chooses another.\n"
         "\n"
         "The bracket is halved repeatedly. An end moves only if the certain interval of the volume lies\n"
         "entirely on one side of the target. So at one end of the final bracket the volume is certainly\n"

@@ -64,6 +64,7 @@ void print_solution(const SolveReport& report) {
     const Quantity& q = report.quantity;
     put("{:<20}{}\n", "scene", report.scene);
     put("{:<20}{}\n", "number", report.pointer);
+    if (report.seconds) put("{:<20}{} s\n", "time", *report.seconds);
     put("{:<20}{} = {:.9g} {}\n", "target", q.name, q.shown(q.target.value), q.unit_name);
     put("{:<20}{}\n", "stopped because", sentence_of(r.end));
     put("{:<20}{}\n\n", "measurements", r.measurements);
@@ -83,6 +84,7 @@ void print_solution_json(const SolveReport& report) {
     OrderedJson json;
     json["scene"] = report.scene;
     json["number"] = report.pointer;
+    if (report.seconds) json["seconds"] = *report.seconds;
     json["quantity"] = q.name;
     json["unit"] = q.unit_name;
     json["target"] = q.shown(q.target.value);

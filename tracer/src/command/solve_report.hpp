@@ -1,6 +1,7 @@
 // What `solve` prints.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "command/quantity.hpp"
@@ -13,6 +14,7 @@ struct SolveReport {
     std::string pointer;
     const Quantity& quantity;
     const SolveResult& result;
+    std::optional<double> seconds{};  // the time at which an animated scene was measured
 };
 
 void print_solution(const SolveReport&);

@@ -17,11 +17,12 @@ struct LabelVolume {
         std::array<int, 3> color{};  ///< sRGB codes from 0 to 255
     };
 
-    std::array<std::size_t, 3> size{};   ///< the numbers of voxels along x, y and z
-    glm::dvec3 origin{0};                ///< the centre of the first voxel
-    double spacing = 1;                  ///< between the centres of neighbours
-    std::string unit{};                  ///< of lengths: "mm", "cm", "m" or "in"; empty if it is unknown
-    std::vector<Phase> phases{};         ///< by label; [0] is the vacuum
+    std::array<std::size_t, 3> size{};  ///< the numbers of voxels along x, y and z
+    glm::dvec3 origin{0};               ///< the centre of the first voxel
+    double spacing = 1;                 ///< between the centres of neighbours
+    double scale = 1;             ///< by which the scene's coordinates are multiplied; origin and spacing are, too
+    std::string unit{};           ///< of lengths: "mm", "cm", "m" or "in"; empty if it is unknown
+    std::vector<Phase> phases{};  ///< by label; [0] is the vacuum
     std::vector<std::uint8_t> labels{};  ///< x fastest
 
     std::size_t count() const { return size[0] * size[1] * size[2]; }

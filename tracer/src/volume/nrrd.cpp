@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// The value of a key must be on one line.
+// The value of a key, and a comment, must be on one line.
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -23,10 +23,18 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
+std::string list_of_labels(const LabelVolume& v) {
+    std::string text;
+    for (std::size_t label = 1; label < v.phases.size(); ++label)
+        text += fmt::format(", {} {}", label, escaped(v.phases[label].name));
+    return text;
+}
+
 std::string header_of(const LabelVolume& v) {
     std::string text = "NRRD0005\n";
     text +=
-        "# Labels of phases: 0 is the vacuum. Space is that of the scene; each label is that of its voxel's centre.\n";
+        fmt::format("# Labels of phases at the centres of voxels: 0 vacuum{}\n# Coordinates are those of the scene{}\n",
+                    list_of_labels(v), v.scale == 1 ? "" : fmt::format(", multiplied by {}", v.scale));
     text += "type: uint8\ndimension: 3\nspace: right-anterior-superior\n";
     text += fmt::format("sizes: {} {} {}\n", v.size[0], v.size[1], v.size[2]);
     text += fmt::format("space directions: ({0},0,0) (0,{0},0) (0,0,{0})\n", v.spacing);
