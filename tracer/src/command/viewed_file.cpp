@@ -10,7 +10,7 @@
 #include "command/unplaced_report.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
-#include "phasetree/model/preparation_watch.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 #include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
 
@@ -91,9 +91,7 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
 // Waits for a mutex. Throws PreparationCancelled.
 std::unique_lock<std::timed_mutex> locked(std::timed_mutex& mutex) {
     std::unique_lock lock(mutex, std::defer_lock);
-    while (!lock.try_lock_for(std::chrono::milliseconds(20)))
-        if (const auto* watch = PreparationWatch::current(); watch && watch->cancelled && watch->cancelled())
-            throw PreparationCancelled();
+    while (!lock.try_lock_for(std::chrono::milliseconds(20))) poll_preparation();
     return lock;
 }
 

@@ -12,7 +12,7 @@
 #include "lights/atmosphere.hpp"
 #include "lights/check.hpp"
 #include "lights/lat_long.hpp"
-#include "phasetree/model/preparation_watch.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 
 namespace phasetree::tracer {
 
@@ -70,15 +70,9 @@ class RecentTables {
     std::list<std::shared_ptr<const EnvironmentImage>> last_;
 };
 
-// Throws PreparationCancelled if reading the scene is cancelled.
-void poll_cancelled() {
-    const PreparationWatch::Callbacks* const watch = PreparationWatch::current();
-    if (watch && watch->cancelled && watch->cancelled()) throw PreparationCancelled();
-}
-
 Table tabulated(const DaylightParameters& parameters) {
     const glm::dvec3 albedo(parameters.ground_albedo);
-    poll_cancelled();
+    poll_preparation();
     const Atmosphere atmosphere(parameters.turbidity, albedo);
     // Left and right are symmetric.
     const glm::dvec3 to_sun(direction_of_degrees(0.0f, parameters.sun_elevation_degrees));
@@ -91,7 +85,7 @@ Table tabulated(const DaylightParameters& parameters) {
     };
     glm::dvec3 sky_irradiance(0.0);
     for (int row = 0; row < height / 2; ++row) {
-        poll_cancelled();
+        poll_preparation();
         const double theta = std::numbers::pi * (row + 0.5) / height;
         const auto path = atmosphere.path(std::cos(theta));
         for (int column = 0; column < width / 2; ++column) {
