@@ -106,6 +106,10 @@ class Editor:
             material = choice([e for e in entries if e["type"] == "material" and e["label"]])
             return "rename", [{"rename": material["pointer"], "to": f"phase {self.version}", "references": True}]
         listed = [e for e in parts if e["pointer"].rsplit("/", 1)[1].isdigit()]
+        if roll > 1.1:
+            # Lights, and what may be in use.
+            others = [e for e in entries if e["pointer"].startswith(("/lights/", "/phases/", "/shapes/")) and e["pointer"].count("/") == 2]
+            return "remove", [{"remove": choice(others)["pointer"]}]
         if roll < 0.9 and listed:
             one = choice(listed)
             return "move", [{"move": one["pointer"], "to": one["pointer"].rsplit("/", 1)[0] + f"/{choice([0, 0, 1, '-'])}"}]
@@ -136,9 +140,9 @@ class Editor:
             self.post("redo", {})
             self.done.append(self.undone.pop())
             return "redo", True
-        what, operations = self.operations()
-        if not operations:
-            return "nothing", True
+        what, operations = None, []
+        while not operations:
+            what, operations = self.operations()
         status = self.post("document", {"base": self.version, "label": what, "operations": operations, "strict": True})
         if status not in (200, 400):
             raise AssertionError((status, operations))
