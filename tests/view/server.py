@@ -109,6 +109,13 @@ class Refusals(unittest.TestCase):
         ranges = b"Range: bytes=" + b",".join([b"0-"] * 2000) + b"\r\n\r\n"
         self.assertIn(b"200 OK", self.answer_to(head + ranges))
 
+    def test_nothing_is_compressed(self):
+        # Compressing the catalogue would take more than a second.
+        for name in ("catalogue", "document", "", "style.css"):
+            headers = self.view.get(name, headers={"Accept-Encoding": "gzip, deflate, br"}).headers
+            self.assertNotIn("Content-Encoding", headers)
+            self.assertIn("Content-Length", headers)
+
     def test_half_requests_run_out_of_time(self):
         begun = f"POST /{self.view.token}/change HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n".encode()
         body = begun + b"Content-Type: application/json\r\nContent-Length: 100\r\n\r\n{"

@@ -232,6 +232,20 @@ class Editors(StudioCase):
         self.step(lambda: self.click(self.many("Put the last over")))
         self.assertEqual(self.tree(), {"over": [wood, box, sphere]})
 
+    def test_a_step_that_ends_late_does_not_take_the_selection_away(self):
+        self.open(GLASSES)
+        active = """(async (click) => {
+            studio.selection.set(["/tree/over/0"]);
+            const step = studio.actions.run({label: "x", operations: [{insert: "/phases/new", value: '{"clear": {"ior": 1.4}}'}], select: ["/phases/new"]});
+            if (click) studio.selection.set([click]);
+            await step;
+            const now = studio.selection.active;
+            await studio.scene.goBack();
+            return now;
+        })"""
+        self.assertEqual(self.browser.run(f"{active}(null)"), "/phases/new")
+        self.assertEqual(self.browser.run(f"{active}('/tree/over/1')"), "/tree/over/1")
+
     def test_operators_between_phases_are_explained_where_they_are_chosen(self):
         self.open(GLASSES)
         operators = self.tree()["over"]
