@@ -194,12 +194,12 @@ void compare_examples(GlDialect dialect, const GlslOptions& options, std::size_t
 }
 
 const bool is_long = long_tests();
-const std::size_t some = is_long ? 1 : 9;
+const std::size_t some = is_long ? 1 : 15;
 
 }  // namespace
 
 TEST_CASE("nodes' examples have the same values, labels and gradients in GLSL ES 3.00") {
-    compare_examples(GlDialect::es_300, {}, is_long ? 1 : 2);
+    compare_examples(GlDialect::es_300, {}, is_long ? 1 : 3);
 }
 
 TEST_CASE("examples are the same by a table of instructions, and by programs of boxes") {
@@ -220,7 +220,7 @@ TEST_CASE("random trees have the same values, labels and gradients in GLSL ES 3.
     Comparison all;
     int trees = 0;
     const auto kinds = node_kinds();
-    for (std::size_t k = 0; k < kinds.size(); k += is_long ? 1 : 4) {
+    for (std::size_t k = 0; k < kinds.size(); k += is_long ? 1 : 6) {
         Random rng = random_for(76, kinds[k]);
         for (int i = 0; i < (is_long ? 6 : 1); ++i) {
             CAPTURE(kinds[k].name);

@@ -217,7 +217,7 @@ TEST_CASE("on symmetric points the normal is that of a face") {
 TEST_CASE("along jittered and grazing rays no normal is an outlier, whatever the node") {
     const FlushSubnormals flush;
     NormalTotals all;
-    const int trees = long_tests() ? 60 : 6, rays = long_tests() ? 200 : 20;
+    const int trees = long_tests() ? 60 : 3, rays = long_tests() ? 200 : 20;
     for (const NodeKind& kind : node_kinds()) {
         Random rng(72);
         for (int tree = 0; tree < trees; ++tree) {
@@ -236,7 +236,7 @@ TEST_CASE("along jittered and grazing rays no normal is an outlier, whatever the
     MESSAGE(all.right, " normals, ", all.by_an_edge, " more by edges");
     INFO(all.complaints);
     CHECK(all.wrong == 0);
-    CHECK(all.right > 40'000);
+    CHECK(all.right > (long_tests() ? 400'000 : 20'000));
     CHECK(all.right > 10 * all.by_an_edge);
 }
 

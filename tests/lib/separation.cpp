@@ -215,7 +215,7 @@ TEST_CASE("triangles of random labels cross nowhere") {
 
 TEST_CASE("triangles of random objects cross nowhere") {
     int objects = 0;
-    for (std::uint64_t seed = 1; objects < (long_tests() ? 500 : 25); ++seed) {
+    for (std::uint64_t seed = 1; objects < (long_tests() ? 500 : 12); ++seed) {
         REQUIRE(seed < 10'000);
         Random rng(seed);
         const auto tracer = tracer_of(random_object(rng, 3));

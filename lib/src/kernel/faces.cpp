@@ -6,8 +6,12 @@
 // triangles at an edge agree about its side, and the line cannot pass between them. A line exactly through an edge or a
 // vertex meets all its triangles, except those that are seen edge-on.
 //
-// Unlike the rest of the kernel, this needs no equation of a node, so Highway compiles it for all instruction sets at
-// once: the file includes itself.
+// Unlike the rest of the kernel, this needs no equation of a node, so on x86-64 Highway compiles it for all instruction
+// sets at once: the file includes itself. Elsewhere, there is one kernel. Among arm64's instruction sets are some whose
+// registers cannot be members of a struct (SVE).
+#ifndef PHASETREE_X86
+#define HWY_COMPILE_ONLY_STATIC
+#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernel/faces.cpp"
 #include <hwy/foreach_target.h>

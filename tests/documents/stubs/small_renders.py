@@ -47,6 +47,8 @@ def main() -> int:
             if not enough <= int(value_of(arguments, "--spp") or 0) <= 32:
                 arguments = [*without(arguments, "--spp"), "--spp", str(enough)]
         arguments = [*without(arguments, "--size"), "--size", "24x18"]
+    if arguments[:1] == ["measure"] and "--time" in arguments:
+        arguments = [*without(arguments, "--time"), "--time", "1s"]
     if arguments[:1] == ["export"] and "--spacing" not in arguments:
         if not any(a.endswith((".html", ".glsl")) for a in arguments):
             arguments += ["--spacing", "0.05"]

@@ -104,8 +104,11 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
     // A field may determine the density, which is 1 everywhere in the tank.
     std::string density;
     SUBCASE("homogeneous") {}
-    SUBCASE("of a density that a field tells") {
-        density = R"(, "density": {"box": {"size": [9, 9, 9]}}, "density_depth": 0.5)";
+    // The short form varies the density in a ball, below.
+    if (long_form) {
+        SUBCASE("of a density that a field tells") {
+            density = R"(, "density": {"box": {"size": [9, 9, 9]}}, "density_depth": 0.5)";
+        }
     }
     // At the depth z on the axis, the point light, which is h above the plane, appears at the distance h + z/n. Light
     // that is scattered back along the axis once is ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz. Light that is
@@ -158,12 +161,11 @@ TEST_CASE("within a ball that scatters it is as bright as by paths alone") {
     const std::string neighbour =
         R"(, {"set": {"phase": "jelly", "of": {"translate": {"by": [0.45, 0.65, 2.2], "of": {"sphere": {"radius": 1}}}}}})";
     const std::string water = R"(, {"set": {"phase": "water", "of": {"box": {"size": [4, 4, 4]}}}})";
-    const Case cases[] = {{sun, thin, "", "0.1"},
-                          {rectangle, thick, "", "0.2"},
-                          {sun, coloured, "", "3"},
-                          {rectangle, thin, water, "0.1"},
-                          {sun, thinnest, neighbour, "3"}};
-    const double significance = sidak(1e-4, std::size(cases));
+    std::vector<Case> cases{{sun, coloured, "", "3"}, {rectangle, thin, water, "0.1"}};
+    if (long_form)
+        cases.insert(cases.end(),
+                     {{sun, thin, "", "0.1"}, {rectangle, thick, "", "0.2"}, {sun, thinnest, neighbour, "3"}});
+    const double significance = sidak(1e-4, cases.size());
     for (const Case& c : cases) {
         CAPTURE(c.light);
         CAPTURE(c.inside);
@@ -187,10 +189,11 @@ TEST_CASE("within a ball whose density varies it is as bright as by paths alone"
     struct Case {
         std::string light, density, coefficients, photons;
     };
-    const Case cases[] = {
-        {sun, core, R"("absorption": [0.3, 0.1, 0.2], "scattering": [1.5, 6, 0.4], "anisotropy": 0.3)", "0.3"},
-        {rectangle, waves, R"("absorption": [0.2, 0.2, 0.2], "scattering": [4, 4, 4])", "1"}};
-    const double significance = sidak(1e-4, std::size(cases));
+    std::vector<Case> cases{
+        {sun, core, R"("absorption": [0.3, 0.1, 0.2], "scattering": [1.5, 6, 0.4], "anisotropy": 0.3)", "0.3"}};
+    if (long_form)
+        cases.push_back({rectangle, waves, R"("absorption": [0.2, 0.2, 0.2], "scattering": [4, 4, 4])", "1"});
+    const double significance = sidak(1e-4, cases.size());
     for (const Case& c : cases) {
         CAPTURE(c.density);
         const Scene scene = scene_of(R"("jelly": {"clear": {"ior": 1.45, )" + c.coefficients + ", " + c.density + "}}",

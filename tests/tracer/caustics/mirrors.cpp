@@ -70,10 +70,15 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
              "ramp": [[-1, [0, 0, 0]], [1, [1, 1, 1]]]}}, "bump_height": 1)";
     const std::string rough = R"(, "roughness": 0.25)";
     const std::string brushed = R"(, "grain_around": [0, 0, 1], "grain_aspect": 0.3)";
-    for (const Case& c :
-         {Case{"a mirror", "", ""}, Case{"rough metal", rough, ""}, Case{"brushed metal", rough + brushed, ""},
-          Case{"bumps", bumps, ""}, Case{"rough metal with bumps", rough + bumps, ""},
-          Case{"glass", "", R"("ior": 1.5)"}, Case{"rough glass", "", R"("ior": 1.5, "roughness": 0.3)"}}) {
+    std::vector<Case> cases{{"brushed metal", rough + brushed, ""},
+                            {"rough metal with bumps", rough + bumps, ""},
+                            {"glass", "", R"("ior": 1.5)"}};
+    if (long_form)
+        cases.insert(cases.end(), {{"a mirror", "", ""},
+                                   {"rough metal", rough, ""},
+                                   {"bumps", bumps, ""},
+                                   {"rough glass", "", R"("ior": 1.5, "roughness": 0.3)"}});
+    for (const Case& c : cases) {
         CAPTURE(c.name);
         const std::string ball =
             c.glass.empty()
@@ -93,7 +98,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                 // The gathering radius is small, so that no photons from beyond the wall of the tube are gathered.
                 return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{48, 6, 0.3f});
             },
-            planted, sidak(1e-4, 2 * 7));
+            planted, sidak(1e-4, 2 * cases.size()));
     }
 }
 

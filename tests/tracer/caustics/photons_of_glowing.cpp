@@ -17,7 +17,7 @@ TEST_CASE("what glows within glass is as bright with photons as by paths alone")
                                  {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
             "[]", 1.01);
     }
-    // Forty balls of flame, which hide each other, are in the test of flames.
+    // Forty balls of flame, which hide each other, and a lamp that hides some of them are in the test of flames.
     if (long_form) {
         SUBCASE("beads on a line, which stand before each other, in a shell, and a wall of another phase") {
             check_picture_of_floor(
@@ -38,13 +38,13 @@ TEST_CASE("what glows within glass is as bright with photons as by paths alone")
                                  {"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}}]})",
                 "[]", 1.02);
         }
-    }
-    SUBCASE("with a lamp beside it that hides a part") {
-        check_picture_of_floor(
-            phases,
-            shell_around(
-                R"({"set": {"phase": "hot", "of": {"translate": {"by": [-0.3, 0, -0.1], "of": {"sphere": {"radius": 0.4}}}}}})"),
-            R"([{"sphere": {"centre": [0.4, 0, 0], "radius": 0.2, "radiance": [0.05, 0, 0]}}])", 1.02);
+        SUBCASE("with a lamp beside it that hides a part") {
+            check_picture_of_floor(
+                phases,
+                shell_around(
+                    R"({"set": {"phase": "hot", "of": {"translate": {"by": [-0.3, 0, -0.1], "of": {"sphere": {"radius": 0.4}}}}}})"),
+                R"([{"sphere": {"centre": [0.4, 0, 0], "radius": 0.2, "radiance": [0.05, 0, 0]}}])", 1.02);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <variant>
@@ -63,6 +64,25 @@ inline std::vector<Step> without_slivers(const std::vector<Step>& steps, double 
             kept.push_back(step);
     }
     return kept;
+}
+
+/// Checks that a ray meets the same phases by two ways of tracing, at the same distances. Returns the number of
+/// crossings. Anything thinner than 2.75 resolutions may be missed. Brackets are up to one resolution long, so
+/// something about that thin may be in one list and not in the other.
+inline std::size_t check_same_steps(const std::vector<Step>& all_a, const std::vector<Step>& all_b, double resolution) {
+    std::vector<Step> a = without_slivers(all_a, 4 * resolution), b = without_slivers(all_b, 4 * resolution);
+    if (a.size() != b.size()) {
+        a = without_slivers(all_a, 5 * resolution);
+        b = without_slivers(all_b, 5 * resolution);
+    }
+    REQUIRE(a.size() == b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        CHECK(a[k].from == b[k].from);
+        CHECK(a[k].to == b[k].to);
+        const double cosine = std::max(0.02, static_cast<double>(std::min(a[k].cosine, b[k].cosine)));
+        CHECK(std::abs(a[k].t - b[k].t) < 2 * resolution / cosine);
+    }
+    return a.size();
 }
 
 }  // namespace phasetree::tracer::tests

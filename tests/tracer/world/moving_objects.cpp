@@ -181,21 +181,8 @@ TEST_CASE("rays at any time through moving, nested, mirrored and scaled objects 
                 CHECK(is_near);
                 continue;
             }
-            const std::vector<Step> all_a = straight_through(geometry, origin, d, time),
-                                    all_b = straight_through(tree, origin, d);
-            std::vector<Step> a = without_slivers(all_a, 4 * resolution), b = without_slivers(all_b, 4 * resolution);
-            if (a.size() != b.size()) {
-                a = without_slivers(all_a, 5 * resolution);
-                b = without_slivers(all_b, 5 * resolution);
-            }
-            REQUIRE(a.size() == b.size());
-            for (std::size_t k = 0; k < a.size(); ++k) {
-                CHECK(a[k].from == b[k].from);
-                CHECK(a[k].to == b[k].to);
-                const double cosine = std::max(0.02, static_cast<double>(std::min(a[k].cosine, b[k].cosine)));
-                CHECK(std::abs(a[k].t - b[k].t) < 2 * resolution / cosine);
-            }
-            crossings += a.size();
+            crossings += check_same_steps(straight_through(geometry, origin, d, time),
+                                          straight_through(tree, origin, d), resolution);
         }
     }
     CHECK(crossings > 2000);
