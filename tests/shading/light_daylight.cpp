@@ -14,6 +14,7 @@
 
 namespace test_light_daylight {
 
+using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
