@@ -4,14 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "image/luminance.hpp"
 #include "light_checks.hpp"
 #include "lights/daylight.hpp"
 #include "lights/sun.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 
 namespace test_light_daylight {
 
+using namespace phasetree;
 using namespace phasetree::tracer;
 using namespace phasetree::tests;
 
@@ -170,6 +173,40 @@ TEST_CASE("daylight: finite, never negative, without steps, from night to noon")
     DaylightParameters parameters;
     parameters.turbidity = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS(make_daylight(parameters), std::invalid_argument);
+}
+
+TEST_CASE("sky: a known table is found again, and only if all that it depends on is the same") {
+    const auto seen = [](const DaylightParameters& parameters) {
+        return make_daylight(parameters).sky.radiance(glm::normalize(glm::vec3(0.1f, 0.4f, 0.5f)));
+    };
+    const DaylightParameters parameters{.sun_elevation_degrees = 30.0f};
+    std::vector<DaylightParameters> others(5, parameters);
+    others[0].sun_elevation_degrees = 31.0f;
+    others[1].sun_azimuth_degrees = 90.0f;
+    others[2].turbidity = 4.0f;
+    others[3].ground_albedo = glm::vec3(0.3f, 0.3f, 0.9f);
+    others[4].intensity = 2.0f;
+    const glm::vec3 first = seen(parameters);
+    for (const DaylightParameters& other : others) CHECK(seen(other) != first);
+    CHECK(seen(parameters) == first);
+
+    int polls = 0;
+    const PreparationWatch watch({.cancelled = [&] { return ++polls, false; }, .progress = {}});
+    const Daylight kept = make_daylight(parameters);
+    CHECK(polls > 1);  // the table was dropped for later ones
+    polls = 0;
+    CHECK(seen(parameters) == first);
+    CHECK(polls == 0);
+    for (const DaylightParameters& other : others) (void)seen(other);
+    polls = 0;
+    (void)seen(parameters);  // which is still used
+    CHECK(polls == 0);
+}
+
+TEST_CASE("sky: making the table can be cancelled") {
+    int polls = 0;
+    const PreparationWatch watch({.cancelled = [&] { return ++polls > 3; }, .progress = {}});
+    CHECK_THROWS_AS(make_daylight({.sun_elevation_degrees = 7.0f}), PreparationCancelled);
 }
 
 }  // namespace test_light_daylight

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "camera/camera.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "scene/scene.hpp"
 #include "source_directory.hpp"
@@ -286,6 +287,17 @@ TEST_CASE("numbers stay within their limits, and near what they were when a poin
     const Dragged still = drag(viewed.object, p, {}, viewed.target(from, {150, 100}, p.position));
     CHECK_FALSE(still.follows);
     CHECK(still.values.empty());
+}
+
+TEST_CASE("a drag that takes too long can be cancelled") {
+    const Viewed viewed(ball_and_box, "scene.json");
+    const glm::dvec2 from(100, 85);
+    const InterfacePoint p = viewed.seen_at(from).value();
+    int polls = 0;
+    const PreparationWatch watch({.cancelled = [&] { return ++polls > 5; }, .progress = {}});
+    CHECK_THROWS_AS(influences(viewed.object, p, viewed.parameters), PreparationCancelled);
+    CHECK_THROWS_AS(drag(viewed.object, p, viewed.parameters, viewed.target(from, {110, 90}, p.position)),
+                    PreparationCancelled);
 }
 
 }  // namespace test_drag

@@ -6,12 +6,14 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
 
 #include "output/error.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 
 namespace test_edited_document {
 
@@ -26,7 +28,8 @@ namespace fs = std::filesystem;
 // A file, and the document that it is edited by.
 class Desk {
   public:
-    explicit Desk(const std::string& text, bool saves = true) {
+    explicit Desk(const std::string& text, bool saves = true,
+                  std::chrono::milliseconds longest_check = std::chrono::seconds(10)) {
         fs::create_directory(folder_);
         write(text);
         document_.emplace(EditedDocument::Options{
@@ -36,7 +39,11 @@ class Desk {
             .check =
                 [](const Document& d) {
                     if (d.text().find("wrong") != std::string::npos) throw d.error(d.root(), "this is wrong");
-                }});
+                    // As nodes do that are never prepared.
+                    while (d.text().find("endless") != std::string::npos)
+                        if (PreparationWatch::current()->cancelled()) throw PreparationCancelled();
+                },
+            .longest_check = longest_check});
         document_->on_change([this] { ++changes; });
     }
     ~Desk() { fs::remove_all(folder_); }
@@ -112,6 +119,40 @@ TEST_CASE("operations of a request are applied all or not at all") {
     CHECK_THROWS_AS(desk.set("/a", "1", desk.version()), SceneError);
     desk.document().undo();
     CHECK(desk.text() == text);
+}
+
+TEST_CASE("a check that never ends neither changes anything nor blocks what follows") {
+    Desk desk(text, true, std::chrono::milliseconds(100));
+    const EditRequest endless{desk.version(), "Endless", {}, true, {SetValue{"/a", "\"endless\""}}};
+    CHECK_THROWS_WITH_AS(desk.document().edit(endless), doctest::Contains("takes more than 0.1 s"), SceneError);
+    CHECK(desk.on_disk() == text);
+    desk.set("/a", "2", desk.version());
+    CHECK(desk.text() == "{\"a\": 2, \"list\": [1, 2, 3]}\n");
+}
+
+TEST_CASE("stopping ends a check") {
+    Desk desk(text, true, std::chrono::hours(1));
+    const EditRequest endless{desk.version(), "Endless", {}, true, {SetValue{"/a", "\"endless\""}}};
+    std::thread stopping([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        desk.document().stop();
+    });
+    CHECK_THROWS_AS(desk.document().edit(endless), SceneError);
+    stopping.join();
+    CHECK(desk.on_disk() == text);
+}
+
+TEST_CASE("a scene that was checked before the step needs no second check") {
+    Desk desk(text);
+    CHECK_FALSE(desk.document().state()->is_checked);
+    desk.document().edit(EditRequest{desk.version(), "Set", {}, true, {SetValue{"/a", "2"}}});
+    CHECK(desk.document().state()->is_checked);
+    desk.document().record_check(desk.document().state()->text_version, SceneError("scene.json", "a missing file"));
+    CHECK(desk.document().state()->error);
+    desk.document().edit(EditRequest{desk.version(), "Set", {}, true, {SetValue{"/a", "3"}}});
+    CHECK_FALSE(desk.document().state()->error);
+    desk.set("/a", "4", desk.version());
+    CHECK_FALSE(desk.document().state()->is_checked);
 }
 
 TEST_CASE("what another program saves is a step") {

@@ -3,16 +3,14 @@
 PHASETREE_SCREENSHOTS names a folder for pictures of it."""
 
 import json
-import os
 import pathlib
 import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
-import browser  # noqa: E402
-from studio_user import ALT, OPENED, User  # noqa: E402
-from support import View, skip  # noqa: E402
+from studio_case import StudioCase  # noqa: E402
+from studio_user import ALT  # noqa: E402
 
 # A ball on the left that may be moved, and a box on the right that may not.
 SCENE = """{
@@ -31,40 +29,13 @@ HEIGHT = 2 * 5 * 0.2679491924  # of the picture, in the plane y = 0: 2 · 5 · t
 REST = "!studio.grab.isBusy && !studio.scene.isBusy"
 
 
-class Grabbing(unittest.TestCase, User):
-    @classmethod
-    def setUpClass(cls):
-        if not browser.program():
-            skip("Chromium is not installed (package chromium)")
-        cls.browser = browser.Browser(1280, 720).__enter__()
-
-    @classmethod
-    def tearDownClass(cls):
-        if hasattr(cls, "browser"):
-            cls.browser.__exit__()
-
+class Grabbing(StudioCase):
     def open(self, text=SCENE):
-        self.view = View(text).__enter__()
-        self.addCleanup(self.view.__exit__)
-        self.addCleanup(self.browser.open, "about:blank")
-        self.browser.run("0")
-        self.browser.events.clear()
-        self.browser.open(self.view.url)
-        self.until(OPENED)
+        super().open(text)
+        self.expected = "Failed to load resource: the server responded with a status of 409"
         self.until("document.querySelector('#picture').width === 240 && studio.view.camera() !== null")
 
-    def tearDown(self):
-        if hasattr(self, "view"):
-            self.assertEqual([c for c in self.browser.complaints() if "409" not in c], [])
-
-    def shoot(self, name):
-        if folder := os.environ.get("PHASETREE_SCREENSHOTS"):
-            self.browser.screenshot(pathlib.Path(folder) / f"{name}.png")
-
-    def until(self, script):
-        return self.browser.wait_for(script)
-
-    def place(self, x, z):
+    def spot(self, x, z):
         """Where a point of the plane y = 0 is on the page."""
         box = self.browser.run("(({left, top, width, height}) => [left, top, width, height])(document.querySelector('#picture').getBoundingClientRect())")
         unit = box[3] / HEIGHT
@@ -78,7 +49,7 @@ class Grabbing(unittest.TestCase, User):
 
     def test_alt_and_dragging_moves_a_ball_in_one_step_that_can_be_undone(self):
         self.open()
-        self.browser.drag(self.place(-0.8, 0.1), self.place(-0.5, 0.3), modifiers=ALT)
+        self.browser.drag(self.spot(-0.8, 0.1), self.spot(-0.5, 0.3), modifiers=ALT)
         self.until(f"{REST} && studio.grab.point?.follows && !document.querySelector('#grab-panel').hidden")
         x, _, z = self.number(f"{self.BALL}/by")
         # The grabbed point is in front of the plane, where a pixel is less wide.
@@ -93,7 +64,7 @@ class Grabbing(unittest.TestCase, User):
 
     def test_the_panel_chooses_what_may_change(self):
         self.open()
-        self.browser.drag(self.place(-0.8, 0.42), self.place(-0.8, 0.6), modifiers=ALT)
+        self.browser.drag(self.spot(-0.8, 0.42), self.spot(-0.8, 0.6), modifiers=ALT)
         self.until(f"{REST} && studio.grab.point")
         rows = self.browser.run("[...document.querySelectorAll('#grab-panel .row')].map((row) => row.innerText.replace(/\\s+/g, ' '))")
         self.assertTrue(any(row.startswith("Radius") for row in rows), rows)
@@ -122,7 +93,7 @@ class Grabbing(unittest.TestCase, User):
         self.browser.press("g", "KeyG", "g")
         self.until("document.querySelector('#grab').getAttribute('aria-pressed') === 'true'")
         # The top of the cut cylinder: the slab is thicker.
-        self.browser.drag(self.place(0, 0.35), self.place(0.1, 0.35))
+        self.browser.drag(self.spot(0, 0.35), self.spot(0.1, 0.35))
         self.until(f"{REST} && studio.grab.point")
         self.assertEqual(self.browser.run("studio.grab.point.inside"), "wood")
         self.assertNotEqual(self.number("/tree/over/1/set/of/intersection/1/cylinder/radius"), 0.3)
@@ -141,23 +112,23 @@ class Grabbing(unittest.TestCase, User):
         self.browser.press("Escape")
         self.until("document.querySelector('#grab').getAttribute('aria-pressed') === 'false'")
         # Then a drag turns the camera again.
-        self.browser.drag(self.place(-0.8, 0), self.place(-0.5, 0))
+        self.browser.drag(self.spot(-0.8, 0), self.spot(-0.5, 0))
         self.until(f"JSON.stringify(studio.view.camera()) !== {json.dumps(camera)}")
 
     def test_a_finger_drags_with_the_tool(self):
         self.open()
         self.browser.run("document.querySelector('#grab').click()")
-        self.browser.touch([self.place(-0.8, 0)], [self.place(-0.75, 0)], [self.place(-0.7, 0.1)], [self.place(-0.6, 0.2)])
+        self.browser.touch([self.spot(-0.8, 0)], [self.spot(-0.75, 0)], [self.spot(-0.7, 0.1)], [self.spot(-0.6, 0.2)])
         self.until(f"{REST} && studio.grab.point?.follows && studio.scene.undo !== null")
         self.assertAlmostEqual(self.number(f"{self.BALL}/by")[2], 0.2 * 0.9, delta=0.03)
 
     def test_where_nothing_can_be_dragged_the_page_says_why(self):
         self.open()
-        self.browser.drag(self.place(1.5, 0.9), self.place(1.4, 0.9), modifiers=ALT)
+        self.browser.drag(self.spot(1.5, 0.9), self.spot(1.4, 0.9), modifiers=ALT)
         self.until(f"{REST} && document.querySelector('#toasts').textContent.includes('there is no surface at this point')")
         self.assertTrue(self.browser.run("document.querySelector('#grab-panel').hidden && studio.scene.undo === null"))
         # A click with Alt still inspects the point.
-        x, y = self.place(-0.8, 0)
+        x, y = self.spot(-0.8, 0)
         self.browser.mouse("mousePressed", x, y, button="left", clickCount=1, modifiers=ALT)
         self.browser.mouse("mouseReleased", x, y, button="left", clickCount=1, modifiers=ALT)
         self.until("document.querySelector('#point').textContent.includes('glass')")

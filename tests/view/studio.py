@@ -1,6 +1,7 @@
 """The studio's endpoints over HTTP: the document, operations on it, undo, the catalogue, and hostile clients."""
 
 import json
+import os
 import pathlib
 import sys
 import threading
@@ -9,7 +10,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
-from support import SCENE, View, is_ready  # noqa: E402
+from support import PATIENCE, SCENE, View, is_ready  # noqa: E402
 
 RADIUS = "/shapes/ball/sphere/radius"
 
@@ -185,6 +186,38 @@ class Editing(unittest.TestCase):
             self.assertIn("phases", view.wait_for(lambda s: s["error"]).state["error"])
             edit(view, {"text": SCENE})
             view.ready()
+
+
+class Quick(unittest.TestCase):
+    def seconds(self, view):
+        """Of processor time, of all threads."""
+        fields = pathlib.Path(f"/proc/{view.process.pid}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def test_a_step_does_not_make_the_skies_of_the_scene_again(self):
+        # Half a second each.
+        skies = ", ".join(f'{{"sky": {{"sun_elevation": {elevation}}}}}' for elevation in (10, 20, 30, 40))
+        with View(SCENE.replace('"lights": [', f'"lights": [{skies}, ')) as view:
+            view.ready()
+            begun = self.seconds(view)
+            for i in range(4):
+                self.assertEqual(edit(view, {"set": RADIUS, "to": str(0.4 + i / 100)}, strict=True)[0], 200)
+            view.wait_for(lambda s: is_ready(s) and s["version"] > 0)
+            self.assertLess(self.seconds(view) - begun, 4 * PATIENCE)
+
+    def test_a_text_is_sent_once(self):
+        with View() as view:
+            view.ready()
+            told = document(view)
+            self.assertNotIn("text", json.loads(view.get(f"document?after=0&text={told['text_version']}").body))
+            edit(view, {"set": RADIUS, "to": "0.25"})
+            now = json.loads(view.get(f"document?after={told['version']}&text={told['text_version']}").body)
+            self.assertIn("0.25", now["text"])
+            # What is saved or checked later has the same text.
+            later = json.loads(view.get(f"document?after=0&text={now['text_version']}").body)
+            self.assertNotIn("text", later)
+            self.assertNotIn("outline", later)
+            self.assertEqual(later["text_version"], now["text_version"])
 
 
 class Catalogue(unittest.TestCase):

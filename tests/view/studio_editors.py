@@ -232,6 +232,45 @@ class Editors(StudioCase):
         self.step(lambda: self.click(self.many("Put the last over")))
         self.assertEqual(self.tree(), {"over": [wood, box, sphere]})
 
+    def test_a_step_that_ends_late_does_not_take_the_selection_away(self):
+        self.open(GLASSES)
+        active = """(async (click) => {
+            studio.selection.set(["/tree/over/0"]);
+            const step = studio.actions.run({label: "x", operations: [{insert: "/phases/new", value: '{"clear": {"ior": 1.4}}'}], select: ["/phases/new"]});
+            if (click) studio.selection.set([click]);
+            await step;
+            const now = studio.selection.active;
+            await studio.scene.goBack();
+            return now;
+        })"""
+        self.assertEqual(self.browser.run(f"{active}(null)"), "/phases/new")
+        self.assertEqual(self.browser.run(f"{active}('/tree/over/1')"), "/tree/over/1")
+
+    def test_operators_between_phases_are_explained_where_they_are_chosen(self):
+        self.open(GLASSES)
+        operators = self.tree()["over"]
+        self.click(self.row("Wood over glass"))
+        panels = "[...document.querySelectorAll('#inspector-head .operator')]"
+        self.assertEqual(self.browser.run(f"{panels}.map((e) => [e.dataset.operator, e.tagName, e.ariaPressed])"),
+                         [["over", "BUTTON", "true"], ["under", "BUTTON", "false"], ["contact", "DIV", None], ["layered", "DIV", None]])
+        self.shoot("studio-combining")
+        self.step(lambda: self.click("#inspector-head [data-operator=under]"))
+        self.assertEqual(self.tree(), {"under": operators})
+        self.assertIn("// on the right", self.file())
+        self.assertEqual(self.browser.run("document.activeElement.dataset.operator"), "under")
+        self.step(lambda: self.click("#undo"))
+        self.assertEqual(self.file(), GLASSES)
+        # Nothing else combines phases.
+        self.click(self.row("Glass box"))
+        self.until("!document.querySelector('.combining')")
+        # In the palette, a panel chooses its kind.
+        self.click("#add")
+        self.until("document.querySelectorAll('dialog .operator').length === 4")
+        self.browser.run("document.querySelector('dialog .combining').scrollIntoView()")
+        self.shoot("studio-combining-palette")
+        self.step(lambda: self.click("dialog [data-operator=contact]"))
+        self.assertIn("contact", self.tree()["over"][2])
+
     def test_a_vessel_is_filled_up_to_where_the_picture_was_clicked(self):
         bowl = '{"bowl": {"radius": 0.6, "cut": 0.3, "thickness": 0.1}}'
         self.open(GLASSES.replace('{"box": {"size": [0.5, 0.5, 0.5]}}', bowl))

@@ -1,5 +1,6 @@
 """Random operations on a scene with undo and redo, as the studio's page sends them: the file is always the one that the
-history says, never an invalid one, and neither the server nor the page grows.
+history says, never an invalid one, and neither the server nor the page grows. No request takes long, whatever the scene
+has become.
 
 The long form (PHASETREE_LONG_TESTS=1) has 10,000 operations over HTTP, and 250 actions in the page."""
 
@@ -8,6 +9,7 @@ import os
 import pathlib
 import random
 import sys
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -46,7 +48,7 @@ class Editor:
     """What a page knows, and chooses at random."""
 
     def __init__(self, view, seed):
-        self.view, self.random = view, random.Random(seed)
+        self.view, self.random, self.slowest = view, random.Random(seed), 0
         self.kinds = [k for k in json.loads(view.get("catalogue").body)["kinds"] if k["template"] and "<file>" not in k["template"]]
         self.read()
         self.done, self.undone = [self.text], []
@@ -104,6 +106,10 @@ class Editor:
             material = choice([e for e in entries if e["type"] == "material" and e["label"]])
             return "rename", [{"rename": material["pointer"], "to": f"phase {self.version}", "references": True}]
         listed = [e for e in parts if e["pointer"].rsplit("/", 1)[1].isdigit()]
+        if roll > 1.1:
+            # Lights, and what may be in use.
+            others = [e for e in entries if e["pointer"].startswith(("/lights/", "/phases/", "/shapes/")) and e["pointer"].count("/") == 2]
+            return "remove", [{"remove": choice(others)["pointer"]}]
         if roll < 0.9 and listed:
             one = choice(listed)
             return "move", [{"move": one["pointer"], "to": one["pointer"].rsplit("/", 1)[0] + f"/{choice([0, 0, 1, '-'])}"}]
@@ -114,10 +120,12 @@ class Editor:
         return ("remove", [{"remove": choice(listed)["pointer"]}]) if listed else (None, [])
 
     def post(self, name, body):
+        begun = time.monotonic()
         try:
             answer = self.view.post(name, body, timeout=60 * PATIENCE)
         except TimeoutError as error:
             raise AssertionError(f"no answer to {body}, for the scene {self.text}") from error
+        self.slowest = max(self.slowest, time.monotonic() - begun)
         self.read()
         return answer.status
 
@@ -132,9 +140,9 @@ class Editor:
             self.post("redo", {})
             self.done.append(self.undone.pop())
             return "redo", True
-        what, operations = self.operations()
-        if not operations:
-            return "nothing", True
+        what, operations = None, []
+        while not operations:
+            what, operations = self.operations()
         status = self.post("document", {"base": self.version, "label": what, "operations": operations, "strict": True})
         if status not in (200, 400):
             raise AssertionError((status, operations))
@@ -149,6 +157,10 @@ def kilobytes(process):
     return int(status.split("VmRSS:")[1].split()[0])
 
 
+def descriptors(process):
+    return len(os.listdir(f"/proc/{process.pid}/fd"))
+
+
 class Random(unittest.TestCase):
     def assert_valid(self, editor):
         told = editor.told
@@ -159,7 +171,7 @@ class Random(unittest.TestCase):
     def test_over_http(self):
         with View(SCENE, "--threads", "1") as view:
             editor = Editor(view, 77)
-            counts, begun = {}, None
+            counts, begun, open_at_first, started = {}, None, descriptors(view.process), time.monotonic()
             for i in range(OPERATIONS):
                 what, is_accepted = editor.step()
                 counts.setdefault(what, [0, 0])[is_accepted] += 1
@@ -168,7 +180,8 @@ class Random(unittest.TestCase):
                     self.assertEqual(view.file.read_text(encoding="utf-8"), editor.text)
                     self.assert_valid(editor)
                 if i % 1000 == 999:
-                    print(i + 1, "operations", file=sys.stderr, flush=True)
+                    print(f"{i + 1} operations in {time.monotonic() - started:.0f} s, {kilobytes(view.process)} KiB, {descriptors(view.process)} descriptors, "
+                          f"{len(editor.text)} characters, slowest request {editor.slowest:.1f} s", file=sys.stderr, flush=True)
                 if i == OPERATIONS // 4:
                     begun = kilobytes(view.process)
             grown = kilobytes(view.process) - begun
@@ -178,6 +191,7 @@ class Random(unittest.TestCase):
             self.assertIn("// Comments stay.", editor.text)
             # Steps of undo need memory for what they change, which is a part of the text.
             self.assertLess(grown, 32 * 1024 + 8 * OPERATIONS)
+            self.assertLessEqual(descriptors(view.process), open_at_first + 2)
             final, steps = editor.text, len(editor.done) - 1
             for _ in range(steps):
                 editor.view.post("undo", {})

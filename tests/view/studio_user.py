@@ -27,7 +27,7 @@ class User:
         self.browser.open(url)
         self.until(OPENED)
 
-    def until(self, condition, within=30):
+    def until(self, condition, within=60):
         return self.browser.wait_for(f"Boolean({condition})", within * PATIENCE)
 
     def step(self, action):

@@ -29,6 +29,11 @@ SCENE = """{"version": 1,
 """
 
 
+def changed(text, old, new):
+    assert old in text
+    return text.replace(old, new)
+
+
 class Answer:
     def __init__(self, status, body, headers):
         self.status, self.body, self.headers = status, body, headers
@@ -120,6 +125,15 @@ class View:
 
     def connect(self):
         return socket.create_connection(("127.0.0.1", self.port), timeout=30)
+
+
+def rendered(view, text, name="scene.png"):
+    """The file that `render` makes of a text beside the view's scene."""
+    with tempfile.TemporaryDirectory() as folder:
+        file, out = pathlib.Path(folder) / view.file.name, pathlib.Path(folder) / name
+        file.write_text(text, encoding="utf-8")
+        subprocess.run([COMMAND, "render", str(file), "-o", str(out), "--quiet"], check=True)
+        return out.read_bytes()
 
 
 def is_ready(state):

@@ -15,6 +15,8 @@ namespace {
 thread_local model::PreparationTogether* held = nullptr;
 thread_local const PreparationWatch* watching = nullptr;
 thread_local const PreparationWatch::Callbacks* watched_by = nullptr;
+// Steps that this thread has paid since it last looked at whether its work is cancelled.
+thread_local std::uint64_t unpolled = 0;
 
 }  // namespace
 
@@ -41,6 +43,12 @@ PreparationTogether::~PreparationTogether() {
 
 void PreparationTogether::pay(std::string_view node, std::uint64_t steps) {
     if (held == nullptr) return;
+    // Many small payments, such as those for bounds, take seconds together.
+    constexpr std::uint64_t between_polls = 1'000'000;
+    if ((unpolled += steps) >= between_polls) {
+        unpolled = 0;
+        if (watched_by && watched_by->cancelled && watched_by->cancelled()) throw PreparationCancelled();
+    }
     const std::uint64_t free = std::min(steps, held->granted_);
     if (steps - free > most - held->paid_)
         throw ModelError(

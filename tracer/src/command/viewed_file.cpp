@@ -1,13 +1,16 @@
 #include "command/viewed_file.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <utility>
 
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 #include "scene/camera_text.hpp"
 #include "volume/read_volume.hpp"
 
@@ -85,69 +88,89 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
             span_of_keys(document)};
 }
 
-// The current version of the document, read with the command-line options.
-struct CurrentDocument {
-    std::uint64_t text_version;
-    Document document;
-};
-
-// Throws SceneError if the file cannot be read or is no valid JSON.
-CurrentDocument current_document(const ViewedFile& file, studio::EditedDocument& edited, const view::Reading& desired) {
-    const auto state = edited.state();
-    if (state->unreadable) throw *state->unreadable;
-    if (!state->document) throw state->error.value();
-    return {state->text_version, state->document->at(desired.seconds ? *desired.seconds : file.scene.at.value_or(0))};
-}
-
-view::ViewedScene read_checked(const ViewedFile& file, studio::EditedDocument& edited,
-                               const std::shared_ptr<KeptNodes>& kept, view::WatchedFiles& files,
-                               const view::Reading& desired) {
-    const auto [version, document] = current_document(file, edited, desired);
-    try {
-        view::ViewedScene scene = read_viewed(file, document, kept, files, desired);
-        if (desired.numbers.empty()) edited.record_check(version, {});
-        return scene;
-    } catch (const SceneError& e) {
-        // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
-        if (desired.numbers.empty()) edited.record_check(version, e);
-        throw;
-    }
+// Waits for a mutex. Throws PreparationCancelled.
+std::unique_lock<std::timed_mutex> locked(std::timed_mutex& mutex) {
+    std::unique_lock lock(mutex, std::defer_lock);
+    while (!lock.try_lock_for(std::chrono::milliseconds(20))) poll_preparation();
+    return lock;
 }
 
 }  // namespace
+
+// One reading at a time, because they share the nodes made from files. The last scene read by check() is kept for the
+// session, which reads the same text next if the step is made.
+class SceneReadings {
+  public:
+    void check(const ViewedFile& file, const Document& document) {
+        const std::unique_lock lock = locked(mutex_);
+        Checked checked{document.text(), {}, {}};
+        checked.scene = read_viewed(file, document, kept_, checked.files, {});
+        checked_ = std::move(checked);
+    }
+    view::ViewedScene read(const ViewedFile& file, const Document& document, view::WatchedFiles& files,
+                           const view::Reading& desired) {
+        const std::unique_lock lock = locked(mutex_);
+        const bool is_as_checked = desired.numbers.empty() && !desired.seconds;
+        if (auto known = std::exchange(checked_, std::nullopt);
+            known && is_as_checked && known->text == document.text()) {
+            files = std::move(known->files);
+            return std::move(*known->scene);
+        }
+        return read_viewed(file, document, kept_, files, desired);
+    }
+
+  private:
+    struct Checked {
+        std::string text;
+        std::optional<view::ViewedScene> scene;
+        view::WatchedFiles files;
+    };
+    std::timed_mutex mutex_;
+    const std::shared_ptr<KeptNodes> kept_ = std::make_shared<KeptNodes>();
+    std::optional<Checked> checked_;
+};
+
+std::shared_ptr<SceneReadings> ViewedFile::new_readings() {
+    return std::make_shared<SceneReadings>();
+}
 
 std::unique_ptr<studio::EditedDocument> ViewedFile::document(bool saves) const {
     const auto parse = [file = scene](std::string text) {
         const Document document = Document::from_text(std::move(text), file.name).at(file.at.value_or(0));
         return file.assets_within ? document.with_files_within(*file.assets_within) : document;
     };
-    const auto check = [](const Document& document) { (void)load_scene(document); };
+    const auto check = [file = *this](const Document& document) { file.readings->check(file, document); };
     return std::make_unique<studio::EditedDocument>(
         studio::EditedDocument::Options{.file = scene.name, .saves = saves, .parse = parse, .check = check});
 }
 
 view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
-    struct First {
-        std::optional<view::ViewedScene> scene;
-        view::WatchedFiles files;
-        std::uint64_t text_version;
+    const auto read = [file = *this, &document](view::WatchedFiles& files, const view::Reading& desired) {
+        const auto state = document.state();
+        if (state->unreadable) throw *state->unreadable;
+        if (!state->document) throw state->error.value();
+        // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
+        const bool is_of_text = desired.numbers.empty();
+        try {
+            const Document text = desired.seconds ? state->document->at(*desired.seconds) : *state->document;
+            view::ViewedScene scene = file.readings->read(file, text, files, desired);
+            if (is_of_text) document.record_check(state->text_version, {});
+            return scene;
+        } catch (const SceneError& e) {
+            if (is_of_text) document.record_check(state->text_version, e);
+            throw;
+        }
     };
-    const auto first = std::make_shared<First>();
-    const auto kept = std::make_shared<KeptNodes>();
-    first->text_version = document.state()->text_version;
-    try {
-        first->scene = read_checked(*this, document, kept, first->files, {});
-    } catch (const SceneError&) {
-        // The session reports it, and the page can repair the scene.
+    if (const auto state = document.state(); state->document) {
+        try {
+            readings->check(*this, *state->document);
+            document.record_check(state->text_version, {});
+        } catch (const SceneError& e) {
+            // The session reports it, and the page can repair the scene.
+            document.record_check(state->text_version, e);
+        }
     }
-    return [file = *this, &document, first, kept](view::WatchedFiles& files, const view::Reading& desired) {
-        std::optional<view::ViewedScene> known = std::exchange(first->scene, std::nullopt);
-        const bool is_same =
-            desired.numbers.empty() && !desired.seconds && document.state()->text_version == first->text_version;
-        if (!known || !is_same) return read_checked(file, document, kept, files, desired);
-        files = first->files;
-        return std::move(*known);
-    };
+    return read;
 }
 
 void write_camera(studio::EditedDocument& document, const std::string& camera) {

@@ -1,6 +1,10 @@
 #include "lights/daylight.hpp"
 
+#include <array>
 #include <cmath>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -8,6 +12,7 @@
 #include "lights/atmosphere.hpp"
 #include "lights/check.hpp"
 #include "lights/lat_long.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 
 namespace phasetree::tracer {
 
@@ -19,20 +24,57 @@ constexpr double sun_irradiance = 4.872;
 constexpr int width = 512;
 constexpr int height = 256;
 
-}  // namespace
+// The sky with the sun at azimuth 0.
+struct Table {
+    std::shared_ptr<const EnvironmentImage> image;
+    glm::vec3 sun;
+};
 
-Daylight make_daylight(const DaylightParameters& parameters) {
-    check_range(parameters.sun_elevation_degrees, -90.0f, 90.0f, "the sun's elevation in degrees");
-    check_range(parameters.turbidity, 1.0f, 10.0f, "the sky's turbidity");
-    check_colour(parameters.ground_albedo, "the ground's albedo");
-    for (int i = 0; i < 3; ++i)
-        check_range(parameters.ground_albedo[i], 0.0f, 1.0f, "each part of the ground's albedo");
-    check_range(parameters.intensity, 0.0f, 1e30f, "the sky's intensity");
-    check_range(parameters.sun_azimuth_degrees, -1e6f, 1e6f, "the sun's azimuth in degrees");
+// Recently tabulated skies. A table takes half a second, and while a scene is edited it is read after every step.
+class RecentTables {
+  public:
+    using Key = std::array<float, 6>;
 
+    static Key key_of(const DaylightParameters& p) {
+        return {p.sun_elevation_degrees, p.turbidity,       p.ground_albedo.x,
+                p.ground_albedo.y,       p.ground_albedo.z, p.intensity};
+    }
+    template <class Tabulate>
+    Table find_or(const Key& key, Tabulate&& tabulate) {
+        {
+            const std::lock_guard lock(mutex_);
+            tables_.remove_if([](const Known& known) { return known.image.expired(); });
+            for (const Known& known : tables_)
+                if (known.key == key)
+                    if (auto image = known.image.lock()) return {std::move(image), known.sun};
+        }
+        Table table = tabulate();
+        const std::lock_guard lock(mutex_);
+        tables_.push_back({key, table.image, table.sun});
+        last_.push_back(table.image);
+        if (last_.size() > most_unused) last_.pop_front();
+        return table;
+    }
+
+  private:
+    // These stay even if no scene uses them. Others stay as long as a scene does.
+    static constexpr std::size_t most_unused = 2;
+
+    struct Known {
+        Key key;
+        std::weak_ptr<const EnvironmentImage> image;
+        glm::vec3 sun;
+    };
+    std::mutex mutex_;
+    std::list<Known> tables_;
+    std::list<std::shared_ptr<const EnvironmentImage>> last_;
+};
+
+Table tabulated(const DaylightParameters& parameters) {
     const glm::dvec3 albedo(parameters.ground_albedo);
+    poll_preparation();
     const Atmosphere atmosphere(parameters.turbidity, albedo);
-    // Tabulated with the sun at azimuth 0, then rotated. Left and right are symmetric.
+    // Left and right are symmetric.
     const glm::dvec3 to_sun(direction_of_degrees(0.0f, parameters.sun_elevation_degrees));
     const double unit = sun_irradiance * static_cast<double>(parameters.intensity);
 
@@ -43,6 +85,7 @@ Daylight make_daylight(const DaylightParameters& parameters) {
     };
     glm::dvec3 sky_irradiance(0.0);
     for (int row = 0; row < height / 2; ++row) {
+        poll_preparation();
         const double theta = std::numbers::pi * (row + 0.5) / height;
         const auto path = atmosphere.path(std::cos(theta));
         for (int column = 0; column < width / 2; ++column) {
@@ -67,9 +110,25 @@ Daylight make_daylight(const DaylightParameters& parameters) {
             set(column, row, glm::mix(ground, horizon, haze));
         }
     }
+    return {std::make_shared<const EnvironmentImage>(width, height, std::move(pixels)), glm::vec3(sun)};
+}
+
+}  // namespace
+
+Daylight make_daylight(const DaylightParameters& parameters) {
+    check_range(parameters.sun_elevation_degrees, -90.0f, 90.0f, "the sun's elevation in degrees");
+    check_range(parameters.turbidity, 1.0f, 10.0f, "the sky's turbidity");
+    check_colour(parameters.ground_albedo, "the ground's albedo");
+    for (int i = 0; i < 3; ++i)
+        check_range(parameters.ground_albedo[i], 0.0f, 1.0f, "each part of the ground's albedo");
+    check_range(parameters.intensity, 0.0f, 1e30f, "the sky's intensity");
+    check_range(parameters.sun_azimuth_degrees, -1e6f, 1e6f, "the sun's azimuth in degrees");
+
+    static RecentTables recent;
+    const Table table = recent.find_or(RecentTables::key_of(parameters), [&] { return tabulated(parameters); });
     const glm::vec3 towards = direction_of_degrees(parameters.sun_azimuth_degrees, parameters.sun_elevation_degrees);
-    return {ImageEnvironment(width, height, std::move(pixels), parameters.sun_azimuth_degrees),
-            Sun(towards, glm::vec3(sun), parameters.sun_angular_diameter_degrees)};
+    return {ImageEnvironment(table.image, parameters.sun_azimuth_degrees),
+            Sun(towards, table.sun, parameters.sun_angular_diameter_degrees)};
 }
 
 }  // namespace phasetree::tracer

@@ -8,6 +8,7 @@
 
 #include "output/error.hpp"
 #include "output/file.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 #include "studio/rebase.hpp"
 
 namespace phasetree::tracer::studio {
@@ -79,7 +80,7 @@ void EditedDocument::publish(const std::function<void(DocumentState&)>& change) 
 }
 
 // Publishes the history's text.
-void EditedDocument::commit() {
+void EditedDocument::commit(bool is_known_to_be_valid) {
     auto text = std::make_shared<const std::string>(history_->text());
     std::optional<Document> document;
     std::optional<SceneError> error;
@@ -91,8 +92,8 @@ void EditedDocument::commit() {
     publish([&](DocumentState& state) {
         if (!state.text || *state.text != *text) {
             ++state.text_version;
-            state.is_checked = error.has_value();
-            if (error) state.error = error;
+            state.is_checked = error.has_value() || is_known_to_be_valid;
+            if (state.is_checked) state.error = error;
         }
         state.text = text;
         state.document = document;
@@ -162,8 +163,8 @@ void EditedDocument::save_text() {
     });
 }
 
-std::uint64_t EditedDocument::finish() {
-    commit();
+std::uint64_t EditedDocument::finish(bool is_known_to_be_valid) {
+    commit(is_known_to_be_valid);
     if (options_.saves && *saved_ != history_->text()) save_text();
     return state()->version;
 }
@@ -183,6 +184,20 @@ void EditedDocument::check_base(const EditRequest& request) const {
         check_rebase(before, *present->document, request.operations);
     } catch (const SceneError&) {
         throw ConflictError("the document was not valid JSON, and has changed since; read it again");
+    }
+}
+
+void EditedDocument::check(const Document& document) const {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + options_.longest_check;
+    const PreparationWatch watch({.cancelled = [&] { return is_stopped_ || Clock::now() > end; }, .progress = {}});
+    try {
+        options_.check(document);
+    } catch (const PreparationCancelled&) {
+        throw SceneError(options_.file.string(),
+                         fmt::format("reading the scene after this change takes more than {} s, so it was not changed; "
+                                     "change the text instead",
+                                     std::chrono::duration<double>(options_.longest_check).count()));
     }
 }
 
@@ -208,7 +223,7 @@ std::string EditedDocument::with_operations(const EditRequest& request) {
         document.reset();
         if (!is_whole) document = options_.parse(text);
     }
-    if (request.is_strict) options_.check(document ? *document : options_.parse(text));
+    if (request.is_strict) check(document ? *document : options_.parse(text));
     return text;
 }
 
@@ -229,7 +244,7 @@ std::uint64_t EditedDocument::edit(const EditRequest& request) {
     }
     if (text == history_->text()) return state()->version;
     history_->add(std::move(text), request.label, request.merge);
-    return finish();
+    return finish(request.is_strict);
 }
 
 std::uint64_t EditedDocument::edit(const std::string& label,

@@ -4,6 +4,7 @@
 // program that saves the file. All functions may be called by any thread.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -65,8 +66,11 @@ class EditedDocument {
         bool saves = true;  ///< whether each step is saved at once
         /// Makes a document of a text, with the program's options for reading it. Throws SceneError.
         std::function<Document(std::string)> parse;
-        /// Throws what is wrong with a scene. Called only for strict requests.
+        /// Throws what is wrong with a scene, and PreparationCancelled if the current PreparationWatch cancels it.
+        /// Called only for strict requests.
         std::function<void(const Document&)> check = [](const Document&) {};
+        /// A strict request is rejected if its check takes longer. Other requests wait meanwhile.
+        std::chrono::milliseconds longest_check{10000};
     };
 
     /// Reads the file. Throws SceneError if that is impossible; an invalid text is no error here.
@@ -111,12 +115,13 @@ class EditedDocument {
 
     // All require `editing_`.
     void adopt_file();
-    void commit();
+    void commit(bool is_known_to_be_valid = false);
+    void check(const Document&) const;
     void save_text();
     std::string with_operations(const EditRequest& request);
     void check_base(const EditRequest& request) const;
     std::uint64_t step(bool (History::*move)());
-    std::uint64_t finish();
+    std::uint64_t finish(bool is_known_to_be_valid = false);
 
     void publish(const std::function<void(DocumentState&)>& change);
 
@@ -134,7 +139,7 @@ class EditedDocument {
     mutable std::mutex mutex_;  // protects what follows; locked after `editing_`
     mutable std::condition_variable published_;
     std::shared_ptr<const DocumentState> state_;
-    bool is_stopped_ = false;
+    std::atomic<bool> is_stopped_{false};
 };
 
 }  // namespace phasetree::tracer::studio

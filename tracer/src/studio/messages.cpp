@@ -130,6 +130,21 @@ Json error_json(const SceneError& error, const std::string& file) {
     return json;
 }
 
+void write_text_and_outline(const DocumentState& state, const Vocabulary& vocabulary, Json& json) {
+    // Pages do not edit texts that are larger than operations accept.
+    const bool is_too_large = state.text->size() > EditedDocument::most_bytes_of_text;
+    json["text"] = is_too_large ? Json() : Json(*state.text);
+    json["too_large"] = is_too_large;
+    json["outline"] = Json();
+    json["outline_has_more"] = false;
+    if (!state.document || is_too_large) return;
+    const Outline outline = outline_of(*state.document, vocabulary, Outline::most_on_a_page);
+    OutlineWriter writer(*state.document);
+    json["outline"] = Json::array();
+    for (const OutlineEntry& entry : outline.entries) json["outline"].push_back(writer.entry(entry));
+    json["outline_has_more"] = outline.has_more;
+}
+
 }  // namespace
 
 EditRequest read_edit_request(const std::string& text) {
@@ -157,22 +172,11 @@ EditRequest read_edit_request(const std::string& text) {
     return request;
 }
 
-std::string written(const DocumentState& state, const EditedDocument& of) {
+std::string written(const DocumentState& state, const EditedDocument& of, std::uint64_t known) {
     Json json;
     json["version"] = state.version;
-    // Pages do not edit texts that are larger than operations accept.
-    const bool is_too_large = state.text->size() > EditedDocument::most_bytes_of_text;
-    json["text"] = is_too_large ? Json() : Json(*state.text);
-    json["too_large"] = is_too_large;
-    json["outline"] = Json();
-    json["outline_has_more"] = false;
-    if (state.document && !is_too_large) {
-        const Outline outline = outline_of(*state.document, of.vocabulary(), Outline::most_on_a_page);
-        OutlineWriter writer(*state.document);
-        json["outline"] = Json::array();
-        for (const OutlineEntry& entry : outline.entries) json["outline"].push_back(writer.entry(entry));
-        json["outline_has_more"] = outline.has_more;
-    }
+    json["text_version"] = state.text_version;
+    if (state.text_version != known) write_text_and_outline(state, of.vocabulary(), json);
     const std::optional<SceneError>& error = state.unreadable ? state.unreadable : state.error;
     json["error"] = error ? error_json(*error, of.file().string()) : Json();
     json["checked"] = state.is_checked;

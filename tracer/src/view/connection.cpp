@@ -16,9 +16,8 @@ namespace {
 
 constexpr std::string_view end_of_head = "\r\n\r\n";
 
-// Removes the Range header. Partial pictures are not supported, because one request could ask for thousands of parts.
-void drop_ranges(std::string& head, std::size_t end) {
-    constexpr std::string_view name = "range:";
+// Removes a header, whose name is given in lower case.
+void drop_header(std::string& head, std::size_t end, std::string_view name) {
     for (std::size_t from = 0; (from = head.find("\r\n", from)) < end; from += 2) {
         const auto is_same = [](char a, char b) { return a == (b | 0x20) || a == b; };
         if (head.size() - from - 2 < name.size() ||
@@ -71,7 +70,10 @@ bool Connection::read_head() {
     }
     const std::size_t end = head_.find(end_of_head);
     if (end > most_bytes_of_head) return false;
-    drop_ranges(head_, end);
+    // Partial pictures are not supported, because one request could ask for thousands of parts.
+    drop_header(head_, end, "range:");
+    // Nothing is compressed: cpp-httplib uses Brotli at its slowest level, which takes longer than the answer itself.
+    drop_header(head_, end, "accept-encoding:");
     return true;
 }
 

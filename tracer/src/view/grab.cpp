@@ -8,6 +8,7 @@
 
 #include "phasetree/io/object_reader.hpp"
 #include "phasetree/math/float_mode.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 
 namespace phasetree::tracer::view {
 
@@ -108,6 +109,19 @@ Dragged drag(const Grabbed& grabbed, const glm::vec2& place, const std::set<std:
     return result;
 }
 
+template <class Work>
+auto Grabs::in_time(Work&& work) const {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + longest_;
+    const PreparationWatch watch({.cancelled = [&] { return Clock::now() > end; }, .progress = {}});
+    try {
+        return work();
+    } catch (const PreparationCancelled&) {
+        throw ModelError(
+            "this object takes too long to read again, so its surfaces cannot be dragged; change its numbers instead");
+    }
+}
+
 std::string Grabs::grab(const std::string& request, const Shown& shown) {
     const Document text = Document::from_text(request, "<request>");
     ObjectReader reader(text, text.root(), "the place");
@@ -117,9 +131,11 @@ std::string Grabs::grab(const std::string& request, const Shown& shown) {
     if (!shown.picture) throw ModelError("there is no picture yet");
     const auto state = document_.state();
     if (!state->document) throw ModelError("the text is not valid; correct it first");
-    Grabbed grabbed = view::grab(
-        *shown.picture, {x, y}, state->document->at(shown.seconds),
-        [this](std::string now) { return document_.parsed(std::move(now)); }, document_.vocabulary());
+    Grabbed grabbed = in_time([&] {
+        return view::grab(
+            *shown.picture, {x, y}, state->document->at(shown.seconds),
+            [this](std::string now) { return document_.parsed(std::move(now)); }, document_.vocabulary());
+    });
     Json json;
     const std::lock_guard lock(mutex_);
     json["grab"] = grabbed.number = ++last_;
@@ -146,7 +162,9 @@ std::string Grabs::drag(const std::string& request, const Shown& shown) {
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find(grabs_, number, &Grabbed::number);
     if (found == grabs_.end()) throw ModelError("this point is no longer grabbed; grab it again");
-    const Dragged dragged = view::drag(*found, {x, y}, std::set<std::string>(chosen.begin(), chosen.end()));
+    const Dragged dragged = in_time([&] {
+        return view::drag(*found, {x, y}, std::set<std::string>(chosen.begin(), chosen.end()));
+    });
     Json json;
     json["values"] = dragged.values;
     json["miss"] = std::isfinite(dragged.miss) ? Json(dragged.miss) : Json();

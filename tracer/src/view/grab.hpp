@@ -1,6 +1,7 @@
 // Points of surfaces that pages have grabbed in the picture, and where they are dragged to.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -40,8 +41,11 @@ Dragged drag(const Grabbed& grabbed, const glm::vec2& place, const std::set<std:
 class Grabs {
   public:
     static constexpr std::size_t most = 4, most_influences = 24;
+    /// The object is read many times, so a request for one that is expensive to read is given up after this time.
+    static constexpr std::chrono::milliseconds longest{10000};
 
-    explicit Grabs(studio::EditedDocument& document) : document_(document) {}
+    explicit Grabs(studio::EditedDocument& document, std::chrono::milliseconds longest_request = longest)
+        : document_(document), longest_(longest_request) {}
 
     /// The answers to requests, as lines of JSON: {"x": 12.5, "y": 7} in pixels of the picture, and {"grab": 3, "x":
     /// 14, "y": 7, "chosen": ["/tree/…"]}. Throw SceneError, and ModelError with a reason for people.
@@ -49,7 +53,11 @@ class Grabs {
     std::string drag(const std::string& request, const Shown& shown);
 
   private:
+    template <class Work>
+    auto in_time(Work&& work) const;
+
     studio::EditedDocument& document_;
+    const std::chrono::milliseconds longest_;
     std::mutex mutex_;
     std::deque<Grabbed> grabs_;
     std::uint64_t last_ = 0;

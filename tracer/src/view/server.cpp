@@ -199,7 +199,7 @@ class Answers {
         if (name == "picture") return picture(request, response);
         if (studio_ && StudioAnswers::is_answered(name)) {
             const bool may_wait = waiting_.fetch_add(1) < most_waiting;
-            const bool is_answered = studio_->get(name, number(request, "after"),
+            const bool is_answered = studio_->get(name, {number(request, "after"), number(request, "text")},
                                                   may_wait ? longest_wait : std::chrono::milliseconds(0), response);
             --waiting_;
             return is_answered;

@@ -144,6 +144,7 @@ void Session::look_at_files() {
 void Session::announce_changes() {
     number_ = desired_.number();
     number_of_object_ = desired_.number_of_object();
+    number_of_text_ = desired_.number_of_text();
     number_of_reading_ = desired_.reading;
     changed_.notify_all();
 }

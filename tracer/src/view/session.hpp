@@ -103,6 +103,7 @@ class Session {
 
         std::uint64_t number() const { return reading + text + object + view; }
         std::uint64_t number_of_object() const { return reading + text + object; }
+        std::uint64_t number_of_text() const { return reading + text; }
     };
 
     // Identifies a version of the scene's text: which reading of the file, with which replaced numbers.
@@ -139,6 +140,9 @@ class Session {
     bool is_of_another_object(const DesiredState& desired) const {
         return stopped_ || number_of_object_ != desired.number_of_object();
     }
+    bool is_of_another_text(const DesiredState& desired) const {
+        return stopped_ || number_of_text_ != desired.number_of_text();
+    }
     bool is_of_another_reading(const DesiredState& desired) const {
         return stopped_ || number_of_reading_ != desired.reading;
     }
@@ -165,7 +169,7 @@ class Session {
     WatchedFiles files_;
     std::optional<WatchedFiles> changed_files_;  // the files' state when a change was last seen
     bool is_to_be_read_ = true;
-    std::atomic<std::uint64_t> number_{1}, number_of_object_{1}, number_of_reading_{1};
+    std::atomic<std::uint64_t> number_{1}, number_of_object_{1}, number_of_text_{1}, number_of_reading_{1};
     std::atomic<bool> stopped_{false};
 
     // Used only by the thread.

@@ -21,6 +21,8 @@ namespace {
 // While a slider is dragged, each change arrives before the picture of the last one is complete. Its coarse cells are
 // completed anyway, unless they take longer than this.
 constexpr std::chrono::milliseconds first_cells_deadline{1000};
+// Likewise for reading the scene.
+constexpr std::chrono::milliseconds reading_deadline{1000};
 
 // The message that a terminal would show.
 std::string error_text(std::exception_ptr failure) {
@@ -95,11 +97,18 @@ void Session::follow(DesiredState desired) {
 // If the scene cannot be read, the previous one stays.
 void Session::read(DesiredState& desired) {
     show([](Shown& shown) { shown.doing = "Reading the scene"; });
+    const Clock::time_point begun = Clock::now();
     WatchedFiles files;
     std::shared_ptr<const ViewedScene> viewed;
     std::string error;
     try {
-        const PreparationWatch watch({.cancelled = [&] { return is_of_another_reading(desired); }, .progress = {}});
+        const PreparationWatch watch({.cancelled =
+                                          [&] {
+                                              const bool is_over = Clock::now() - begun > reading_deadline;
+                                              return is_of_another_reading(desired) ||
+                                                     (is_over && is_of_another_text(desired));
+                                          },
+                                      .progress = {}});
         ViewedScene scene = read_(files, desired.read_as);
         if (options_.samples) scene.scene.settings.samples = *options_.samples;
         if (options_.width) set_width(scene.scene.film, *options_.width);

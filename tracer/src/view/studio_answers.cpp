@@ -35,10 +35,11 @@ bool StudioAnswers::is_answered(std::string_view name) {
     return name == "document" || name == "catalogue" || name.starts_with(pictures_path);
 }
 
-bool StudioAnswers::get(std::string_view name, std::uint64_t after, std::chrono::milliseconds timeout,
+bool StudioAnswers::get(std::string_view name, Known known, std::chrono::milliseconds timeout,
                         httplib::Response& response) const {
     if (name == "document") {
-        response.set_content(studio::written(*document_.state_after(after, timeout), document_), type_of_answers);
+        const auto state = document_.state_after(known.version, timeout);
+        response.set_content(studio::written(*state, document_, known.text_version), type_of_answers);
         return true;
     }
     if (name == "catalogue") {

@@ -20,9 +20,12 @@ class StudioAnswers {
 
     static bool is_posted(std::string_view name);
     static bool is_answered(std::string_view name);
+    /// What the page has already: versions of the document (DocumentState), or 0.
+    struct Known {
+        std::uint64_t version = 0, text_version = 0;
+    };
     /// Returns false if there is no such page.
-    bool get(std::string_view name, std::uint64_t after, std::chrono::milliseconds timeout,
-             httplib::Response& response) const;
+    bool get(std::string_view name, Known known, std::chrono::milliseconds timeout, httplib::Response& response) const;
     void post(std::string_view name, const std::string& body, httplib::Response& response) const;
 
   private:

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "phasetree/model/poll_preparation.hpp"
 #include "scene/one_tree.hpp"
 #include "scene/placed.hpp"
 #include "scene/read_parts.hpp"
@@ -16,6 +17,7 @@ VariedObject::VariedObject(Document document, Parse parse) : document_(std::move
 }
 
 Phased VariedObject::read(const Document& document, PhaseNames* phases) const {
+    poll_preparation();
     ++readings_;
     kept_->start();
     const Document model = document.without_assets().with_kept_nodes(kept_);

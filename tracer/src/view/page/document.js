@@ -5,6 +5,7 @@ import {joined} from "./pointer.js";
 import {Rejected, askDocument, pause, redo, save, sendStep, undo} from "./server.js";
 
 const sections = ["tree", "objects", "shapes", "phases", "lights", "meshes", "camera", "render", "groups", "instances", "expect", ""];
+const patience = 300; // milliseconds that a step waits for follow() before it asks for the document itself
 const single = new Set(["tree", "camera", "render", ""]);
 
 // Groups the entries into sections, one for each member of the scene. A member that is a single entry gets no section.
@@ -55,8 +56,11 @@ export class SceneDocument extends EventTarget {
   #entries = new Map(); // by pointer
   #waiting = [];        // steps to send
   #isSending = false;
+  #running = 0;         // requests that change the scene
   #isFollowed = false;
+  #textVersion = 0;     // of the text and the outline that the page has
   #own = new Set();     // versions made by this page
+  #wake = () => {};     // ends a pause of follow()
 
   entry(pointer) {
     return this.#entries.get(pointer) ?? null;
@@ -69,19 +73,21 @@ export class SceneDocument extends EventTarget {
     return this.entry(`section:${name}`);
   }
   get isBusy() {
-    return this.#isSending || this.#waiting.length > 0;
+    return this.#running > 0 || this.#waiting.length > 0;
   }
   async follow(lost) {
     let failures = 0;
     while (true) {
       try {
         const before = this.version;
-        this.#take(await askDocument(this.#isFollowed ? before : 0));
-        if (this.version === before) await pause(200);
+        this.#take(await (this.#isFollowed ? askDocument(before, this.#textVersion) : askDocument(0, 0)));
+        // Nothing has happened for seconds, or too many pages wait.
+        if (this.version === before) await Promise.race([pause(200), new Promise((done) => (this.#wake = done))]);
         failures = 0;
       } catch (error) {
         failures += 1;
         this.#isFollowed = false; // a server that was restarted counts from the beginning
+        this.#textVersion = 0;
         if (failures > 1) lost(error);
         await pause(1000);
       }
@@ -92,19 +98,23 @@ export class SceneDocument extends EventTarget {
     const isFirst = !this.#isFollowed;
     this.#isFollowed = true;
     // A version may also be new because the text has been checked or saved.
-    const isOwn = this.isBusy || this.isChangedHere || this.#own.has(told.version) || told.text === this.text;
-    if (told.text !== this.text) this.isChangedHere = false;
-    for (const member of ["version", "text", "error", "undo", "redo", "saved", "file"]) this[member] = told[member];
-    this.text ??= ""; // too large to be edited
-    this.isTooLarge = told.too_large ?? false;
+    const hasNewText = "text" in told && told.text !== this.text; // the server leaves out a text that the page has
+    const isOwn = this.isBusy || this.isChangedHere || this.#own.has(told.version) || !hasNewText;
+    if (hasNewText) this.isChangedHere = false;
+    for (const member of ["version", "error", "undo", "redo", "saved", "file"]) this[member] = told[member];
     this.saveError = told.save_error ?? null;
+    if ("text" in told) {
+      this.text = told.text ?? ""; // too large to be edited
+      this.isTooLarge = told.too_large ?? false;
+      this.hasOutline = told.outline !== null;
+    }
+    this.#textVersion = told.text_version;
     if (told.outline) {
       this.outline = grouped(told.outline);
       this.#entries = new Map();
       for (const entry of this.outline) addTo(this.#entries, entry, null, this.text);
       for (const entry of this.entries) if (entry.kind === "reference") this.entry(entry.target)?.uses.push(entry);
     }
-    this.hasOutline = told.outline !== null;
     this.dispatchEvent(new CustomEvent("change", {detail: {isFirst, isOwn}}));
   }
   // Sends a step and resolves when the page shows it. A step that waits is replaced by a later one of the same gesture,
@@ -132,15 +142,29 @@ export class SceneDocument extends EventTarget {
     this.#isSending = false;
   }
   async #run(request, done, failed) {
+    this.#running += 1;
     try {
       const version = await request();
       this.#own.add(version);
-      this.#take(await askDocument(0));
+      await this.#reach(version);
       for (const tell of done) tell(version);
     } catch (error) {
-      if (error instanceof Rejected && error.isOutdated) this.#take(await askDocument(0).catch(() => this));
+      if (error instanceof Rejected && error.isOutdated) this.#take(await askDocument(0, this.#textVersion).catch(() => this));
       for (const tell of failed) tell(error);
+    } finally {
+      this.#running -= 1;
     }
+  }
+  // Waits until the page shows this version, which follow() usually receives.
+  async #reach(version) {
+    this.#wake();
+    const end = performance.now() + patience;
+    while (this.version < version && performance.now() < end)
+      await new Promise((done) => {
+        this.addEventListener("change", done, {once: true});
+        setTimeout(done, end - performance.now());
+      });
+    if (this.version < version) this.#take(await askDocument(0, this.#textVersion));
   }
   goBack() {
     return new Promise((done, failed) => this.#run(undo, [done], [failed]));

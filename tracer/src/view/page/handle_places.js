@@ -2,7 +2,7 @@
 // the kind's own space.
 //
 // A handle is one of
-//   {name, path, value, from, along}  a number, at from + value · along
+//   {name, path, value, from, along}  a number, at from + value · along; `start` stands for a value that has no place
 //   {name, path, value, basis}        a point, which moves along the vectors of the basis, or in the picture's plane
 //   {name, path, value}               a number without a place, such as a blend radius
 // where `path` has the name of the parameter and, for an item of it, its indices.
@@ -23,6 +23,10 @@ const rim = (name = "radius", height = () => 0) => length(name, (v) => [0, 0, he
 const tall = (name = "height", along = z) => length(name, centre, () => times(along, 0.5));
 const edges = (name = "size") => unitVectors.map((axis, i) => (v) => ({name: `${name}, ${"xyz"[i]}`, path: [name, i], value: v[name]?.[i], from: origin, along: times(axis, 0.5)}));
 const halfAxes = (name) => unitVectors.map((axis, i) => (v) => ({name: `${name}, ${"xyz"[i]}`, path: [name, i], value: v[name]?.[i], from: origin, along: axis}));
+// A spacing of 0 means no copies. Its handle is where the next copy would be, as far away as those along other axes.
+const spacings = (name) => unitVectors.map((axis, i) => (v) => ({
+  name: `${name}, ${"xyz"[i]}`, path: [name, i], value: v[name]?.[i], from: origin, along: axis, start: v[name]?.[i] === 0 ? Math.max(...v[name]) : undefined,
+}));
 const point = (name) => (v) => ({name, path: [name], value: v[name]});
 const measure = (name) => (v) => ({name, path: [name], value: v[name]});
 const points = (name, basis) => (v) => (v[name] ?? []).slice(0, mostPoints).map((value, i) => ({name: `${name} ${i + 1}`, path: [name, i], value, basis}));
@@ -70,7 +74,7 @@ const ofFields = {
 };
 
 const copies = {
-  grid: halfAxes("spacing"), endless_grid: halfAxes("spacing"),
+  grid: halfAxes("spacing"), endless_grid: spacings("spacing"),
   instances: [points("positions")], fibonacci_disk: [rim()], fibonacci_sphere: [ball()], scatter: [measure("spacing")],
   bounding_volume: [measure("margin")], proxy: [measure("error"), measure("margin")], level_of_detail: [point("viewpoint")],
   distort: [measure("amplitude"), measure("scale")],

@@ -259,7 +259,8 @@ export class Handles {
       }).filter(Boolean);
     });
   }
-  #length(map, {value, from, along}, limited) {
+  #length(map, {value: present, start, from, along}, limited) {
+    const value = start ?? present;
     const end = transformPoint(map, plus(from, times(along, value))), vector = transformVector(map, along), tip = this.#seen(end), root = this.#seen(transformPoint(map, from));
     if (!tip || !root || !followed((p) => this.#seen(p), end, [vector], tip)) return null;
     const grain = tip.unit / Math.max(1e-9, Math.hypot(...vector));

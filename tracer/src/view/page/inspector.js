@@ -1,6 +1,7 @@
 // The parameters of what is selected. A chain of nodes with one child each, such as a filled and moved sphere, is shown as
 // one.
 import {plainText, summaryOf} from "./catalogue.js";
+import {combiningFigure, isCombining} from "./combining.js";
 import {make} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
 import {isPlacing, nameOf} from "./names.js";
@@ -124,7 +125,7 @@ export class Inspector {
     this.#showHead(head, entry);
   }
   #showHead(head, entry) {
-    const kind = this.catalogue.of(entry), focused = head.contains(document.activeElement) ? document.activeElement.dataset.action : null;
+    const kind = this.catalogue.of(entry), focused = head.contains(document.activeElement) ? document.activeElement.dataset : null;
     const crumbs = pathTo(entry).slice(0, -1);
     const name = entry.label
       ? make("input", {
@@ -143,8 +144,16 @@ export class Inspector {
       }, nameOf(e, this.catalogue)))),
       make("div", {class: "title"}, icon(iconOf(entry)), name),
       make("div", {class: "actions", role: "toolbar", "aria-label": "Actions"}, buttons),
-      this.#about(entry, kind));
-    if (focused) head.querySelector(`[data-action="${focused}"]`)?.focus();
+      this.#about(entry, kind),
+      ...(isCombining(entry) ? [this.#combining(entry)] : []));
+    if (focused) head.querySelector(focused.operator ? `[data-operator="${focused.operator}"]` : `[data-action="${focused.action}"]`)?.focus();
+  }
+  // Over and under differ only by which end of the list has precedence.
+  #combining(entry) {
+    const choices = ["over", "under"].includes(entry.kind) ? ["over", "under"] : [];
+    return combiningFigure(entry.kind, choices, (kind) => kind === entry.kind || this.act.run({
+      label: `Change ${entry.kind} to ${kind}`, operations: [{rename: joined(entry.pointer, entry.kind), to: kind}], select: [entry.pointer],
+    }));
   }
   #about(entry, kind) {
     if (entry.kind === "reference") return make("p", {class: "about"}, "A reusable shape. Changing it changes every place where it is used. ",

@@ -1,5 +1,6 @@
 // The palette: everything that can be added, with pictures, by chapters and words.
 import {summaryOf} from "./catalogue.js";
+import {combiningFigure, isCombining} from "./combining.js";
 import {openDialog} from "./dialog.js";
 import {make} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
@@ -54,7 +55,13 @@ export function choose(title, kinds) {
     const card = (kind) => make("button", {type: "button", class: "card", title: summaryOf(kind.help), "data-kind": kind.kind, "data-type": kind.type, onclick: () => take(kind)},
       kind.picture ? make("img", {src: kind.picture, alt: "", loading: "lazy", width: 96, height: 72}) : make("span", {class: "no-picture"}, icon(iconOf(kind))),
       make("span", {class: "card-title"}, kind.title));
-    const group = (name, inside) => (inside.length === 0 ? [] : [make("h3", {}, name), make("div", {class: "grid"}, inside.map(card))]);
+    // Operators between phases are explained before they are chosen.
+    const explained = (inside) => {
+      const combining = inside.filter(isCombining);
+      if (combining.length < 2) return [];
+      return [combiningFigure(null, combining.map((kind) => kind.kind), (name) => take(combining.find((kind) => kind.kind === name)))];
+    };
+    const group = (name, inside) => (inside.length === 0 ? [] : [make("h3", {}, name), ...explained(inside), make("div", {class: "grid"}, inside.map(card))]);
     const showCards = () => {
       const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
       const found = kinds.filter((kind) => (words.length > 0 || chapter === null || kind.chapter === chapter) && score(kind, words) > 0);
@@ -62,7 +69,7 @@ export function choose(title, kinds) {
       const keys = recent(), latest = words.length === 0 && chapter === null
         ? keys.map((key) => kinds.find((kind) => `${kind.type} ${kind.kind}` === key)).filter(Boolean) : [];
       const shown = words.length > 0 ? [make("div", {class: "grid"}, found.map(card))]
-        : [...group("Recent", latest), ...chapters.filter((c) => chapter === null || c === chapter).flatMap((c) => group(chapterTitle(c), found.filter((kind) => kind.chapter === c)))];
+        : [...(latest.length === 0 ? [] : [make("h3", {}, "Recent"), make("div", {class: "grid"}, latest.map(card))]), ...chapters.filter((c) => chapter === null || c === chapter).flatMap((c) => group(chapterTitle(c), found.filter((kind) => kind.chapter === c)))];
       cards.replaceChildren(...shown);
       cards.scrollTop = 0;
       status.textContent = found.length === 0 ? "No matches" : `${found.length} found`;

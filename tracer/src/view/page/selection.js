@@ -14,7 +14,12 @@ export class Selection extends EventTarget {
   has(pointer) {
     return this.#pointers.includes(pointer);
   }
+  // What a person selects while the result of a step is awaited stays selected.
   set(pointers) {
+    this.#next = null;
+    this.#show(pointers);
+  }
+  #show(pointers) {
     if (pointers.join("\n") === this.#pointers.join("\n")) return;
     this.#pointers = [...pointers];
     this.dispatchEvent(new Event("change"));
@@ -38,6 +43,6 @@ export class Selection extends EventTarget {
       while (at !== "" && !scene.entry(at)) at = parentOf(at);
       return at;
     });
-    this.set([...new Set(found)].filter((pointer) => pointer !== ""));
+    this.#show([...new Set(found)].filter((pointer) => pointer !== ""));
   }
 }

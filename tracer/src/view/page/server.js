@@ -29,7 +29,7 @@ export const dragTo = (drag) => post("drag", drag);
 export const askFile = async (name) => (await answerTo(name)).blob();
 export const writeCamera = () => post("write", {});
 export const askCatalogue = async () => (await answerTo("catalogue")).json();
-export const askDocument = async (after) => (await answerTo(`document?after=${after}`)).json();
+export const askDocument = async (after, text) => (await answerTo(`document?after=${after}&text=${text}`)).json();
 
 // The server rejected a step. `place` has the message, line and column if the result would be wrong; `isOutdated` if the
 // scene has changed meanwhile.
