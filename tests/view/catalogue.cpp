@@ -109,6 +109,8 @@ std::string scene_with(const CatalogueKind& kind, const std::string& instance) {
         return scene(diffuse, "", mesh(R"({"diffuse": {"color": [1, 1, 1], "roughness": )" + instance + "}}"));
     if (type == "normal_map")
         return scene(diffuse, "", mesh(R"({"diffuse": {"color": [1, 1, 1], "normal_map": )" + instance + "}}"));
+    if (type == "phase_function")
+        return scene(R"({"clear": {"ior": 1, "scattering": [1, 1, 1], "phase_function": )" + instance + "}}", "");
     if (type == "voxels")
         return scene(R"({"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": )" + instance + "}}", "");
     const std::string object = std::string(R"("objects": [{"name": "object", "tree": )") + tree;

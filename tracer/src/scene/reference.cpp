@@ -18,6 +18,7 @@
 #include "scene/mesh_kinds.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/phase_entry.hpp"
+#include "scene/phase_function_kinds.hpp"
 #include "shading/normal_map.hpp"
 
 namespace phasetree::tracer {
@@ -112,6 +113,10 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back({"Normal maps",
                         "An opaque material of a mesh may have one: `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
+    chapters.push_back({"Phase functions",
+                        "How the medium in a clear material scatters light: `\"phase_function\": {\"kind\": "
+                        "{parameters}}`. In the equations, μ is the cosine of the angle by which light is turned.",
+                        pages_of(PhaseFunctionKinds())});
     chapters.push_back({"Voxel grids",
                         "Grids set the density and the temperature of the medium in a clear material: "
                         "`\"density_grid\": {parameters}` "
@@ -176,6 +181,7 @@ std::string scene_json_schema() {
         {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(NamedTextures())))},
         {"number_texture", schema_of_one(pages_of(NumberTextures()))},
         {"normal_map", schema_of(page_of<NormalMap>())},
+        {"phase_function", schema_of_one(pages_of(PhaseFunctionKinds()))},
         {"voxels", schema_of(page_of<Voxels>())},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
         {"unit", schema_of_length_unit()},

@@ -153,7 +153,7 @@ struct ChapterType {
 };
 
 // A chapter missing here makes the constructor throw, and so fails every test of the studio.
-constexpr std::array<ChapterType, 16> chapter_types{{{"scene-file", "scene", false},
+constexpr std::array<ChapterType, 17> chapter_types{{{"scene-file", "scene", false},
                                                      {"placed-objects", "", false},
                                                      {"transforms", "transform", true},
                                                      {"shapes", "field", true},
@@ -164,6 +164,7 @@ constexpr std::array<ChapterType, 16> chapter_types{{{"scene-file", "scene", fal
                                                      {"textures", "texture", true},
                                                      {"number-textures", "number_texture", true},
                                                      {"normal-maps", "normal_map", false},
+                                                     {"phase-functions", "phase_function", true},
                                                      {"voxel-grids", "voxels", false},
                                                      {"lights", "light", true},
                                                      {"meshes", "mesh", true},
