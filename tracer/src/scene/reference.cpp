@@ -36,6 +36,16 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     return pages;
 }
 
+template <class... Kinds>
+std::vector<std::string_view> names_for_meshes_only(TypeList<Kinds...>) {
+    std::vector<std::string_view> names;
+    const auto add = [&]<class Kind>(const Kind*) {
+        if constexpr (requires { Kind::for_meshes_only; }) names.push_back(Kind::info.name);
+    };
+    (add(static_cast<const Kinds*>(nullptr)), ...);
+    return names;
+}
+
 // A single transform, a list of them, or keys.
 std::string schema_of_transform(const std::string& one) {
     return R"({"anyOf": [)" + one + R"(, {"type": "array", "minItems": 1, "items": )" + one + "}, " +
@@ -75,6 +85,10 @@ std::string example_text(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> materials_for_meshes_only() {
+    return names_for_meshes_only(MaterialKinds());
+}
 
 std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{

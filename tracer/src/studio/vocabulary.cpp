@@ -197,6 +197,8 @@ CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
     const bool is_node = kind.type == "field" || kind.type == "object";
     kind.list_alone = is_node && is_one && page.list_alone;
+    const auto names = materials_for_meshes_only();
+    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), page.name) != names.end();
     return kind;
 }
 
