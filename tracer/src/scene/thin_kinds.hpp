@@ -1,4 +1,4 @@
-// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides. Each says so by
+// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides. Each has the member
 // for_meshes_only.
 #pragma once
 
