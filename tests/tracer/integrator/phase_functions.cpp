@@ -113,15 +113,15 @@ TEST_CASE("a small sun at many angles is scattered by the equation of each phase
     const auto kinds = cases();
     const double significance = sidak(1e-4, 4 * kinds.size());
     // From nearly straight forwards to nearly straight backwards.
-    const glm::dvec3 suns[] = {{1, 0.1, 0.12}, {0.3, 0.5, 0.8}, {-0.6, 0.2, 0.7}, {-1, 0, 0.3}};
+    const glm::dvec3 suns[] = {{1, 0.1, 0.3}, {0.3, 0.5, 0.8}, {-0.6, 0.2, 0.7}, {-1, 0, 0.3}};
     for (const Case& c : kinds)
         for (const glm::dvec3& towards : suns) {
-            const glm::dvec3 d = downwards(15), l = glm::normalize(towards);
+            const glm::dvec3 d = downwards(8), l = glm::normalize(towards);
             const std::string direction =
                 std::to_string(towards.x) + ", " + std::to_string(towards.y) + ", " + std::to_string(towards.z);
             const Scene scene = half_space(
                 c, R"({"sun": {"direction": [)" + direction + R"(], "irradiance": [1, 1, 1], "diameter": 0.05}})");
-            check(c, scene, d, 20000, albedo * scattered(c, d, l), significance);
+            check(c, scene, d, 100000, albedo * scattered(c, d, l), significance);
         }
 }
 

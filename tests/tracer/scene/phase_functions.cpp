@@ -106,7 +106,7 @@ TEST_CASE("wrong phase functions are rejected where they stand, with a remedy") 
             "\"amount\"");
     is_said(function(R"({"mix": {"first": {"rayleigh": {}}}})"), "\"second\"");
     is_said(function(R"({"mix": {"first": {"rayleigh": {}}, "second": 0.5}})"), "phase function");
-    is_said(function(R"({"mie": {}})"), "unknown phase function \"mie\"");
+    is_said(function(R"({"mie": {}})"), "cannot be of the kind \"mie\"");
     is_said(function(R"({"raylegh": {}})"), "did you mean \"rayleigh\"?");
     is_said(function(R"({"rayleigh": {"g": 0.5}})"), "unknown key \"g\"");
     is_said(function(R"({"rayleigh": {}, "droplets": {}})"), "phase function");
