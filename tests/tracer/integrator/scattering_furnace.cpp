@@ -161,7 +161,7 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
         {"rectangle": {"centre": [-2, 0, 1.5], "target": [0, 0, 0], "width": 2, "height": 2, "radiance": [3, 4, 5]}}])";
     const std::string murky[] = {
         R"("ior": 1.35, "scattering": [2, 3, 4], "absorption": [0.3, 0.1, 0.6], "phase_function": {"mix": {
-           "first": {"droplets": {}}, "second": {"draine": {"g": -0.5, "alpha": 2}}, "amount": 0.4}})",
+           "first": {"draine": {"g": 0.6, "alpha": 3}}, "second": {"draine": {"g": -0.5, "alpha": 2}}, "amount": 0.4}})",
         R"("ior": 1.35, "scattering": [2, 3, 4], "absorption": [0.3, 0.1, 0.6], "anisotropy": 0.4,
                                    "emission": [0.02, 0.05, 0.1])",
         R"("ior": 1.35, "scattering": [4, 6, 9], "absorption": [0.3, 0.1, 0.6], )" + cloud};
