@@ -33,6 +33,13 @@ def mixed(tree, to):
     add_node(tree, "ShaderNodeVolumeAbsorption", mix.inputs[2], Color=(0.4, 0.6, 0.9), Density=0.7)
 
 
+def two_lobes(tree, to):
+    mix = add_node(tree, "ShaderNodeMixShader", to, Fac=0.3)
+    for number, anisotropy in ((1, 0.7), (2, -0.5)):
+        add_node(tree, "ShaderNodeVolumeScatter", mix.inputs[number], Color=(0.8, 0.8, 0.8), Density=1.2,
+                 Anisotropy=anisotropy)  # fmt: skip
+
+
 class AgainstCycles(BlenderTest):
     def setUp(self):
         super().setUp()
@@ -56,7 +63,7 @@ class AgainstCycles(BlenderTest):
     def test_media(self):
         """In a box whose index is that of air. Cycles loses 2 % of the light of a medium that absorbs nothing."""
         self.scene.cycles.max_bounces = self.scene.cycles.volume_bounces = self.scene.cycles.transmission_bounces = 256
-        for make in (scatter, principled_volume, mixed):
+        for make in (scatter, principled_volume, mixed, two_lobes):
             with self.subTest(make.__name__):
                 air = shader("ShaderNodeBsdfGlass", Color=(1.0, 1.0, 1.0), Roughness=0.0, IOR=1.0001)
                 box = add_box("Box", (-1.5, -1.5, -1.5), (1.5, 1.5, 1.5), air)

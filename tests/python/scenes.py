@@ -3,6 +3,7 @@
 import filecmp
 import os
 import pathlib
+import pickle
 import shutil
 import tempfile
 import threading
@@ -170,6 +171,28 @@ class Files(unittest.TestCase):
         self.assertEqual(pt.load(self.folder / "fire.json"), scene)
         with self.assertRaises(pt.Error):
             pt.voxels(file=stack)
+
+    def test_phase_functions_are_parts(self):
+        phase_functions = pt.phase_functions
+        lobes = phase_functions.mix(
+            phase_functions.droplets(diameter=8), second=phase_functions.draine(g=-0.5, alpha=2), amount=0.25
+        )
+        fog = pt.clear(ior=1, scattering=(1, 1, 1), phase_function=lobes)
+        scene = small_scene().with_(object=pt.phase("fog", fog)(pt.sphere(1.5)))
+        scene.save(self.folder / "fog.json")
+        self.assertIn('"droplets": {', (self.folder / "fog.json").read_text())
+        self.assertEqual(pt.load(self.folder / "fog.json"), scene)
+        self.assertEqual(pickle.loads(pickle.dumps(lobes)), lobes)
+        self.assertEqual(repr(phase_functions.rayleigh()), "rayleigh()")
+        for wrong in (
+            lambda: phase_functions.droplets(diameter=4.9),
+            lambda: phase_functions.droplets(diameter=float("nan")),
+            lambda: phase_functions.mix(phase_functions.rayleigh(), phase_functions.rayleigh(), amount=2),
+            lambda: phase_functions.mix(phase_functions.rayleigh(), 0.5),
+            lambda: pt.clear(ior=1, scattering=(1, 1, 1), anisotropy=0.5, phase_function=lobes),
+        ):
+            with self.assertRaises(pt.Error):
+                wrong()
 
     def test_a_medium_s_density_is_a_field(self):
         ball = pt.sphere(0.5)

@@ -18,7 +18,7 @@ glass(pt.sqrt(x**2 + y**2) - 1).
 from phasetree import _formula, _parts, _phasetree, _trees
 from phasetree._errors import Error, Interrupted, SceneError
 from phasetree._formula import Expression, coordinates
-from phasetree._parts import cameras, lights, materials, meshes, numbers, textures
+from phasetree._parts import cameras, lights, materials, meshes, numbers, phase_functions, textures
 from phasetree._phases import Phase, phase, vacuum
 from phasetree._placed import Places, places
 from phasetree._scene import Image, Scene, load
@@ -42,7 +42,7 @@ camera = cameras.thin_lens
 
 __all__ = [
     "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Interrupted", "Measures", "NextCrossings", "Object", "Phase", "PhaseMesh", "Places", "Proof", "Scene", "SceneError", "Solution", "View",
-    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "places", "solve", "textures", "vacuum", "view", "voxels",
+    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "phase_functions", "places", "solve", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

@@ -1,5 +1,5 @@
-"""Parts of a scene other than objects: materials, textures, number textures, normal maps, voxels, lights, meshes,
-cameras and image settings."""
+"""Parts of a scene other than objects: materials, textures, number textures, normal maps, phase functions, voxels,
+lights, meshes, cameras and image settings."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ _CHECKED_AS = {
     "Textures": ("material", lambda text: {"diffuse": {"color": text}}),
     "Number textures": ("material", lambda text: {"clear": {"ior": 1, "film_thickness": text}}),
     "Normal maps": ("material", lambda text: {"diffuse": {"color": [1, 1, 1], "normal_map": text}}),
+    "Phase functions": (
+        "material",
+        lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "phase_function": text}},
+    ),
     "Voxel grids": ("material", lambda text: {"clear": {"ior": 1, "scattering": [1, 1, 1], "density_grid": text}}),
     "Lights": ("lights", lambda text: {"lights": [text]}),
     "Meshes": ("meshes", lambda text: [text]),
@@ -23,7 +27,8 @@ _CHECKED_AS = {
 
 
 class Part(Value):
-    """A material, texture, number texture, normal map, voxel grid, light, mesh or camera, or the image settings.
+    """A material, texture, number texture, normal map, phase function, voxel grid, light, mesh or camera, or the image
+    settings.
 
     Consists of a kind and its parameters, which have been checked.
     """
@@ -97,12 +102,15 @@ kinds = _chapters
 
 def module_name(chapter):
     """The name of the module with the functions for a chapter of the scene reference."""
-    return {"Number textures": "numbers"}.get(chapter, chapter.lower())
+    return {"Number textures": "numbers"}.get(chapter, chapter.lower().replace(" ", "_"))
 
 
 materials = _module("materials", "Materials: what phases and meshes are made of.", _chapters["Materials"])
 textures = _module("textures", "Textures: colours that differ from place to place.", _chapters["Textures"])
 numbers = _module("numbers", "Numbers that differ from place to place.", _chapters["Number textures"])
+phase_functions = _module(
+    "phase_functions", "Phase functions: into which directions media scatter light.", _chapters["Phase functions"]
+)
 lights = _module("lights", "Lights.", _chapters["Lights"])
 meshes = _module("meshes", "Meshes in the scene in addition to the object.", _chapters["Meshes"])
 cameras = _module("cameras", "Cameras.", _chapters["Cameras"])

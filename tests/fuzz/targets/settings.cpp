@@ -4,6 +4,7 @@
 
 #include "fuzz/target.hpp"
 #include "integrator/path.hpp"
+#include "media/medium.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "phasetree/program/program.hpp"
 #include "render/render.hpp"
@@ -50,6 +51,21 @@ void scatter(const tracer::Scene& scene) {
         }
 }
 
+void scatter_in_media(const tracer::Scene& scene) {
+    for (const tracer::Material& material : scene.materials) {
+        const auto* const clear = std::get_if<tracer::Clear>(&material);
+        const tracer::PhaseFunction* const phase = clear ? tracer::phase_function(clear->interior) : nullptr;
+        if (!phase) continue;
+        promised(std::abs(phase->mean_cosine()) < 1, "a mean cosine is between -1 and 1");
+        for (const float u : {0.0f, 0.4f, 0.9999999f}) {
+            const glm::vec3 direction = phase->sample({u, 0.3f});
+            promised(std::abs(glm::length(direction) - 1) < 1e-3f, "a sampled direction has unit length");
+            const float pdf = phase->evaluate(direction.z);
+            promised(std::isfinite(pdf) && pdf > 0, "what is sampled has a density");
+        }
+    }
+}
+
 void render_little(tracer::Scene& scene) {
     int questions = 0;
     const auto is_enough = [&] { return ++questions > 500; };
@@ -81,6 +97,7 @@ void run_settings(Bytes input) {
         shine(scene.lights, {0, 0, 0});
         shine(scene.lights, look_at_of(scene.camera));
         scatter(scene);
+        scatter_in_media(scene);
         std::size_t corners = 0;
         for (const tracer::Mesh& mesh : scene.meshes) corners += mesh.vertices.size();
         if (corners < 1000 && record(scene.object, 20'000).instructions.size() <= most_instructions_traced)

@@ -9,12 +9,15 @@
 #include "caustics/photon_placement.hpp"
 #include "shading/fresnel.hpp"
 #include "tracer/caustics/photons.hpp"
+#include "tracer/support/phase_function_equations.hpp"
 #include "world/chain.hpp"
 
 namespace test_caustics_in_media {
 
 using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
+using phasetree::tests::draine_density;
+using phasetree::tests::droplets_density;
 
 namespace {
 
@@ -102,7 +105,8 @@ TEST_CASE("roulette of chains keeps the mean of what is left") {
 
 TEST_CASE("a point above a tank of murky water: a closed form") {
     // A field may determine the density, which is 1 everywhere in the tank.
-    std::string density;
+    std::string density, phase_function = R"("anisotropy": -0.3)";
+    double backwards = draine_density(-0.3, 0, -1);
     SUBCASE("homogeneous") {}
     // The short form varies the density in a ball, below.
     if (long_form) {
@@ -110,12 +114,16 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
             density = R"(, "density": {"box": {"size": [9, 9, 9]}}, "density_depth": 0.5)";
         }
     }
+    SUBCASE("with another phase function") {
+        phase_function = R"("phase_function": {"mix": {"first": {"droplets": {"diameter": 10}},
+                            "second": {"draine": {"g": 0.1, "alpha": 6}}, "amount": 0.6}})";
+        backwards = 0.4 * droplets_density(10, -1) + 0.6 * draine_density(0.1, 6, -1);
+    }
     // At the depth z on the axis, the point light, which is h above the plane, appears at the distance h + z/n. Light
     // that is scattered back along the axis once is ∫ σs p(180°) I (1 − R)/(h + z/n)² exp(−2 σt z) dz. Light that is
     // scattered more often is negligible.
-    constexpr double scattering = 0.006, extinction = 3, intensity = 20, height = 1, index = 1.5, g = -0.3;
+    constexpr double scattering = 0.006, extinction = 3, intensity = 20, height = 1, index = 1.5;
     const auto r = static_cast<double>(fresnel_dielectric(1, 1.5f).reflectance);
-    const double backwards = (1 - g * g) / std::pow(1 + g * g + 2 * g, 1.5) / (4 * std::numbers::pi);
     double expected = 0;
     constexpr int steps = 20000;
     constexpr double from = 0.2, depth = 2;
@@ -125,8 +133,8 @@ TEST_CASE("a point above a tank of murky water: a closed form") {
     }
     expected *= scattering * backwards * intensity * (1 - r);
     const Scene scene = scene_of(
-        R"("water": {"clear": {"ior": 1.5, "absorption": [2.994, 2.994, 2.994], "scattering": [0.006, 0.006, 0.006], "anisotropy": -0.3)" +
-            density + "}}",
+        R"("water": {"clear": {"ior": 1.5, "absorption": [2.994, 2.994, 2.994], "scattering": [0.006, 0.006, 0.006], )" +
+            phase_function + density + "}}",
         R"({"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1], "of": {"box": {"size": [3, 3, 2]}}}}}})",
         R"("lights": [{"point": {"position": [0, 0, 1], "intensity": 20}}],
            "render": {"width": 32, "height": 32, "photons": 8, "photon_radius": 1.5})");

@@ -67,6 +67,10 @@ const Case cases[] = {
     {"isotropic", R"("ior": 1, "scattering": [3, 3, 3])", ball, true},
     {"forwards", R"("ior": 1, "scattering": [8, 8, 8], "anisotropy": 0.9)", ball, true},
     {"backwards, an index of its own", R"("ior": 1.35, "scattering": [3, 3, 3], "anisotropy": -0.5)", ball, true},
+    {"droplets", R"("ior": 1, "scattering": [8, 8, 8], "phase_function": {"droplets": {"diameter": 15}})", ball, true},
+    {"a mix in a glass", R"("ior": 1.35, "scattering": [4, 4, 4], "phase_function": {"mix": {"first": {"rayleigh": {}},
+                            "second": {"draine": {"g": -0.6, "alpha": 3}}, "amount": 0.7}})",
+     glass, true},
     {"in a glass", R"("ior": 1.35, "scattering": [4, 4, 4], "anisotropy": 0.3)", glass, true},
     {"of varying density", R"("ior": 1, "scattering": [9, 9, 9], )" + cloud, ball, true},
     {"of varying density in a glass", R"("ior": 1.35, "scattering": [9, 9, 9], )" + cloud, glass, true},
@@ -156,10 +160,12 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
         {"sphere": {"centre": [2, -1, 2], "radius": 0.8, "radiance": [6, 5, 4]}},
         {"rectangle": {"centre": [-2, 0, 1.5], "target": [0, 0, 0], "width": 2, "height": 2, "radiance": [3, 4, 5]}}])";
     const std::string murky[] = {
+        R"("ior": 1.35, "scattering": [2, 3, 4], "absorption": [0.3, 0.1, 0.6], "phase_function": {"mix": {
+           "first": {"draine": {"g": 0.6, "alpha": 3}}, "second": {"draine": {"g": -0.5, "alpha": 2}}, "amount": 0.4}})",
         R"("ior": 1.35, "scattering": [2, 3, 4], "absorption": [0.3, 0.1, 0.6], "anisotropy": 0.4,
                                    "emission": [0.02, 0.05, 0.1])",
         R"("ior": 1.35, "scattering": [4, 6, 9], "absorption": [0.3, 0.1, 0.6], )" + cloud};
-    const double significance = sidak(1e-4, 12);
+    const double significance = sidak(1e-4, 18);
     for (const std::string& milk : murky) {
         const auto by = [&](Techniques techniques, std::uint32_t count) {
             Scene scene = scene_of(phases(milk), glass, lights);

@@ -146,7 +146,10 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                     tell(told, flight.weight);
                     tell(told, flight.emitted);
                 }
-                if (const auto* phase = phase_function(m.interior)) told.push_back(phase->g());
+                if (const auto* phase = phase_function(m.interior)) {
+                    told.push_back(phase->mean_cosine());
+                    told.push_back(phase->evaluate(0.3f));
+                }
             }
             if constexpr (requires { m.roughness; }) tell(told, m.roughness);
             if constexpr (requires { m.film; }) {
@@ -290,6 +293,7 @@ inline std::vector<Case> cases_of_materials() {
          {"medium", measured},
          {"scale", measured},
          {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
+         {"phase_function", R"("ior": 1.5, "scattering": [1, 1, 1])"},
          {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
          {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
          {"density", dense},
@@ -343,6 +347,15 @@ inline std::vector<Case> cases_of_materials() {
 
 inline std::vector<Case> cases() {
     std::vector<Case> all = cases_of_materials();
+    for (const auto& [name, needed] : {std::pair("henyey_greenstein", ""),
+                                       {"rayleigh", ""},
+                                       {"draine", ""},
+                                       {"droplets", ""},
+                                       {"mix", R"("first": {"rayleigh": {}}, "second": {"droplets": {}})"}})
+        all.push_back(
+            {"Phase functions", name, needed,
+             fmt::format(R"({{"clear": {{"ior": 1, "scattering": [1, 1, 1], "phase_function": {{"{}": )", name), "}}}",
+             tell_material});
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});

@@ -81,10 +81,14 @@ std::string vector_of(Value property, const std::string& first, const std::strin
 }
 
 Value properties_of(const Case& c) {
-    const std::map<std::string, std::string> definitions{
-        {"Materials", "material"},  {"Textures", "texture"}, {"Number textures", "number_texture"},
-        {"Lights", "light"},        {"Meshes", "mesh"},      {"Cameras", "camera"},
-        {"Transforms", "transform"}};
+    const std::map<std::string, std::string> definitions{{"Materials", "material"},
+                                                         {"Textures", "texture"},
+                                                         {"Number textures", "number_texture"},
+                                                         {"Lights", "light"},
+                                                         {"Meshes", "mesh"},
+                                                         {"Cameras", "camera"},
+                                                         {"Transforms", "transform"},
+                                                         {"Phase functions", "phase_function"}};
     for (const char* const with_one_kind : {"Render settings", "Normal maps", "Voxel grids"})
         if (c.chapter == with_one_kind) return *schema().definition(c.name).find("properties");
     Value kinds = schema().definition(definitions.at(c.chapter));
@@ -283,6 +287,7 @@ TEST_CASE("every key changes what is read") {
         {"green_down", "true"},
         {"channel", "\"green\""},
         {"normal_map", R"({"file": "sky.hdr"})"},
+        {"phase_function", R"({"rayleigh": {}})"},
         {"density_grid", R"({"file": "layer.pgm", "spacing": [1, 1, 1]})"},
         {"temperature_grid", R"({"file": "layer.pgm", "spacing": [1, 1, 1], "factor": 2000})"}};
     for (const Case& c : cases()) {
@@ -296,12 +301,14 @@ TEST_CASE("every key changes what is read") {
             std::string value = vector_of(property, "0.25");
             if (key == "of") value = R"({"sphere": {"radius": 1.5}})";
             if (key == "ramp") value = c.chapter == "Textures" ? "[[0, [1, 0, 1]]]" : "[[0, 0.75]]";
-            const bool is_material = key == "material" || (c.name == "mix" && (key == "first" || key == "second")) ||
+            const bool is_part_of_mix = c.name == "mix" && (key == "first" || key == "second");
+            const bool is_material = key == "material" || (is_part_of_mix && c.chapter == "Materials") ||
                                      (c.name == "two_sided" && (key == "front" || key == "back"));
             if (is_material) value = R"({"diffuse": {"color": [0.1, 0.5, 0.5]}})";
             if (const auto numbers = numbers_of(property); numbers && !is_vector(property))
                 value = numbers->find("type")->string() == "integer" ? "5" : key.ends_with("ior") ? "1.75" : "0.75";
-            if (key == "turbidity") value = "5";
+            if (is_part_of_mix && c.chapter == "Phase functions") value = R"({"draine": {}})";
+            if (key == "turbidity" || c.name == "droplets") value = "5";
             if (key == "emission_temperature") value = "3000";
             // Not at the lamp itself, and visible from it.
             if (key == "centre") value = "[0.25, 0.5, 5]";

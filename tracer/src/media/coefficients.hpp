@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "media/absorption.hpp"
-#include "media/henyey_greenstein.hpp"
+#include "media/phase_function.hpp"
 #include "spectrum/light_spectrum.hpp"
 
 namespace phasetree::tracer {
@@ -16,7 +16,7 @@ struct ScatteringCoefficients {
     /// Emitted radiance per unit length.
     glm::vec3 emission{0.0f};
     SharedLightSpectrum emission_spectrum{};  ///< spectrum of the emission, if known
-    HenyeyGreenstein phase_function{};
+    PhaseFunction phase_function{};
 
     glm::vec3 extinction() const { return absorption.rgb() + scattering; }  ///< σt of red, green and blue
     /// An upper bound on σt over all wavelengths.

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "media/coefficients.hpp"
-#include "media/henyey_greenstein.hpp"
+#include "media/phase_function.hpp"
 #include "sampling/sobol.hpp"
 #include "spectrum/wavelengths.hpp"
 
@@ -58,7 +58,7 @@ concept ScatteringMediumKind = MediumKind<M> &&
     { medium.fly(way, throughput, sampler) } -> std::same_as<Flight>;
     { medium.pass(way, sampler) } -> std::same_as<Passage>;
     { medium.coefficients() } -> std::same_as<const ScatteringCoefficients&>;
-    { medium.phase_function() } -> std::same_as<const HenyeyGreenstein&>;
+    { medium.phase_function() } -> std::same_as<const PhaseFunction&>;
 };
 
 }  // namespace phasetree::tracer

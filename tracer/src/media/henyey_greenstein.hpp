@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "media/scattered_direction.hpp"
 #include "sampling/warps.hpp"
 
 namespace phasetree::tracer {
@@ -22,6 +23,7 @@ class HenyeyGreenstein {
     explicit HenyeyGreenstein(float g = 0.0f) : g_(g) {}
 
     float g() const { return g_; }
+    float mean_cosine() const { return g_; }
 
     /// Per steradian; also the pdf of sample().
     float evaluate(float cosine) const {
@@ -35,10 +37,7 @@ class HenyeyGreenstein {
         // 1 − μ, which stays precise for strong forward scattering.
         const float s = (1.0f - g_ * g_) / (1.0f - g_ + 2.0f * g_ * (1.0f - u.x));
         const float below_pole = std::abs(g_) < 1e-3f ? 2.0f * u.x : (s * s - (1.0f - g_) * (1.0f - g_)) / (2.0f * g_);
-        const float height = std::clamp(below_pole, 0.0f, 2.0f);
-        const float sine = std::sqrt(height * (2.0f - height));
-        const float phi = 2.0f * pi * u.y;
-        return {sine * std::cos(phi), sine * std::sin(phi), 1.0f - height};
+        return scattered_direction(below_pole, u.y);
     }
 
   private:

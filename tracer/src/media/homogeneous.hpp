@@ -26,7 +26,7 @@ class HomogeneousMedium {
     glm::vec3 transmittance(const Way& way, Sampler&) const;
     Passage pass(const Way& way, Sampler& sampler) const;
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
-    const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
+    const PhaseFunction& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
 
   private:

@@ -95,9 +95,9 @@ inline Flight fly(const Medium& medium, const Way& way, const glm::vec3& through
 }
 
 /// The phase function of a medium; null for a kind that never scatters.
-inline const HenyeyGreenstein* phase_function(const Medium& medium) {
+inline const PhaseFunction* phase_function(const Medium& medium) {
     return std::visit(
-        []<class Kind>(const Kind& kind) -> const HenyeyGreenstein* {
+        []<class Kind>(const Kind& kind) -> const PhaseFunction* {
             if constexpr (ScatteringMediumKind<Kind>)
                 return &kind.phase_function();
             else

@@ -34,7 +34,7 @@ class VaryingMedium {
     glm::vec3 transmittance(const Way& way, Sampler& sampler) const { return pass(way, false, sampler).left; }
     Passage pass(const Way& way, Sampler& sampler) const { return pass(way, emits_, sampler); }
     Flight fly(const Way& way, const glm::vec3& throughput, Sampler& sampler) const;
-    const HenyeyGreenstein& phase_function() const { return coefficients_.phase_function; }
+    const PhaseFunction& phase_function() const { return coefficients_.phase_function; }
     const ScatteringCoefficients& coefficients() const { return coefficients_; }
     /// ρ at eight points.
     BatchOfFloats densities_at(const PointBatch& points) const { return density_at(density_, points); }

@@ -26,7 +26,7 @@ glm::vec3 mean(const Texture& texture, const Bounds& b) {
 glm::vec3 reflectance(const ScatteringCoefficients& medium) {
     const glm::vec3 albedo = medium.scattering / glm::max(medium.extinction(), glm::vec3(1e-6f));
     const glm::vec3 s =
-        glm::sqrt((1.f - albedo) / glm::max(1.f - albedo * medium.phase_function.g(), glm::vec3(1e-6f)));
+        glm::sqrt((1.f - albedo) / glm::max(1.f - albedo * medium.phase_function.mean_cosine(), glm::vec3(1e-6f)));
     return (1.f - s) * (1.f - 0.139f * s) / (1.f + 1.17f * s);
 }
 

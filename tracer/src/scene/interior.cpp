@@ -59,7 +59,11 @@ void check(const P& p) {
     require(scale, medium.is, "\"medium\"");
     const bool scatters = scattering.is || albedo.is || medium.is;
     const bool attenuates = scatters || absorption.is || color.is || spectrum.is;
-    require({"anisotropy", p.anisotropy.has_value()}, scatters, "\"scattering\"");
+    const Given anisotropy{"anisotropy", p.anisotropy.has_value()},
+        phase_function{"phase_function", p.phase_function.has_value()};
+    refuse_two_of({anisotropy, phase_function});
+    require(anisotropy, scatters, "\"scattering\"");
+    require(phase_function, scatters, "\"scattering\"");
     require(density, attenuates, "\"scattering\" or \"absorption\"");
     require(density, depth.is, "\"density_depth\"");
     require(depth, density.is, "\"density\"");
@@ -109,14 +113,14 @@ Medium ClearParameters::interior() const {
                              .scattering = scattering.value_or(glm::vec3(0.0f)),
                              .emission = emission.value_or(glm::vec3(0.0f)),
                              .emission_spectrum = emission_spectrum,
-                             .phase_function = HenyeyGreenstein(anisotropy.value_or(0.0f))};
+                             .phase_function = phase_function.value_or(HenyeyGreenstein(anisotropy.value_or(0.0f)))};
     if (albedo) {
         c.scattering = *albedo / *mean_free_path;
         c.absorption = (1.0f - *albedo) / *mean_free_path;
     }
     if (medium) {
         const MeasuredMedium measured = find_measured_medium(*medium).value();
-        c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.g()));
+        c.scattering = measured.reduced_scattering * (*scale / (1.0f - c.phase_function.mean_cosine()));
         c.absorption = measured.absorption * *scale;
     }
     // Wavelengths may have extinction where the colour has none.

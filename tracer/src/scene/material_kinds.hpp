@@ -39,6 +39,7 @@ struct ClearParameters : FilmParameters {
     std::optional<std::string> medium{};
     std::optional<float> scale{};
     std::optional<float> anisotropy{};
+    std::optional<PhaseFunction> phase_function{};
     std::optional<glm::vec3> emission{};
     SharedSpectrum absorption_spectrum{};
     SharedLightSpectrum emission_spectrum{};
@@ -96,6 +97,10 @@ struct ClearParameters : FilmParameters {
                     "Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured "
                     "media keep their reduced scattering, (1 − g) s, for any g. Default 0.",
                     Limits{.low = -0.99f, .high = 0.99f}, true});
+        v(&P::phase_function,
+          Parameter{"phase_function", "",
+                    "Directions into which the medium scatters light, if not those of \"anisotropy\".", limits::any,
+                    true});
         v(&P::emission, RgbParameter{{"emission", "1/m",
                                       "Radiance emitted per unit of length along a ray. Requires absorption or "
                                       "scattering in the same channels.",

@@ -5,6 +5,7 @@
 #include "phasetree/io/keys.hpp"
 #include "phasetree/io/read_kind.hpp"
 #include "phasetree/io/reference.hpp"
+#include "scene/phase_function_kinds.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/unread_file.hpp"
 
@@ -203,6 +204,22 @@ tracer::Voxels VoxelsType::read(const Document& document, Value value, std::stri
 
 ValueType VoxelsType::describe(const Parameter&) {
     return {"voxels", schema_reference("voxels")};
+}
+
+using PhaseFunctionType = ParameterType<tracer::PhaseFunction, Parameter>;
+
+tracer::PhaseFunction PhaseFunctionType::read(const Document& document, Value value, std::string_view,
+                                              const Parameter&) {
+    tracer::PhaseFunction phase;
+    with_kind(tracer::PhaseFunctionKinds(), document, value, "a phase function", [&]<class Kind>(Value member) {
+        phase = read_kind<Kind>(document, member, fmt::format("the {} phase function", Kind::info.name),
+                                [](const Kind& kind) { return kind.made(); });
+    });
+    return phase;
+}
+
+ValueType PhaseFunctionType::describe(const Parameter&) {
+    return {"phase function", schema_reference("phase_function")};
 }
 
 using FieldType = ParameterType<Field, Parameter>;

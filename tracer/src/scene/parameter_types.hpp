@@ -106,6 +106,14 @@ struct ParameterType<tracer::Material, Parameter> {
     static std::string written(const tracer::Material&) { return "none"; }
 };
 
+// How a medium scatters.
+template <>
+struct ParameterType<tracer::PhaseFunction, Parameter> {
+    static tracer::PhaseFunction read(const Document&, Value, std::string_view what, const Parameter&);
+    static ValueType describe(const Parameter&);
+    static std::string written(const tracer::PhaseFunction&) { return "none"; }
+};
+
 // A field of the tree: a node, or the name of a shape.
 template <>
 struct ParameterType<Field, Parameter> {

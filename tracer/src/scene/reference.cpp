@@ -18,6 +18,7 @@
 #include "scene/mesh_kinds.hpp"
 #include "scene/object_kinds.hpp"
 #include "scene/phase_entry.hpp"
+#include "scene/phase_function_kinds.hpp"
 #include "shading/normal_map.hpp"
 
 namespace phasetree::tracer {
@@ -33,6 +34,16 @@ std::vector<KindPage> pages_of_opaque(TypeList<Kinds...>) {
     };
     (add_opaque(static_cast<const Kinds*>(nullptr)), ...);
     return pages;
+}
+
+template <class... Kinds>
+std::vector<std::string_view> names_for_meshes_only(TypeList<Kinds...>) {
+    std::vector<std::string_view> names;
+    const auto add = [&]<class Kind>(const Kind*) {
+        if constexpr (requires { Kind::for_meshes_only; }) names.push_back(Kind::info.name);
+    };
+    (add(static_cast<const Kinds*>(nullptr)), ...);
+    return names;
 }
 
 // A single transform, a list of them, or keys.
@@ -75,6 +86,10 @@ std::string example_text(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::vector<std::string_view> materials_for_meshes_only() {
+    return names_for_meshes_only(MaterialKinds());
+}
+
 std::vector<Chapter> scene_chapters() {
     std::vector<Chapter> chapters{
         {"Scene file",
@@ -112,6 +127,10 @@ std::vector<Chapter> scene_chapters() {
     chapters.push_back({"Normal maps",
                         "An opaque material of a mesh may have one: `\"normal_map\": {parameters}`.",
                         {page_of<NormalMap>()}});
+    chapters.push_back({"Phase functions",
+                        "How the medium in a clear material scatters light: `\"phase_function\": {\"kind\": "
+                        "{parameters}}`. In the equations, μ is the cosine of the angle by which light is turned.",
+                        pages_of(PhaseFunctionKinds())});
     chapters.push_back({"Voxel grids",
                         "Grids set the density and the temperature of the medium in a clear material: "
                         "`\"density_grid\": {parameters}` "
@@ -176,6 +195,7 @@ std::string scene_json_schema() {
         {"texture", schema_of_either(colour_type(limits::fraction).schema, schema_of_one(pages_of(NamedTextures())))},
         {"number_texture", schema_of_one(pages_of(NumberTextures()))},
         {"normal_map", schema_of(page_of<NormalMap>())},
+        {"phase_function", schema_of_one(pages_of(PhaseFunctionKinds()))},
         {"voxels", schema_of(page_of<Voxels>())},
         {"material", schema_of_one(pages_of(MaterialKinds()))},
         {"unit", schema_of_length_unit()},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "phasetree/io/reference.hpp"
@@ -13,6 +14,9 @@ namespace phasetree::tracer {
 inline constexpr std::string_view chapter_without_pictures = "Statements";
 
 std::vector<Chapter> scene_chapters();
+
+// The names of the kinds of materials that meshes can have but phases cannot.
+std::vector<std::string_view> materials_for_meshes_only();
 
 // For a terminal.
 std::string scene_reference_text();

@@ -1,4 +1,5 @@
-// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides.
+// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides. Each has the member
+// for_meshes_only.
 #pragma once
 
 #include <optional>
@@ -13,6 +14,7 @@ struct ThinGlassParameters : PerturbationParameters {
                                    "between its two faces count. "
                                    "Only meshes can have it; a pane is a single layer of triangles, not a closed box.",
                                    "R = 2 r/(1 + r)"};
+    static constexpr bool for_meshes_only = true;
 
     float ior = ThinGlass{}.ior;
     Texture color = ThinGlass{}.color;
@@ -52,6 +54,7 @@ struct ThinDiffuseParameters : PerturbationParameters {
                                    "Leaf, paper, lampshade: a sheet that reflects light diffusely, and transmits some "
                                    "of it diffusely to the other "
                                    "side. It is the same from both sides. Only meshes can have it."};
+    static constexpr bool for_meshes_only = true;
 
     Texture color{};
     Texture transmission{};
@@ -75,6 +78,7 @@ struct TwoSidedParameters {
         "Playing card, lined fabric, banknote: an opaque mesh with different materials on its sides. The front is the "
         "side of the mesh's normals; without normals, that from which the corners of a triangle are in "
         "counter-clockwise order. Neither material may be clear, thin or emit light."};
+    static constexpr bool for_meshes_only = true;
 
     Material front{};
     Material back{};

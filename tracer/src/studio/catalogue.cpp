@@ -65,6 +65,7 @@ Json kind_json(const CatalogueKind& kind, const std::optional<std::filesystem::p
     json["chapter"] = kind.chapter;
     json["type"] = kind.type;
     json["keyed"] = kind.is_written_with_name;
+    json["for_meshes_only"] = kind.for_meshes_only;
     json["title"] = title_of(kind);
     json["help"] = help_of(kind);
     const std::string picture = picture_of(kind);

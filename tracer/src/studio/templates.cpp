@@ -195,6 +195,7 @@ std::string slot_text(const SlotType& slot) {
     if (slot.type == "texture") return "[0.8, 0.5, 0.3]";
     if (slot.type == "number_texture") return "0.5";
     if (slot.type == "material" || slot.type == "opaque_material") return R"({"diffuse": {"color": [0.8, 0.5, 0.3]}})";
+    if (slot.type == "phase_function") return R"({"henyey_greenstein": {"g": 0.5}})";
     if (slot.type == "transform") return R"({"translate": {"by": [0, 0, 0]}})";
     const std::string ball = R"({"sphere": {"radius": 0.5}})",
                       other = R"({"translate": {"by": [0.4, 0, 0], "of": {"sphere": {"radius": 0.4}}}})";

@@ -153,7 +153,7 @@ struct ChapterType {
 };
 
 // A chapter missing here makes the constructor throw, and so fails every test of the studio.
-constexpr std::array<ChapterType, 16> chapter_types{{{"scene-file", "scene", false},
+constexpr std::array<ChapterType, 17> chapter_types{{{"scene-file", "scene", false},
                                                      {"placed-objects", "", false},
                                                      {"transforms", "transform", true},
                                                      {"shapes", "field", true},
@@ -164,6 +164,7 @@ constexpr std::array<ChapterType, 16> chapter_types{{{"scene-file", "scene", fal
                                                      {"textures", "texture", true},
                                                      {"number-textures", "number_texture", true},
                                                      {"normal-maps", "normal_map", false},
+                                                     {"phase-functions", "phase_function", true},
                                                      {"voxel-grids", "voxels", false},
                                                      {"lights", "light", true},
                                                      {"meshes", "mesh", true},
@@ -196,6 +197,8 @@ CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
     const bool is_node = kind.type == "field" || kind.type == "object";
     kind.list_alone = is_node && is_one && page.list_alone;
+    const auto names = materials_for_meshes_only();
+    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), page.name) != names.end();
     return kind;
 }
 

@@ -46,6 +46,7 @@ struct CatalogueKind {
     bool is_written_with_name = true;
     /// Whether the only required parameter, a list or a text, may be written instead of the parameters.
     bool list_alone = false;
+    bool for_meshes_only = false;  ///< whether it is a material that phases cannot have
     std::vector<KindParameter> parameters;
 
     /// The parameter with this key, in either spelling; null if there is none.

@@ -76,7 +76,7 @@ using Hit = std::variant<Escaped, Surface>;
 struct MediumPoint {
     glm::vec3 position;
     Phase phase;
-    std::reference_wrapper<const HenyeyGreenstein> phase_function;
+    std::reference_wrapper<const PhaseFunction> phase_function;
     RayObjects in{};
 
     /// A ray that continues from there.

@@ -246,7 +246,7 @@ def read_volume(node, surface, notes):
     if greatest > 0:
         surface.absorption = (tuple(math.exp(-a / greatest) for a in medium.absorption), 1 / greatest)
     if max(medium.scattering) > 0:
-        surface.scattering = {"scattering": [float(s) for s in medium.scattering], "anisotropy": medium.anisotropy}
+        surface.scattering = medium.parameters()
     return None
 
 

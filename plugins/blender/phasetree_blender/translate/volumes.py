@@ -14,10 +14,19 @@ GREY = (0.8, 0.8, 0.8)
 class Medium:
     absorption: np.ndarray = field(default_factory=lambda: np.zeros(3))
     scattering: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    anisotropy: float = 0.0  # mean cosine of Henyey and Greenstein's phase function
+    anisotropy: float = 0.0  # mean cosine of Henyey and Greenstein's phase function …
+    phase_function: dict = None  # … or another one, as scene files have it
 
     def scaled(self, factor):
-        return Medium(factor * self.absorption, factor * self.scattering, self.anisotropy)
+        return Medium(factor * self.absorption, factor * self.scattering, self.anisotropy, self.phase_function)
+
+    def parameters(self):
+        """Of a scene file's clear material: how the medium scatters."""
+        how = {"phase_function": self.phase_function} if self.phase_function else {"anisotropy": self.anisotropy}
+        return {"scattering": [float(s) for s in self.scattering], **how}
+
+    def any_phase_function(self):
+        return self.phase_function or {"henyey_greenstein": {"g": self.anisotropy}}
 
 
 def medium_of(node, notes):
@@ -40,10 +49,37 @@ def absorption(node, notes):
 
 
 def scatter(node, notes):
-    if getattr(node, "phase", "HENYEY_GREENSTEIN") != "HENYEY_GREENSTEIN":  # from Blender 4.3
-        notes.approximate(f"the phase function of {node.name} is Henyey and Greenstein's")
     color, density = color_and_density(node, notes)
+    phase = getattr(node, "phase", "HENYEY_GREENSTEIN")  # a choice from Blender 4.3 on
+    make = PHASE_FUNCTIONS.get(phase)
+    if make:
+        return Medium(scattering=density * color, phase_function=make(node, notes))
+    if phase != "HENYEY_GREENSTEIN":
+        notes.approximate(f"the phase function of {node.name} is Henyey and Greenstein's")
     return Medium(scattering=density * color, anisotropy=anisotropy_of(node, notes))
+
+
+def clamped(node, name, default, low, high, notes):
+    value = constant(node, name, default, notes)
+    if not low <= value <= high:
+        notes.approximate(f'"{name}" of {node.name}, {value:.3g}, is clamped to {min(max(value, low), high):.3g}')
+    return min(max(value, low), high)
+
+
+def rayleigh(node, notes):
+    return {"rayleigh": {}}
+
+
+def draine(node, notes):
+    return {"draine": {"g": anisotropy_of(node, notes), "alpha": clamped(node, "Alpha", 0.5, 0, 1000, notes)}}
+
+
+def droplets(node, notes):
+    """Blender has the same fit, and others for smaller droplets."""
+    return {"droplets": {"diameter": clamped(node, "Diameter", 20.0, 5, 50, notes)}}
+
+
+PHASE_FUNCTIONS = {"RAYLEIGH": rayleigh, "DRAINE": draine, "MIE": droplets}
 
 
 def principled(node, notes):
@@ -79,12 +115,21 @@ def linked(socket, notes):
 
 
 def sum_of(media, node, notes):
-    weights = [medium.scattering.sum() for medium in media]
-    total = sum(weights)
-    mean = sum(w * medium.anisotropy for w, medium in zip(weights, media)) / total if total > 0 else 0.0
-    if any(w > 0 and medium.anisotropy != mean for w, medium in zip(weights, media)):
-        notes.approximate(f"the media at {node.name} scatter with their mean anisotropy, {mean:.2g}")
-    return Medium(sum(m.absorption for m in media), sum(m.scattering for m in media), mean)
+    """The sum of two media. Together they scatter by a mix of their phase functions, which is exact if their scattering
+    has the same colour."""
+    absorption, scattering = (sum(getattr(m, name) for m in media) for name in ("absorption", "scattering"))
+    scattered = [m for m in media if m.scattering.sum() > 0]
+    if not scattered:
+        return Medium(absorption, scattering)
+    first, second = scattered[0], scattered[-1]
+    if first.any_phase_function() == second.any_phase_function():
+        return Medium(absorption, scattering, first.anisotropy, first.phase_function)
+    shares = second.scattering[scattering > 0] / scattering[scattering > 0]
+    amount = float(second.scattering.sum() / scattering.sum())
+    if np.ptp(shares) > 1e-3:
+        notes.approximate(f"the media at {node.name} scatter by a mix of their phase functions that is the same for all colours")
+    mix = {"first": first.any_phase_function(), "second": second.any_phase_function(), "amount": amount}
+    return Medium(absorption, scattering, phase_function={"mix": mix})
 
 
 SHADERS = {

@@ -9,7 +9,7 @@ import {openMenu} from "./menu.js";
 import {nameOf} from "./names.js";
 import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
-import {materials, onlyForMeshes, wraps} from "./recipes.js";
+import {materials, wraps} from "./recipes.js";
 import {shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
 import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
@@ -97,7 +97,7 @@ export class Actions {
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
   }
   async add() {
-    const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type) && !onlyForMeshes.has(kind.kind));
+    const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type) && !kind.for_meshes_only);
     const kind = await this.#chosen("Add", [...shapeKinds(this.#scene), ...withoutTwins(kinds, this.active)]);
     if (kind) await this.addKind(kind);
   }
@@ -123,7 +123,7 @@ export class Actions {
     const add = (name, value) => this.run(addedPhase(this.#scene, freeName(name, keysAt(this.#scene.text, "/phases")), value), {strict});
     openMenu(button, [...materials.map((m) => ({text: m.text, icon: "material", run: () => add(m.name, m.value)})), null,
       {text: "Other materials …", icon: "search", run: async () => {
-        const kind = await this.#chosen("New material", this.catalogue.kinds.filter((k) => k.type === "material" && !onlyForMeshes.has(k.kind)));
+        const kind = await this.#chosen("New material", this.catalogue.kinds.filter((k) => k.type === "material" && !k.for_meshes_only));
         if (kind) await add(kind.kind, templateOf(kind, this.phases));
       }}], {label: "New material"});
   }

@@ -75,7 +75,7 @@ const ofKind = {
   "section:camera": "camera", "section:render": "settings",
 };
 
-const ofType = {light: "light", mesh: "mesh", material: "material", camera: "camera", texture: "texture", statement: "statement", settings: "settings", render: "settings", scene: "settings", number_texture: "texture"};
+const ofType = {light: "light", mesh: "mesh", material: "material", camera: "camera", texture: "texture", statement: "statement", settings: "settings", render: "settings", scene: "settings", number_texture: "texture", phase_function: "material"};
 
 export function icon(name) {
   return makeSvg("svg", {viewBox: "0 0 16 16", class: "icon", "aria-hidden": "true"}, makeSvg("path", {d: paths[name] ?? paths.object}));

@@ -45,14 +45,12 @@ export const starter = {
   render: {width: 640, height: 480, samples: 64, exposure: 0.8},
 };
 
-// Materials of surfaces without an interior. Phases cannot have them.
-export const onlyForMeshes = new Set(["thin_glass", "thin_diffuse", "two_sided"]);
-
 // Materials to choose from when a new one is made.
 export const materials = [
   {name: "glass", text: "Glass", value: {clear: {ior: 1.5}}},
   {name: "water", text: "Water", value: {clear: {ior: 1.33, color: [0.8, 0.93, 1], color_distance: 2}}},
   {name: "ice", text: "Ice", value: {clear: {ior: 1.31}}},
+  {name: "fog", text: "Fog", value: {clear: {ior: 1, scattering: [0.3, 0.3, 0.3], phase_function: {droplets: {diameter: 10}}}}},
   {name: "plastic", text: "Plastic", value: {coated: {color: [0.8, 0.1, 0.1], roughness: 0.2}}},
   {name: "matt", text: "Matt", value: {diffuse: {color: [0.6, 0.58, 0.55]}}},
   {name: "wood", text: "Wood", value: {coated: {color: {wood: {axis: [1, 0.1, 0.02], pith: [0, 0, -4]}}, roughness: 0.25}}},
