@@ -105,9 +105,9 @@ Totals check_scenes(std::uint64_t seed, int rays_in_short_form, bool is_exact, M
 
 void report(const char* what, const Totals& t) {
     for (const std::string& c : t.complaints) MESSAGE(c);
-    MESSAGE(std::string(what), ": ", t.rays, " rays, ", t.crossings, " crossings, ", t.normals, " normals; ", t.wrong, " wrong, ",
-            t.unchained, " not chained, ", t.uncertified, " not certified, ", t.wide, " wide, ", t.bad_normals,
-            " normals or places off");
+    MESSAGE(std::string(what), ": ", t.rays, " rays, ", t.crossings, " crossings, ", t.normals, " normals; ", t.wrong,
+            " wrong, ", t.unchained, " not chained, ", t.uncertified, " not certified, ", t.wide, " wide, ",
+            t.bad_normals, " normals or places off");
 }
 
 }  // namespace

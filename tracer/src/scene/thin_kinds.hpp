@@ -1,5 +1,5 @@
-// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides. Each has the member
-// for_meshes_only.
+// The kinds of materials that only meshes can have: thin ones, and those that differ between the sides. Each has the
+// member for_meshes_only.
 #pragma once
 
 #include <optional>
