@@ -343,7 +343,7 @@ TEST_CASE("walls cannot be thicker than the object, however large the number") {
     options.resolution = 0.2;
     for (const double at_least : {5.0, 1e30, 1e300}) {
         const Proof proof = prove(object, std::vector<Statement>{IsThick{glass, at_least}}, options)[0];
-        CHECK(proof.verdict == Verdict::refuted);
+        CHECK(proof.verdict == phasetree::Verdict::refuted);
         REQUIRE(proof.witnesses.size() == 1);
         CHECK(glm::length(proof.witnesses[0].point) < 1);
     }

@@ -36,6 +36,10 @@ class NormalMap:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
 
+class PhaseFunction:
+    kind: str
+    def parameters(self) -> dict[str, Any]: ...
+
 class Voxels:
     kind: str
     def parameters(self) -> dict[str, Any]: ...
@@ -125,8 +129,8 @@ phase, or of all phases except the vacuum, is a manifold."""
 class Measures(NamedTuple):
     r"""Volumes, masses and moments of the phases of an object; see Object.measure.
 
-    The last axis of each array up to `high` holds [low, high, estimate]. The number certainly lies between low and
-    high. Areas are statistical estimates. Lengths are in the unit of the scene, usually metres."""
+    The last axis of each array up to `high` holds [low, high, estimate]. The number is guaranteed to lie between low
+    and high. Areas are statistical estimates. Lengths are in the unit of the scene, usually metres."""
     names: tuple[str, ...]
     volume: np.ndarray
     mass: np.ndarray
@@ -617,8 +621,8 @@ all cores and does not need `prepare`. Raises Error if the object is empty or un
     def next_crossing(self, origins, directions, phases=..., limit=...):
         r"""The first crossing along each ray in double precision, as NextCrossings.
 
-Arguments and guarantees are those of `crossings`. To walk on, start at `far` with `after` as the phases; to be
-reflected, at `near` with `before`. No offset is needed, and no crossing is found twice."""
+Arguments and guarantees are those of `crossings`. To continue a ray, start at `far` in the phase `after`. To
+reflect it, start at `near` in the phase `before`. No offset is needed, and no crossing is found twice."""
     def measure(self, tolerance=..., seconds=..., densities=..., progress=..., areas=..., thickness=...):
         r"""Volumes, masses, centres of mass, tensors of inertia and bounding boxes of the phases, as Measures.
 
@@ -627,10 +631,10 @@ exceeds half of `Object.resolution`.
 
 tolerance: measuring ends once each volume's interval is at most this fraction of the volume. seconds: measuring
 also ends after this time, by default never. densities: a dict from phases, or their names, to densities, for
-masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and a
-guess of the fraction done, up to 1. areas: also estimate the areas of surfaces and contacts, to a standard
-error of `tolerance` or 0.002. thickness: also find how thin each phase is where it is thinnest. Each of these
-takes up to `seconds` more.
+masses; phases that are not in it have a density of 1 (unlike in solve). progress: called with "measuring" and
+an estimate of the fraction done, up to 1. areas: also estimate the areas of surfaces and contacts, to a
+standard error of `tolerance` or 0.002. thickness: also find the smallest thickness of each phase. Each of
+these takes up to `seconds` more.
 
 Uses all cores. Several threads may measure at once. Raises Error if the object is empty or unbounded, or if
 an argument is out of its range. Ctrl-C raises Interrupted, whose `result` has what was known by then."""
@@ -2703,7 +2707,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
             exp(−(a + s) d)
@@ -2722,6 +2726,7 @@ class materials:
         medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
         scale: With a measured medium: how many millimetres one scene unit is. (number in mm; positive; default none)
         anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
+        phase_function: Directions into which the medium scatters light, if not those of "anisotropy". (phase function; default none)
         emission: Radiance emitted per unit of length along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
         emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
         density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
@@ -2860,7 +2865,7 @@ class materials:
         amount: Fraction of the second material; between 0 and 1 the two are blended. (number or field; at least 0 and at most 1; default 0.5)
         """
 
-def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
         exp(−(a + s) d)
@@ -2879,6 +2884,7 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     medium: Instead of absorption and scattering: a measured medium (Jensen et al. 2001). (`"apple"`, `"chicken1"`, `"chicken2"`, `"cream"`, `"ketchup"`, `"marble"`, `"potato"`, `"skim_milk"`, `"skin1"`, `"skin2"`, `"spectralon"`, `"whole_milk"`; default none)
     scale: With a measured medium: how many millimetres one scene unit is. (number in mm; positive; default none)
     anisotropy: Mean cosine g of the Henyey-Greenstein phase function; positive values scatter forwards. Measured media keep their reduced scattering, (1 − g) s, for any g. Default 0. (number; at least -0.99 and at most 0.99; default none)
+    phase_function: Directions into which the medium scatters light, if not those of "anisotropy". (phase function; default none)
     emission: Radiance emitted per unit of length along a ray. Requires absorption or scattering in the same channels. ([r, g, b] in 1/m; zero or more; default none)
     emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
     density: Density as a field: 0 at its surface and outside, rising linearly to 1 inside. Absorption, scattering and emission are multiplied by the density. (field; default none)
@@ -3133,6 +3139,49 @@ def normal_map(file: str | PathLike[str], repeat: Sequence[float] | np.ndarray |
     strength: Factor applied to red and green: 0 is smooth, and 2 twice as steep. (number; at least 0 and at most 100; default 1)
     green_down: Whether green points down in the image, as in DirectX, and not up, as in OpenGL. (true or false; default false)
     """
+
+class phase_functions:
+    @staticmethod
+    def henyey_greenstein(g: float | None = ...) -> PhaseFunction:
+        r"""A single lobe, forwards or backwards: milk, wax, smoke. `"anisotropy": g` is short for it.
+
+            p(μ) = (1 − g²)/(4π (1 + g² − 2gμ)^(3/2))
+
+        g: Mean cosine; positive values scatter forwards. (number; at least -0.99 and at most 0.99; default 0)
+        """
+    @staticmethod
+    def rayleigh() -> PhaseFunction:
+        r"""Particles much smaller than the wavelength, such as molecules of air or the finest smoke. They scatter as much backwards as forwards, and half as much to the side.
+
+            p(μ) = 3 (1 + μ²)/(16π)
+
+
+        """
+    @staticmethod
+    def draine(g: float | None = ..., alpha: float | None = ...) -> PhaseFunction:
+        r"""Draine's phase function for dust: a lobe that scatters more light forwards and backwards than `henyey_greenstein`, and less to the side.
+
+            p(μ) = 1/(4π) (1 − g²)/(1 + g² − 2gμ)^(3/2) (1 + α μ²)/(1 + α (1 + 2g²)/3)
+
+        g: Shape of the lobe, as in `henyey_greenstein`; the mean cosine also depends on α. Values within 0.001 of 0 count as 0. (number; at least -0.99 and at most 0.99; default 0.5)
+        alpha: α. With 0, it is `henyey_greenstein`; with 1 and g = 0, `rayleigh`. (number; at least 0 and at most 1000; default 1)
+        """
+    @staticmethod
+    def droplets(diameter: float | None = ...) -> PhaseFunction:
+        r"""Water droplets of one size, in fog and clouds: Jendersie and d'Eon's fit to Mie's theory (2023), a mixture of `henyey_greenstein` and `draine`. It has neither glory nor fogbow.
+
+        diameter: Diameter of the droplets: 5 to 15 in fog, 10 to 50 in clouds. (number in µm; at least 5 and at most 50; default 15)
+        """
+    @staticmethod
+    def mix(first: PhaseFunction, second: PhaseFunction, amount: float | None = ...) -> PhaseFunction:
+        r"""A mix of two phase functions, such as one lobe forwards and one backwards. Either may be a mix itself.
+
+            p(μ) = (1 − a) p₁(μ) + a p₂(μ)
+
+        first: Phase function where the amount is 0. (phase function)
+        second: Phase function where the amount is 1. (phase function)
+        amount: a, the fraction of the scattered light that the second distributes. (number; at least 0 and at most 1; default 0.5)
+        """
 
 def voxels(file: str | PathLike[str], grid: str | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., factor: float | None = ..., scale: float | None = ..., rotate_z: float | None = ..., translate: Sequence[float] | np.ndarray | None = ..., y_up: bool | None = ...) -> Voxels:
     r"""A voxel grid, from OpenVDB or a stack of images: smoke, clouds, ink, scans. Values are interpolated between the voxels' centres; negative ones count as 0. Outside the grid's box, which ends half a voxel beyond the outermost centres, they are 0. The grid is scaled first, then rotated, then translated.
