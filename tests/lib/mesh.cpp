@@ -186,7 +186,8 @@ TEST_CASE("preparing a large mesh reports its progress, and can be cancelled") {
     polls_until(std::numeric_limits<int>::max() - 100);
     const int needed = polls;
     CHECK(needed > 20);
-    for (const int most : {0, 1, needed / 4, needed / 2, 3 * needed / 4, needed - 1})
+    // The number of polls depends on the threads, so not at the very last one.
+    for (const int most : {0, 1, needed / 4, needed / 2, 3 * needed / 4})
         CHECK_THROWS_AS(polls_until(most), PreparationCancelled);
 }
 

@@ -61,6 +61,7 @@ def examples():
         "Hits": [BOTTLE.intersect(POINTS, UP)],
         "NextCrossings": [BOTTLE.next_crossing(POINTS, UP)],
         "Image": [SCENE.render(planes=["depth"])],
+        "Interrupted": [pt.Interrupted(("known", 2))],
         "Measures": [BOTTLE.measure(tolerance=0.3)],
         "Object": [BOTTLE, pt.phase("bare")(BALL), BOTTLE.with_phases(WATER, GLASS)],
         "Part": [GLASS.material, LAYERS, SKY, FLOOR, CAMERA, SCENE.image, pt.textures.speckle((0, 0, 0), (1, 1, 1))],

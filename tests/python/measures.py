@@ -70,7 +70,7 @@ class Measures(unittest.TestCase):
         np.testing.assert_array_equal(m.contact[0, 1:], m.area)
         np.testing.assert_array_equal(m.contact[1, 2], 0)
         np.testing.assert_array_equal(m.contact, m.contact.swapaxes(0, 1))
-        m = WATER(pt.box([1, 2, 0.5])).measure(tolerance=0.1, thickness=True)
+        m = WATER(pt.box([1, 2, 0.5])).measure(tolerance=0.1, seconds=4, thickness=True)
         self.assertIsNone(m.area)
         low, high = m.thickness[0]
         self.assertLessEqual(low, 0.5)
@@ -98,18 +98,23 @@ class Measures(unittest.TestCase):
 
                 before = signal.signal(signal.SIGALRM, interrupt)
                 signal.setitimer(signal.ITIMER_REAL, moment)
+                raised = None
                 try:
-                    with self.subTest(name, moment=moment), self.assertRaises(KeyboardInterrupt) as raised:
-                        call()
+                    call()
+                except KeyboardInterrupt as e:
+                    raised = e
                 finally:
                     signal.setitimer(signal.ITIMER_REAL, 0)
                     signal.signal(signal.SIGALRM, before)
+                if not sent:  # it ended before
+                    continue
+                self.assertIsNotNone(raised, (name, moment))
                 # Processor time of all threads, so that a busy machine does not matter.
                 self.assertLess(time.process_time() - sent[0], 1.5)
-                if not isinstance(raised.exception, pt.Interrupted):
+                if not isinstance(raised, pt.Interrupted):
                     continue
                 known[name] += 1
-                result = raised.exception.result
+                result = raised.result
                 if name == "measure":
                     self.assertEqual(result.stopped, "interrupted")
                     self.assertTrue(result.volume[0, 0] <= exact[1] and result.volume[0, 1] >= exact[0])
@@ -119,7 +124,7 @@ class Measures(unittest.TestCase):
                     self.assertLess(result.at_low[1], 1)
                     self.assertGreater(result.at_high[0], 1)
         self.assertGreaterEqual(known["measure"], 3)
-        self.assertGreaterEqual(known["prove"], 3)
+        self.assertGreaterEqual(known["prove"], 2)
         self.assertGreaterEqual(known["solve"], 1)
 
     def test_an_interruption_prints_what_is_known(self):

@@ -16,7 +16,7 @@ struct DivisionStopped {
     bool exceeded_max_boxes = false;
 };
 
-/// Throws DivisionStopped in a long loop once the work is to end. Asks only every so many calls.
+/// Throws DivisionStopped in a long loop when the work should end. To be cheap, it asks only once in many calls.
 class StopPoll {
   public:
     explicit StopPoll(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}

@@ -345,8 +345,7 @@ inline std::vector<Case> cases_of_materials() {
     return all;
 }
 
-inline std::vector<Case> cases() {
-    std::vector<Case> all = cases_of_materials();
+inline void add_cases_of_phase_functions(std::vector<Case>& all) {
     for (const auto& [name, needed] : {std::pair("henyey_greenstein", ""),
                                        {"rayleigh", ""},
                                        {"draine", ""},
@@ -356,6 +355,11 @@ inline std::vector<Case> cases() {
             {"Phase functions", name, needed,
              fmt::format(R"({{"clear": {{"ior": 1, "scattering": [1, 1, 1], "phase_function": {{"{}": )", name), "}}}",
              tell_material});
+}
+
+inline std::vector<Case> cases() {
+    std::vector<Case> all = cases_of_materials();
+    add_cases_of_phase_functions(all);
     for (const char* const name : {"wood", "speckle", "marble", "checker"})
         all.push_back(
             {"Textures", name, "", fmt::format("{{\"diffuse\": {{\"color\": {{\"{}\": ", name), "}}}", tell_material});

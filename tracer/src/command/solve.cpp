@@ -153,12 +153,16 @@ WhatToSolve read_what_to_solve(const SceneFile& file, const SolveCommand& chosen
         check_same_folder(as_read, as_read.root(), *chosen.output);
     }
     SceneModel model = read_scene_model(as_read);
+    SceneTree tree = tree_of_model(as_read, model, chosen.object);
+    (void)record_tree(as_read, tree.object);  // throws a precise error if the object is too large
     const NumberToSet number = number_to_set(chosen.number, as_read);
     check_is_no_density(number.pointer);
     const Document document = at_time_of(number, file, as_read);
-    if (document.seconds() != as_read.seconds()) model = read_scene_model(document);
-    const SceneTree tree = tree_of_model(document, model, chosen.object);
-    (void)record_tree(document, tree.object);  // throws a precise error if the object is too large
+    if (document.seconds() != as_read.seconds()) {
+        model = read_scene_model(document);
+        tree = tree_of_model(document, model, chosen.object);
+        (void)record_tree(document, tree.object);
+    }
     const Quantity quantity = quantity_of(chosen.quantity, tree, length_unit(chosen.unit, model),
                                           densities_of(chosen.densities, tree, model));
     return {document, quantity, number};

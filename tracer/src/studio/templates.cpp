@@ -143,7 +143,7 @@ constexpr Preferred preferred[] = {
     {"coated", "roughness", "0.1"},
     {"glowing", "radiance", "5"},
     {"principled", "base_color", "[0.8, 0.5, 0.3]"},
-    {"mix", "second", "{\"conductor\": {\"metal\": \"iron\", \"roughness\": 0.3}}"},
+    {"material/mix", "second", "{\"conductor\": {\"metal\": \"iron\", \"roughness\": 0.3}}"},
     {"texture/field", "ramp", "[[-0.1, [0.8, 0.5, 0.3]], [0.1, [0.2, 0.3, 0.6]]]"},
     {"texture/per_copy", "ramp", "[[0, [0.8, 0.5, 0.3]], [1, [0.2, 0.3, 0.6]]]"},
     {"number_texture/field", "ramp", "[[-0.1, 0.1], [0.1, 0.5]]"},
