@@ -113,7 +113,7 @@ class Values(unittest.TestCase):
                     self.assertEqual(one, other)
                 else:
                     np.testing.assert_array_equal(one, other)
-        elif isinstance(a, Exception):
+        elif isinstance(a, BaseException):
             self.assertEqual((str(a), vars(a)), (str(b), vars(b)))
         else:
             self.assertEqual(a, b)

@@ -94,13 +94,13 @@ double from_hemisphere(const Case& c, const glm::dvec3& d) {
     return sum;
 }
 
-// The number of paths, and the error that they detect: 1 % in the long form.
+// The number of paths, and the error that they detect.
 struct Effort {
     std::uint32_t paths;
     double planted;
 };
-Effort effort_of(std::uint32_t paths, std::uint32_t few_paths, double planted) {
-    return phasetree::tests::long_tests() ? Effort{paths, 0.01} : Effort{few_paths, planted};
+Effort effort_of(const Effort& long_form, const Effort& short_form) {
+    return phasetree::tests::long_tests() ? long_form : short_form;
 }
 
 void check(const Case& c, const Scene& scene, const glm::dvec3& d, const Effort& effort, double expected,
@@ -132,7 +132,7 @@ TEST_CASE("a small sun at many angles is scattered by the equation of each phase
                 std::to_string(towards.x) + ", " + std::to_string(towards.y) + ", " + std::to_string(towards.z);
             const Scene scene = half_space(
                 c, R"({"sun": {"direction": [)" + direction + R"(], "irradiance": [1, 1, 1], "diameter": 0.05}})");
-            check(c, scene, d, effort_of(100'000, 6'000, 0.05), albedo * scattered(c, d, l), significance);
+            check(c, scene, d, effort_of({100'000, 0.01}, {6'000, 0.05}), albedo * scattered(c, d, l), significance);
         }
 }
 
@@ -146,8 +146,11 @@ TEST_CASE("light from everywhere above is scattered the same by all techniques")
             for (const Techniques techniques :
                  {Techniques::all, Techniques::directions_alone, Techniques::shadow_rays_alone}) {
                 CAPTURE(static_cast<int>(techniques));
-                check(c, half_space(c, R"({"constant": {}})", techniques), d, effort_of(5'000'000, 40'000, 0.12),
-                      expected, significance);
+                // Shadow rays alone rarely find the light near a narrow peak.
+                const Effort effort = techniques == Techniques::shadow_rays_alone
+                                          ? effort_of({5'000'000, 0.03}, {120'000, 0.25})
+                                          : effort_of({5'000'000, 0.01}, {40'000, 0.12});
+                check(c, half_space(c, R"({"constant": {}})", techniques), d, effort, expected, significance);
             }
         }
 }
