@@ -347,6 +347,10 @@ TEST_CASE("walls cannot be thicker than the object, however large the number") {
         REQUIRE(proof.witnesses.size() == 1);
         CHECK(glm::length(proof.witnesses[0].point) < 1);
     }
+    // What fits is not refuted.
+    for (const double at_least : {1.0, 1.5, 1.8})
+        CHECK(prove(object, std::vector<Statement>{IsThick{glass, at_least}}, options)[0].verdict !=
+              phasetree::Verdict::refuted);
 }
 
 TEST_CASE("statements that make no sense are errors") {
