@@ -2,6 +2,10 @@
 #
 # -ffp-contract=off: a label must not depend on whether the compiler fused a multiplication with an addition, so that
 # the scalar evaluator, every SIMD width and the generated GLSL agree bit for bit.
+#
+# -fno-tree-slp-vectorize: with this optimisation, which -O3 includes, GCC 12.2 on x86-64 drops conversions from double
+# to float and back. The pieces of a Bézier curve (outline_pieces.hpp) then have other bits than with -O2, with Clang or
+# on arm64.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -45,6 +49,7 @@ endif()
 
 target_compile_options(phasetree_options INTERFACE
     -ffp-contract=off
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow>
     ${quiet}
     $<$<BOOL:${PHASETREE_WERROR}>:-Werror>)
