@@ -66,7 +66,7 @@ StoredCell StoredCell::of(const InterfaceCell& c) {
             c.curvature,
             c.other_curvature,
             c.first_phase,
-            static_cast<std::uint8_t>((c.is_by_own ? by_own : 0) | (c.is_by_first ? by_first : 0)),
+            static_cast<std::uint8_t>((c.uses_own_component ? by_own : 0) | (c.first_component_decides ? by_first : 0)),
             0};
 }
 

@@ -11,10 +11,10 @@ using kernel::FaceBatch, kernel::LinearBound;
 struct alignas(64) InterfaceCell {
     Bounds box;
     LinearBound bound;
-    std::uint32_t shape, first_data;          ///< its routine
-    std::uint8_t curvature, other_curvature;  ///< CurvatureCode of the bounds in Curvature
-    std::uint8_t first_phase;                 ///< the index of the first output's phase
-    bool is_by_own, is_by_first;              ///< see Curvature
+    std::uint32_t shape, first_data;                   ///< its routine
+    std::uint8_t curvature, other_curvature;           ///< CurvatureCode of the bounds in Curvature
+    std::uint8_t first_phase;                          ///< the index of the first output's phase
+    bool uses_own_component, first_component_decides;  ///< see Curvature
 };
 static_assert(sizeof(InterfaceCell) == 64);
 

@@ -108,7 +108,7 @@ class Validation {
             return false;
         // The input takes three slots, and each step writes at most three. More slots would never be written, but a
         // damaged file could demand a lot of memory with them.
-        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
+        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.first_component_steps > s.steps) return false;
         if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
         written_.assign(s.slots, 0);
         std::fill_n(written_.begin(), 3, char{1});

@@ -36,7 +36,7 @@ class PathIntegrator {
         : context_(context),
           camera_ior_(clear_at(context.scene, camera_ray.phase).ior),
           path_{.ray = camera_ray, .wavelengths = sampled_wavelengths(context)},
-          guiding_(help.guide, help.findings, context.scene.settings.spectral),
+          guiding_(help.guide, help.guide_samples, context.scene.settings.spectral),
           recorder_(record, context.scene, camera_ior_),
           radiance_(guiding_, recorder_) {}
 

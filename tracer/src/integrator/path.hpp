@@ -8,13 +8,13 @@
 namespace phasetree::tracer {
 
 class Guide;
-class PathFindings;
+class PathGuideSamples;
 
 /// Optional inputs and outputs of a path.
 struct PathHelp {
     Photons photons{};
-    const Guide* guide = nullptr;      ///< guides directions at surfaces (path_guiding.hpp)
-    PathFindings* findings = nullptr;  ///< collects the radiance that the path finds, to train the next guide
+    const Guide* guide = nullptr;               ///< guides directions at surfaces (path_guiding.hpp)
+    PathGuideSamples* guide_samples = nullptr;  ///< collects the light that the path finds, to train the next guide
 };
 
 /// Estimates the radiance that arrives along a ray. The estimate is unbiased except for paths truncated after

@@ -1,4 +1,4 @@
-// Adds up the light that a path finds, and reports it to the findings that train a guide and to the record.
+// Adds up the light that a path finds, and reports it to the guide samples and to the record.
 #pragma once
 
 #include <glm/vec3.hpp>
