@@ -261,7 +261,7 @@ class Field:
         Section 4.1 of Galin et al. (2026).
 
         of: The field. (field)
-        half_thickness: Half of the wall, t. (number in m; positive)
+        half_thickness: Half of the wall's thickness, t. (number in m; positive)
         """
     def displace(self, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
         r"""Displaces the surface of a field by fractal noise.
@@ -324,7 +324,7 @@ class Field:
         turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Field:
-        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+        r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -418,7 +418,7 @@ class Field:
         of: The field, whose surface is the middle of the wall. (field)
         shell: The phase of the wall. (phase)
         inside: The phase within. (phase)
-        half_thickness: Half of the wall, t. (number in m; positive)
+        half_thickness: Half of the wall's thickness, t. (number in m; positive)
         """
     def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Translates.
@@ -719,7 +719,7 @@ raises Interrupted, whose `result` has what was known by then."""
         turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Object:
-        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+        r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -1294,7 +1294,7 @@ def box(size: Sequence[float] | np.ndarray) -> Field:
     """
 
 def rounded_box(size: Sequence[float] | np.ndarray, radius: float) -> Field:
-    r"""A box whose edges and corners are rounded, within the same size; exact.
+    r"""A box with rounded edges and corners, without a change of size; exact.
 
         box(s − 2r) − r
 
@@ -1332,7 +1332,7 @@ def capsule(from_: Sequence[float] | np.ndarray, to: Sequence[float] | np.ndarra
     """
 
 def torus(major: float, minor: float) -> Field:
-    r"""A ring about the z axis; exact.
+    r"""A ring about the z axis; exact if the tube's radius is at most the ring's.
 
         |(|pxy| − R, pz)| − r
 
@@ -1388,7 +1388,7 @@ def tube(radius: float, inner_radius: float, height: float) -> Field:
     """
 
 def rounded_cylinder(radius: float, height: float, edge: float) -> Field:
-    r"""A cylinder whose rims are rounded, within the same size; exact.
+    r"""A cylinder with rounded rims, without a change of size; exact.
 
         cylinder(r − e, h − 2e) − e
 
@@ -1461,7 +1461,7 @@ def tetrahedron(radius: float) -> Field:
     """
 
 def gyroid(period: float, thickness: float) -> Field:
-    r"""A wall along Schoen's gyroid, which fills space; a lower bound.
+    r"""A wall along Schoen's gyroid, repeated endlessly along all axes; a lower bound.
 
         |sin x cos y + sin y cos z + sin z cos x|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1470,7 +1470,7 @@ def gyroid(period: float, thickness: float) -> Field:
     """
 
 def schwarz_p(period: float, thickness: float) -> Field:
-    r"""A wall along Schwarz' primitive surface, which fills space; a lower bound.
+    r"""A wall along Schwarz' primitive surface, repeated endlessly along all axes; a lower bound.
 
         |cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1479,7 +1479,7 @@ def schwarz_p(period: float, thickness: float) -> Field:
     """
 
 def schwarz_d(period: float, thickness: float) -> Field:
-    r"""A wall along Schwarz' diamond surface, which fills space; a lower bound.
+    r"""A wall along Schwarz' diamond surface, repeated endlessly along all axes; a lower bound.
 
         |sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1522,7 +1522,7 @@ def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
     """
 
 def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
-    r"""The ground below a height map about the z axis; black is low and white is high.
+    r"""The ground below a height map, which is centred on the z axis; black is low and white is high.
 
         min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic B-spline of the pixels
 
@@ -1540,16 +1540,16 @@ def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", 
         ± min over the triangles of |p − nearest point|; with a thickness, min … − thickness/2
 
     file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
-    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
+    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times but zero, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
     thickness: Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the thickness. 0: the solid inside the surface. (number in m; zero or more; default 0)
     """
 
 def volume(file: str | PathLike[str], grid: str | None = ...) -> Field:
-    r"""The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the file's narrow band.
+    r"""The solid of a level set in an OpenVDB file, in the position stored there. Beyond the file's narrow band, the field's values are constant.
 
         max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
 
-    file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Lengths in it are metres. (name of a file)
+    file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Its lengths are taken as lengths in the scene's unit. (name of a file)
     grid: Name of the grid; required if the file has several level sets. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
     """
 
@@ -1594,7 +1594,7 @@ def slab(thickness: float, normal: Sequence[float] | np.ndarray | None = ..., of
 def box_frame(size: Sequence[float] | np.ndarray, thickness: float) -> Field:
     r"""The twelve edges of a box as bars of square cross-section; exact.
 
-        min over the bars of |max(|bar| − size/2, 0)| − depth within the union
+        min over the bars of the distance to the bar, − depth within the union
 
     size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
     thickness: Width of the bars, less than half of the shortest edge. (number in m; positive)
@@ -1704,7 +1704,7 @@ def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: f
 
     centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line. Coordinates and radii are lengths in the scene's unit. Give either this or the centres. (name of a file; default none)
     """
 
 def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
@@ -1785,7 +1785,7 @@ def shell(of: Field | Expression, half_thickness: float) -> Field:
     Section 4.1 of Galin et al. (2026).
 
     of: The field. (field)
-    half_thickness: Half of the wall, t. (number in m; positive)
+    half_thickness: Half of the wall's thickness, t. (number in m; positive)
     """
 
 def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
@@ -1942,7 +1942,7 @@ def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = .
 
 @overload
 def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+    r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -1954,7 +1954,7 @@ def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
     """
 @overload
 def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+    r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -2112,7 +2112,7 @@ def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, 
     of: The field, whose surface is the middle of the wall. (field)
     shell: The phase of the wall. (phase)
     inside: The phase within. (phase)
-    half_thickness: Half of the wall, t. (number in m; positive)
+    half_thickness: Half of the wall's thickness, t. (number in m; positive)
     """
 
 def under(*of: Object | Sequence[Object]) -> Object:
@@ -2399,7 +2399,7 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
     """
 
 def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | None = ...) -> Object:
-    r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about two voxels and do not grow beyond.
+    r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are clamped to about two voxels.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative normal distribution, within the box of the voxels
 
@@ -2420,7 +2420,7 @@ def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] 
     phases: With centres: one phase for all balls, or one per ball. With a file: the phases that its column `phase` refers to, counted from 0, or one for all. (list of phases)
     centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line. Coordinates and radii are lengths in the scene's unit. Give either this or the centres. (name of a file; default none)
     """
 
 @overload

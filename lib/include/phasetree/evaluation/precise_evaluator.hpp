@@ -27,12 +27,12 @@ struct PreciseSample {
 
 /// An object near the interface of two of its phases. The interface is where f = (φ_inside − φ_outside) / 2 is zero.
 struct InterfaceSample {
-    double value = 0;        ///< f
-    glm::dvec3 gradient{0};  ///< of f, by reverse-mode differentiation of the program
-    /// The primitive whose distance f depends on most.
-    double weight = 0;               ///< the derivative of f by that distance; 0 if f depends on none
+    double value = 0;                ///< f
+    glm::dvec3 gradient{0};          ///< of f, by reverse-mode differentiation of the program
+                                     /// The primitive whose distance f depends on most.
+    double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
     glm::dvec3 inner{0};             ///< the point in the primitive's own space
-    glm::dmat3 inner_by_point{1.0};  ///< its derivative by the point of evaluation; a column per coordinate of that
+    glm::dmat3 inner_by_point{1.0};  ///< the Jacobian of `inner` with respect to the point of evaluation
 };
 
 /// Evaluates the components Φ of an object in double precision.
@@ -43,9 +43,9 @@ struct InterfaceSample {
 /// floats. Sines, exponentials and angles are those of the standard library instead of polynomials for floats, and are
 /// accurate to about the last bit of a double.
 ///
-/// *Limits.* Meshes, balls, volumes and labels search for the data near a point with the point rounded to floats, and
-/// evaluate what they find in double precision. Their values may jump by a rounding error of floats where the search
-/// finds other data. value_error() depends on whether an object has such nodes.
+/// *Limits.* Meshes, balls, volumes and labels round a point to floats to search for the data near it, but evaluate
+/// what they find in double precision. Their values may jump by a rounding error of floats where the search finds other
+/// data. value_error() depends on whether an object has such nodes.
 ///
 /// Immutable; any thread may use it. Results do not depend on the number of threads.
 class PreciseEvaluator {

@@ -1,4 +1,5 @@
-// Mathematical functions that give the same bits on every processor. Use them instead of the standard library's.
+// Mathematical functions that give the same bits on x86-64 and arm64 processors with fused multiply-adds, with rare
+// exceptions (below). Use them instead of the standard library's.
 //
 // The last bit of some functions of glibc differs between x86-64 and arm64: tan, asin, acos, atan2, log1p and expm1 of
 // floats, and exp2, cbrt, hypot and erfc of doubles. Here, floats are computed in double precision and rounded once.

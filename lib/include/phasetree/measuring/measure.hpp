@@ -42,7 +42,8 @@ struct MeasuredPhase {
     double density = 1;
     bool has_density = false;
     Body body;
-    /// The sides of the smallest box around the phase. If the phase may be empty, the intervals are infinite.
+    /// The phase's bounding box: its lowest and highest coordinates. If the phase may be empty, the intervals are
+    /// infinite.
     std::array<Measured, 3> box_low{}, box_high{};
 };
 

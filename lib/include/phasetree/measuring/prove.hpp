@@ -16,7 +16,6 @@
 namespace phasetree {
 
 /// The phase is not empty.
-
 struct IsPresent {
     Phase phase;
 };

@@ -26,7 +26,7 @@ enum class Op : std::uint16_t {
     guarded,  ///< max(a, min(b, c − a)): field b with a bound a; equals a where a ≥ c/2, so b may jump there
     falloff,  ///< (1 − (a/c)²)³, zero for a > c
     corner,   ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
-    nearer,   ///< max((a − b)/2, a): the part of solid a where no solid b is nearer
+    nearer,   ///< max((a − b)/2, a): the part of solid a where b is not the nearer solid
     first_primitive
 };
 

@@ -17,8 +17,8 @@
 // (lib/README.md proves it from the invariants that every node keeps). Components are rounded. Let η be value_error(),
 // an upper estimate of the error, and let a sample be *in c* if its label is c or if φ of c is at most η there.
 //
-// 1. *Lipschitz steps.* The ray steps by s (1 − lipschitz_excess) − η. It steps further if the distances at both ends
-//    of the step, which must be labelled c, cover it together.
+// 1. *Lipschitz steps.* The ray steps by s (1 − lipschitz_excess) − η. A longer step is allowed if both
+//    of its ends are labelled c and their safe distances together cover it.
 // 2. *Steps in doubt.* Where such a step is shorter than the resolution r, the ray steps by r, and what lies between is
 //    not examined.
 // 3. *Enclosed stretches.* A ray that makes no headway runs along an interface. Interval arithmetic with derivatives
@@ -46,8 +46,8 @@
 // * Where stretches cannot be enclosed (outlines, patterns and images have no known derivatives), a ray along an
 //   interface takes steps of r. After 65,536 steps shorter than 1,024 r, the shortest step doubles with every 256
 //   further ones, so that every ray ends. Phases thicker than r may be missed there, and only there.
-// * Positions far from the object cost precision: a ray is moved to where it enters the object's bounds, which rounds
-//   that point to doubles as large as the origin is far.
+// * Positions far from the object cost precision: a ray is first moved to where it enters the object's bounds, and the
+//   rounding error of that point grows with the distance of the origin.
 // * The whole program runs at each sample. Unlike InterfaceCells, this tracer does not prune it, so the cost grows with
 //   the number of nodes.
 #pragma once

@@ -16,10 +16,10 @@
  * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
- * Sides. The two phases at an interface are called `from` and `to`: a ray passes from `from` to `to`. The same names
- * end the members that belong to one side: tFrom and pointFrom are in `from`, tTo and pointTo in `to`. For the closest
- * interface to a point (PhasetreeClosest), `from` is on the side of that point. RTCHit.Ng points into `from`, against
- * the ray; the normal of a PhasetreePreciseCrossing points into `to`.
+ * Sides. The two phases at an interface are called `from` and `to`: a ray passes from `from` to `to`. Members
+ * that belong to one side have its name as a suffix: tFrom and pointFrom are in `from`, tTo and pointTo in `to`. For
+ * the closest interface to a point (PhasetreeClosest), `from` is on the side of that point. RTCHit.Ng points into
+ * `from`, against the ray; the normal of a PhasetreePreciseCrossing points into `to`.
  *
  * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL. If the
  * error is not PHASETREE_ERROR_NONE, nothing has changed, the outputs are untouched, and phasetreeGetErrorMessage()

@@ -252,7 +252,8 @@ class Geometry {
         check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));
         return hit;
     }
-    /// The position of a hit, or a point in geometry space, in the tree's own space.
+    /// Transforms the position of a hit to the tree's own space. The overload below transforms a point in geometry
+    /// space.
     std::array<float, 3> tree_point(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
         std::array<float, 3> point{};
         check(phasetreeGetHitTreePoint(get(), &rayhit, object_to_world, point.data()));

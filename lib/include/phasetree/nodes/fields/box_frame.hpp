@@ -14,7 +14,7 @@ namespace phasetree {
 struct BoxFrame {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"box_frame", "",
-                                   "min over the bars of |max(|bar| − size/2, 0)| − depth within the union",
+                                   "min over the bars of the distance to the bar, − depth within the union",
                                    "The twelve edges of a box as bars of square cross-section; exact."};
     glm::vec3 size{1};
     float thickness = 0.1f;

@@ -179,7 +179,7 @@ struct Formula {
                                    "slope of the formula must be bounded everywhere.",
                                    limits::any, true});
     }
-    /// Throws TextError if the text is wrong or its slope is unbounded.
+    /// Throws ModelError, with the position in the text, if the text is wrong or its slope is unbounded.
     void prepare();
 
     template <class D>

@@ -58,15 +58,16 @@ struct Mesh {
               "of the mesh's size may "
               "be confused."});
         v(&Mesh::rule,
-          ChoiceParameter{{.name = "rule",
-                           .unit = "",
-                           .description = "Which points are inside, by how often the surface winds around them: "
-                                          "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
-                                          "odd number of times, so a part within another is a cavity; \"non_zero\": "
-                                          "any number of times, in either direction. All three are the same for a "
-                                          "closed mesh whose parts do not overlap.",
-                           .optional = true},
-                          rules});
+          ChoiceParameter{
+              {.name = "rule",
+               .unit = "",
+               .description = "Which points are inside, by how often the surface winds around them: "
+                              "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
+                              "odd number of times, so a part within another is a cavity; \"non_zero\": "
+                              "any number of times but zero, in either direction. All three are the same for a "
+                              "closed mesh whose parts do not overlap.",
+               .optional = true},
+              rules});
         v(&Mesh::thickness,
           Parameter{
               "thickness", "m",
@@ -97,7 +98,9 @@ struct Mesh {
     static const float* few_pieces(const float* data);
     static constexpr std::size_t max_pieces_in_shader = 2000;
 
-    /// See LocalDataPrimitive.
+    /// The same primitive with only the data that matter in a small box: what LocalPrimitive (model/concepts.hpp) is
+    /// for
+    /// primitives without data.
     struct Specialised {
         std::vector<float> values{};
 

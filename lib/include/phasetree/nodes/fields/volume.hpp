@@ -23,8 +23,8 @@ struct Volume {
     static constexpr NodeInfo info{
         "volume", "",
         "max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box",
-        "The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the "
-        "file's narrow band."};
+        "The solid of a level set in an OpenVDB file, in the position stored there. Beyond the file's narrow band, the "
+        "field's values are constant."};
 
     /// The primitive f/λ.
     struct Samples {
@@ -52,7 +52,7 @@ struct Volume {
         v(&Volume::file,
           Parameter{"file", "",
                     "OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those "
-                    "of space, in any order and direction. Lengths in it are metres."});
+                    "of space, in any order and direction. Its lengths are taken as lengths in the scene's unit."});
         v(&Volume::grid, Parameter{"grid", "",
                                    "Name of the grid; required if the file has several level sets. If several have the "
                                    "same name, append the index: \"name[0]\", \"name[1]\".",

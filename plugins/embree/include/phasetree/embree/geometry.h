@@ -56,7 +56,8 @@ typedef struct PhasetreeGeometryOptions {
     unsigned int cellDivisions; /* maximum depth of the division into cells, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
-     * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
+     * available to the process if that is less. PhasetreeGeometryStatistics.bytes is the part that the
+     * cells and their programs use after the build. */
     size_t maxBytes;
     /* Phases to show. A crossing is skipped if neither of its two phases is in the set. The vacuum never counts as
      * shown. So a phase that is left out disappears, except where it touches a shown phase: there, the surface of the

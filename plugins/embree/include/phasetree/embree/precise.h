@@ -13,8 +13,8 @@ extern "C" {
 /* All calls below use the threads of TBB's default arena; results do not depend on their number. The first call for a
  * tree prepares it. Points are arrays of 3 · count coordinates x, y, z, x, y, z, …, all of which must be finite. */
 
-/* Returns the phases at points: at each point, the phase with the smallest distance, computed in double precision. Of
- * several equal distances, that of the phase with the lowest index counts.
+/* Returns the phases at points: at each point, the phase with the smallest distance, computed in double precision. If
+ * several phases have the same distance, the one with the lowest index wins.
  *
  * phases  receives `count` phases.
  *
@@ -49,7 +49,8 @@ typedef struct PhasetreePreciseCrossing {
 } PhasetreePreciseCrossing;
 
 /* Finds the next crossing of each ray. A walk that restarts at pointTo and carries `to` repeats no crossing, and `to`
- * of each is `from` of the next. Phases thinner along the ray than the precise resolution may be missed.
+ * of each is `from` of the next. Phases that are thinner along the ray than the resolution of
+ * phasetree::PreciseTracer (usually 2⁻³⁰ of the object's diagonal) may be missed.
  *
  * crossings         receives `count` crossings.
  * cancelled         polled from any thread; return true to cancel. May be NULL.

@@ -17,8 +17,8 @@ typedef struct PhasetreeImageSink* PhasetreeImage;
  *          from 0 (low) to 1 (high). NULL if a size is 0 or above 32768, or if memory is exhausted. */
 PHASETREE_API float* phasetreeNewImageValues(PhasetreeImage image, unsigned int width, unsigned int height);
 
-/* Reads the height maps of a scene, because the library has no image readers of its own. Other images and OpenVDB files
- * cannot be read: a tree with a node `labels` or `volume` is rejected.
+/* Reads the height maps of a scene, because the library has no image readers of its own. It reads no other images,
+ * OpenVDB files or fonts: a tree with a `labels`, `volume` or `text` node is rejected.
  *
  * readImage is called on the calling thread, during the call that received the reader. The path is UTF-8 and relative
  * to the working directory, not to the scene. On success, readImage allocates the values with phasetreeNewImageValues,
