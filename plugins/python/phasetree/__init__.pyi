@@ -355,7 +355,7 @@ class Field:
         height: Whole height, centred at z = 0. (number in m; positive)
         """
     def revolve(self, offset: float | None = ...) -> Field:
-        r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
+        r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact if the field is the exact distance to its cross-section, and the section is on one side of the axis or symmetric about it.
 
             f(|pxy| − o, z, 0)
 
@@ -384,7 +384,7 @@ class Field:
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+        inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
         r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
@@ -396,7 +396,7 @@ class Field:
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
         distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+        errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def set(self, phase: Phase | str) -> Object:
         r"""Fills a field with one phase.
@@ -763,7 +763,7 @@ raises Interrupted, whose `result` has what was known by then."""
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
         margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+        inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
         r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
@@ -775,7 +775,7 @@ raises Interrupted, whose `result` has what was known by then."""
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
         distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+        errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
         r"""Combines objects; where they overlap, later ones replace earlier ones. Applied pairwise, from the first object to the last.
@@ -829,7 +829,7 @@ raises Interrupted, whose `result` has what was known by then."""
         phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
-        r"""Turns one phase into another within a shape (everywhere without one).
+        r"""Turns one phase into another inside a shape, or everywhere if no shape is given.
 
             φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
@@ -858,7 +858,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
-        b: The object B, which replaces A where they are not in contact. (object)
+        b: The object B, which replaces A where they overlap without being in contact. (object)
         phase_a: The phase of A that is in contact. (phase)
         phase_b: The phase of B that is in contact. (phase)
         alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
@@ -871,7 +871,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
-        b: The object B, which replaces A where they are not in contact. (object)
+        b: The object B, which replaces A where they overlap without being in contact. (object)
         alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
         phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
         phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)
@@ -1436,7 +1436,7 @@ def wedge(size: Sequence[float] | np.ndarray) -> Field:
     """
 
 def pyramid(base: float, height: float) -> Field:
-    r"""A pyramid with a square base, centred at half its height on the z axis; exact.
+    r"""A pyramid with a square base about the z axis, with the origin at half its height; exact.
 
         ± min(distance to the base, distance to the nearest slanted face)
 
@@ -1539,7 +1539,7 @@ def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", 
 
         ± min over the triangles of |p − nearest point|; with a thickness, min … − thickness/2
 
-    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are flipped. A surface that encloses nothing is rejected unless it has a `thickness`; so are parts that coincide within rounding. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
     rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times but zero, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
     thickness: Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the thickness. 0: the solid inside the surface. (number in m; zero or more; default 0)
     """
@@ -1613,7 +1613,7 @@ def bowl(radius: float, thickness: float, cut: float | None = ...) -> Field:
 def dodecahedron(radius: float) -> Field:
     r"""A regular dodecahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to z, on y to x, on z to y. Exact.
 
-        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0),  a the height above the face's plane, b the distance beyond its edge, c beyond its corner
 
     radius: Radius of the sphere through the corners. (number in m; positive)
     """
@@ -1621,7 +1621,7 @@ def dodecahedron(radius: float) -> Field:
 def icosahedron(radius: float) -> Field:
     r"""A regular icosahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to y, on y to z, on z to x. Exact.
 
-        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0),  a the height above the face's plane, b the distance beyond its edge, c beyond its corner
 
     radius: Radius of the sphere through the corners. (number in m; positive)
     """
@@ -2002,7 +2002,7 @@ def extrude(of: Field | Expression, height: float) -> Field:
     """
 
 def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
-    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
+    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact if the field is the exact distance to its cross-section, and the section is on one side of the axis or symmetric about it.
 
         f(|pxy| − o, z, 0)
 
@@ -2047,7 +2047,7 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+    inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 @overload
 def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2061,7 +2061,7 @@ def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, in
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
     margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+    inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 
 @overload
@@ -2075,7 +2075,7 @@ def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | 
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
     distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+    errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 @overload
 def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
@@ -2088,7 +2088,7 @@ def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] |
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
     distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+    errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 
 def set(of: Field | Expression, phase: Phase | str) -> Object:
@@ -2172,7 +2172,7 @@ def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | 
     """
 
 def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
-    r"""Turns one phase into another within a shape (everywhere without one).
+    r"""Turns one phase into another inside a shape, or everywhere if no shape is given.
 
         φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
@@ -2203,7 +2203,7 @@ def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, al
     Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
-    b: The object B, which replaces A where they are not in contact. (object)
+    b: The object B, which replaces A where they overlap without being in contact. (object)
     phase_a: The phase of A that is in contact. (phase)
     phase_b: The phase of B that is in contact. (phase)
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
@@ -2217,7 +2217,7 @@ def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequenc
     Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
-    b: The object B, which replaces A where they are not in contact. (object)
+    b: The object B, which replaces A where they overlap without being in contact. (object)
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
     phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
     phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)

@@ -71,7 +71,7 @@ class PreciseEvaluator {
     InterfaceSample interface_sample(const glm::dvec3& p, Phase inside, Phase outside) const;
 
     /// The phases at many points. `phases` must be as long as `points`. Uses the threads of TBB's arena. `cancelled` is
-    /// polled by any thread. Returns false if it returned true; some phases are then not written.
+    /// polled by any thread. Returns false if `cancelled` returned true; some phases are then not written.
     bool locate(std::span<const glm::dvec3> points, std::span<Phase> phases,
                 const std::function<bool()>& cancelled = {}) const;
     /// The same for safe distances.

@@ -111,8 +111,8 @@ T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
 }
 
-/// The contribution of a skeleton at distance d to a blob of radius R: (1 − (d/R)²)³, and zero beyond R (Wyvill et al.,
-/// "Data Structure for Soft Objects", 1986, with the square for their cubic).
+/// The contribution of a skeleton at distance d to a blob of radius R: (1 − (d/R)²)³, and zero beyond R (after Wyvill
+/// et al., "Data Structure for Soft Objects", 1986, with a different polynomial).
 template <class T>
 T falloff(const T& d, float radius) {
     const T x = max(d, T(0.f)) * (1.f / radius);

@@ -32,8 +32,8 @@ struct AreaResult {
     struct OfContact : EstimatedArea {
         Phase first, second;  ///< in ascending order
     };
-    std::vector<OfPhase> phases;      ///< the whole surfaces, in ascending order, without the vacuum
-    std::vector<OfContact> contacts;  ///< the interfaces that lines have met, in ascending order
+    std::vector<OfPhase> phases;      ///< one per phase but the vacuum, ordered by phase: the area of its whole surface
+    std::vector<OfContact> contacts;  ///< the interfaces that lines have met, ordered by their phases
     std::size_t lines = 0;
     bool is_within_tolerance = false;  ///< also false if no line has met an interface
 };

@@ -50,7 +50,7 @@ struct IsThick {
     double at_least = 0;  ///< in the scene's unit of length. Positive
     double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
 };
-/// None of the phases is empty, and their volume together is in this interval.
+/// None of the phases is empty, and the sum of their volumes times their weights is in [at_least, at_most].
 struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();

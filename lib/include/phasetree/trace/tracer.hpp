@@ -49,8 +49,8 @@ class InterfaceTracer {
     /// direction     of unit length.
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
-    ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
-    ///               by more than rounding error can account for, there is a crossing where the search starts (see
+    ///               at the start (its label, see label() in model/handle.hpp). If that point is deeper in another
+    ///               phase than rounding errors can explain, there is a crossing where the search starts (see
     ///               Crossing).
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.

@@ -101,7 +101,7 @@ class Tree {
     }
     /// Convert a phasetree::SceneTree built with the C++ library. Include <phasetree/io/write.hpp> to use it. The tree
     /// is passed as text, without loss, so the two libraries need not be binary compatible. Files named by its nodes
-    /// are resolved relative to `name`.
+    /// are resolved relative to the folder of `name`.
     template <class SceneTree>
     static Tree of(const SceneTree& tree, const std::string& name = "<tree>",
                    const PhasetreeFileReader* reader = nullptr) {

@@ -11,7 +11,8 @@ namespace phasetree {
 
 namespace formula {
 
-/// The operations of a term. a, b and c are indices of earlier values.
+/// The operations of a term, which is a part of a formula that is one primitive (see Formula). a, b and c are indices
+/// of earlier values.
 enum class Op : std::uint8_t {
     x,
     y,

@@ -19,7 +19,8 @@ struct JoinedVertices {
 /// Equal vertices are always joined. If there are still open edges, which are shared by an odd number of triangles,
 /// ends of open edges are joined if they differ only by rounding: in each of x, y and z by at most two units in the
 /// last place of the mesh's largest coordinate. This covers both noise around zero (1e-20 instead of 0) and differences
-/// in the last bit. A closed mesh is left unchanged, however fine it is.
+/// in the last bit. A mesh that is closed once its equal vertices are joined is not changed any further, however fine
+/// it is.
 ///
 /// Vertices are joined only where the choice is unambiguous. A group is joined only if all its vertices are pairwise
 /// this close, not merely linked by a chain of close vertices. Unless joining closes the mesh, two corners of one

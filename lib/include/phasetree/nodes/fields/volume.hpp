@@ -13,7 +13,7 @@ namespace phasetree {
 /// A level set as stored by OpenVDB: signed distances at voxels, exact near the surface and constant beyond a narrow
 /// band. f is their trilinear interpolation, as in OpenVDB's BoxSampler, and λ is the maximum slope of f, or 1 if that
 /// is larger. The maximum is known exactly, because it is the slope at some voxel (VoxelGrid::steepest_linear). For
-/// samples of exact distances, λ is nearly 1 where the surface is smooth, and at most √3.
+/// samples of exact distances, λ is at most √3, and nearly 1 if the whole surface is smooth.
 ///
 /// Points outside the grid's box are projected onto it, which never increases distances, and the distance b to the box
 /// takes over where it is larger. So max(b, f/λ) is 1-Lipschitz, positive outside the box, and has the sign of f in it.

@@ -58,8 +58,8 @@ struct LevelOfDetail {
                     limits::positive, true});
         v(&LevelOfDetail::errors,
           Parameter{"errors", "m",
-                    "Increasing distances between the surface of each coarser level and that of the finest, which "
-                    "--detail compares with the size of a pixel. They are trusted, not checked.",
+                    "For each coarser level, the distance of its surface from that of the finest level, in increasing "
+                    "order. --detail compares these with the size of a pixel. They are trusted, not checked.",
                     limits::positive, true});
     }
     void prepare() const {

@@ -26,10 +26,11 @@ struct Proxy {
         v(&Proxy::proxy, Parameter{"proxy", "", "The simpler field, g."});
         v(&Proxy::error, Parameter{"error", "m", "Maximum distance e between the two surfaces.", limits::non_negative});
         v(&Proxy::margin, detail::guard_margin);
-        v(&Proxy::inside, Parameter{"inside", "",
-                                    "For an object: the phase that fills the proxy more than e inside. By default, the "
-                                    "proxy is used only outside.",
-                                    limits::any, true});
+        v(&Proxy::inside,
+          Parameter{"inside", "",
+                    "For an object: the phase that fills the part of the proxy deeper than e. By default, the "
+                    "proxy is used only outside.",
+                    limits::any, true});
     }
     void prepare() const {
         if (inside.size() > 1) throw ModelError("proxy: \"inside\" must be one phase");
