@@ -50,8 +50,8 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
     RoutineBuilder routines(constants);
     tables.cells.reserve(found.cells());
     tables.first_certificate.reserve(found.cells() + 1);
-    // At most, all data of specialised instructions are appended. Reserve now: a growing vector holds its contents
-    // twice for a while.
+    // Most of what is appended are the data of specialised instructions. Reserve now: a growing vector holds its
+    // contents twice for a while.
     std::size_t more = 0;
     for (const CellBuffer& buffer : found) more += buffer.specialised_data.size();
     constants.reserve(constants.size() + more);

@@ -93,8 +93,8 @@ class Validation {
         const OpTraits& t = traits(static_cast<Op>(s.op));
         const bool takes_point = s.op >= first_primitive;
         const std::uint32_t size = t.gives_point ? 3 : 1;
-        // Slot 0 replaces an operand that the operation does not take. It always counts as written, because it holds
-        // the input.
+        // A step that takes fewer operands refers to slot 0 for the others. Slot 0 always counts as written, because it
+        // holds the input.
         if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
         if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
             return false;
