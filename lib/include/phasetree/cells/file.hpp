@@ -32,7 +32,8 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 
 /// Read the cells of an object. They are identical, to the last bit, to those that InterfaceCells(object, options)
 /// would build. The callbacks in the options are not called.
-/// The file identifies the object by a fingerprint of its program (names and materials do not matter), and records the
+///
+/// The file identifies the object by a fingerprint of its program; names and materials do not matter. It records the
 /// resolution, quality, divisions, memory limit and opaque phases for which the cells were built, the build of the
 /// library, and the processor architecture. It is rejected if any of these differ, with one exception: a memory limit
 /// that had no effect may be raised. Files with a wrong size, a wrong checksum or an index out of range are rejected,

@@ -103,9 +103,9 @@ T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 
-/// The part of solid a where b is not the nearer solid: max(a, (a − b)/2). It is negative where a is negative and
-/// less than b. Its slope is at most the larger of theirs. If both are infinite, the result is a, because max() returns
-/// its second operand if the first is NaN.
+/// The part of solid a where b is not the nearer solid: max(a, (a − b)/2). It is negative where a is negative and less
+/// than b. Its slope is at most the larger of theirs. If both are infinite, the result is a, because max() returns its
+/// second operand if the first is NaN.
 template <class T>
 T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);

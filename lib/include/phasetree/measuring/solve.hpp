@@ -79,6 +79,7 @@ struct SolveResult {
 ///
 /// object     called from the calling thread. Its exceptions are passed on.
 /// low, high  the first bracket; low < high, both finite.
+///
 /// A number becomes an end of the bracket only if the guaranteed interval of its quantity lies entirely on one side of
 /// the target. So the quantity is certainly below the target at one end and above it at the other. If it is a
 /// continuous function of the number, it has the value somewhere in between, once or several times; one such number is

@@ -52,8 +52,8 @@ struct CrossingNormal {
 struct TraceCounters {
     std::uint64_t visits = 0;   ///< searches: one per cell that a ray meets
     std::uint64_t batches = 0;  ///< evaluations of eight points
-    /// False alarms: steps of at most one resolution that might have crossed an interface, but in which the label
-    /// does not change.
+    /// False alarms: steps of at most one resolution that might have crossed an interface, but in which the label does
+    /// not change.
     std::uint64_t phantoms = 0;
 };
 

@@ -17,8 +17,8 @@
 // (lib/README.md proves it from the invariants that every node keeps). Components are rounded. Let η be value_error(),
 // an upper estimate of the error, and let a sample be *in c* if its label is c or if φ of c is at most η there.
 //
-// 1. *Lipschitz steps.* The ray steps by s (1 − lipschitz_excess) − η. A longer step is allowed if both
-//    of its ends are labelled c and their safe distances together cover it.
+// 1. *Lipschitz steps.* The ray steps by s (1 − lipschitz_excess) − η. A longer step is allowed if both of its ends are
+//    labelled c and their safe distances together cover it.
 // 2. *Steps in doubt.* Where such a step is shorter than the resolution r, the ray steps by r, and what lies between is
 //    not examined.
 // 3. *Enclosed stretches.* A ray that makes no headway runs along an interface. Interval arithmetic with derivatives

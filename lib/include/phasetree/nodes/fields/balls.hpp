@@ -63,8 +63,7 @@ struct Balls {
     static const float* few_balls(const float* data);
 
     /// The same primitive with only the data that matter in a small box: what LocalPrimitive (model/concepts.hpp) is
-    /// for
-    /// primitives without data.
+    /// for primitives without data.
     struct Specialised {
         std::vector<float> values{};
 

@@ -101,8 +101,7 @@ struct Mesh {
     static constexpr std::size_t max_pieces_in_shader = 2000;
 
     /// The same primitive with only the data that matter in a small box: what LocalPrimitive (model/concepts.hpp) is
-    /// for
-    /// primitives without data.
+    /// for primitives without data.
     struct Specialised {
         std::vector<float> values{};
 

@@ -28,6 +28,7 @@ struct VoxelLattice {
 /// Values at the centres of voxels, in blocks of 8³. Each block is stored with its adjacent voxels, 10³ values, so that
 /// every interpolation reads a single block. Blocks whose values are all equal are stored as one value. The table is
 /// the data of a program's instruction, so all code that reads it receives floats:
+///
 ///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
 ///     for each block, x fastest: its index among the stored blocks, or −1; its minimum and maximum, which are equal
 ///         if all its values are

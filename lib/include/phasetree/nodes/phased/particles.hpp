@@ -10,6 +10,7 @@ namespace phasetree {
 /// equal; for balls of equal size, that is a plane.
 ///
 ///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
+///
 /// φₖ is a single operation of the program, nearer(Dₖ, b) = max(Dₖ, (Dₖ − b)/2), with b the minimum of the other D.
 /// This allows a pruning rule: its sign depends on both values only where both are negative; elsewhere, it is that of
 /// the first.
