@@ -25,7 +25,7 @@ std::string reference_in(const Json& schema) {
     return target.starts_with(definitions) ? target.substr(definitions.size()) : "";
 }
 
-// The alternatives of a schema, without those nested in others.
+// Adds the alternatives of a schema; nested anyOf are flattened.
 void add_alternatives(const Json& schema, std::vector<Json>& all) {
     if (!schema.contains("anyOf")) {
         all.push_back(schema);
@@ -99,7 +99,7 @@ std::string reference_at_stops(const Json& schema) {
 
 bool is_of_phases(const ParameterPage& page, const std::string& chapter) {
     if (page.type == "phase" || page.type == "phase or list of phases" || page.type == "list of phases") return true;
-    // Statements name phases by texts.
+    // Statements name phases in parameters of the type "text", which do not mention phases.
     return chapter == "statements" && page.type.starts_with("text");
 }
 
@@ -126,14 +126,14 @@ KindParameter parameter_of(const ParameterPage& page, const std::string& chapter
         } else if (reference == "unit" || reference == "colour") {
             control = reference == "unit" ? "text" : "color";
         } else if (!reference.empty()) {
-            if (reference == "texture") control = "color";  // a colour may be written as a texture
+            if (reference == "texture") control = "color";  // a plain colour may be written for a texture
             p.slot = SlotType{type_of_reference(reference), false};
         } else if (one.value("type", "") == "array" && !reference_in(one["items"]).empty()) {
             p.slot = SlotType{type_of_reference(reference_in(one["items"])), true};
         } else if (const std::string at_stops = reference_at_stops(one); !at_stops.empty()) {
             p.slot = SlotType{at_stops, true};
         } else {
-            // The first way of writing is the one to edit: a colour may also be three numbers.
+            // If a value can be written in several ways, the control is that of the first one.
             const std::string found = control_of(one, p);
             if (control.empty()) control = found.empty() ? "json" : found;
         }
@@ -196,13 +196,14 @@ CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
     const auto is_required = [](const KindParameter& p) { return p.is_required; };
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
     const bool is_node = kind.type == "field" || kind.type == "object";
-    kind.list_alone = is_node && is_one && page.list_alone;
+    kind.has_short_form = is_node && is_one && page.list_alone;
     const auto names = materials_for_meshes_only();
     kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), page.name) != names.end();
     return kind;
 }
 
-// The reference describes warps of objects. Makes the kind for fields, whose child is a field.
+// The reference lists each warp once, as a node of objects. Returns the same warp as a node of fields, with a field as
+// its child.
 CatalogueKind of_fields(CatalogueKind kind) {
     kind.type = "field";
     for (KindParameter& p : kind.parameters)
@@ -219,7 +220,7 @@ const KindParameter* CatalogueKind::parameter(std::string_view key) const {
 }
 
 const KindParameter* CatalogueKind::lone_parameter() const {
-    if (!list_alone) return nullptr;
+    if (!has_short_form) return nullptr;
     for (const KindParameter& p : parameters)
         if (p.is_required) return &p;
     return nullptr;
@@ -235,7 +236,8 @@ Vocabulary::Vocabulary() {
         }
     }
     for (std::size_t i = 0; i < kinds_.size(); ++i) by_type_[kinds_[i].type].emplace(kinds_[i].name, i);
-    // Meshes have the materials that are not clear. They are kinds of "material".
+    // A mesh takes an "opaque_material", whose kinds are looked up among those of "material". These include the clear
+    // ones, which the reader of scenes rejects.
     by_type_["opaque_material"] = by_type_["material"];
 }
 
