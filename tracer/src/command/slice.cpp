@@ -263,7 +263,7 @@ void add_slice(CLI::App& app, Run& run) {
         "\n"
         "With several objects, their union is cut; --object chooses one. The whole scene file is\n"
         "checked, but it may lack a camera and lights, and the files of lights, meshes, textures and\n"
-        "voxels are not opened.");
+        "media are not opened.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<SliceCommand>();
     add_object(*command, options->object);

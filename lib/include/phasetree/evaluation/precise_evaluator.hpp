@@ -27,8 +27,13 @@ struct PreciseSample {
 
 /// An object near the interface of two of its phases. The interface is where f = (φ_inside − φ_outside) / 2 is zero.
 struct InterfaceSample {
-    double value = 0;                ///< f
-    glm::dvec3 gradient{0};          ///< of f, by reverse-mode differentiation of the program
+    double value = 0;        ///< f
+    glm::dvec3 gradient{0};  ///< of f, by reverse-mode differentiation of the program
+    /// The primitive whose distance f depends on most.
+    double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
+    glm::dvec3 inner{0};             ///< the point in the primitive's own space
+    glm::dmat3 inner_by_point{1.0};  ///< the Jacobian of `inner` with respect to the point of evaluation
+};          ///< of f, by reverse-mode differentiation of the program
                                      /// The primitive whose distance f depends on most.
     double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
     glm::dvec3 inner{0};             ///< the point in the primitive's own space
