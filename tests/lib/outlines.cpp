@@ -213,11 +213,11 @@ TEST_CASE("in a box the few pieces that matter there give the same distances to 
 TEST_CASE("what is no outline is rejected") {
     const auto refused = [](auto n, const char* why) { CHECK_THROWS_WITH_AS(n.prepare(), why, ModelError); };
     refused(Polygon{.points = {{0, 0}, {1, 1}, {1, 0}, {0, 1}}},
-            "polygon: the edges from its points 1 and 3 cross or touch");
+            "polygon: the edges from its points 1 and 3 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {2, 0}, {1, 0}, {1, 1}}},
-            "polygon: the edges from its points 1 and 2 cross or touch");
+            "polygon: the edges from its points 1 and 2 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {2, 0}, {2, 2}, {1, 0}}},
-            "polygon: the edges from its points 1 and 3 cross or touch");
+            "polygon: the edges from its points 1 and 3 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {1, 0}, {1, 0}, {0, 0}}},
             "polygon: at least three different points are required");
     refused(Polygon{.points = {{0, 0}, {1, 0}, {2e9f, 1}}}, "polygon: its points must be within 1e9 m of the origin");

@@ -304,7 +304,7 @@ class Field:
         count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Field:
-        r"""Copies repeated endlessly along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -370,7 +370,7 @@ class Field:
         Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
@@ -383,11 +383,11 @@ class Field:
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -666,7 +666,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.2 of Galin et al. (2026).
 
         of: The object. (object)
-        phases: The phases to merge; by default all. (phase or list of phases; default none)
+        phases: The phases to merge; by default all but the vacuum. (phase or list of phases; default none)
         """
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
         r"""Copies at the given positions, optionally rotated about the z axis and scaled.
@@ -699,7 +699,7 @@ raises Interrupted, whose `result` has what was known by then."""
         count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Object:
-        r"""Copies repeated endlessly along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -749,7 +749,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -762,11 +762,11 @@ raises Interrupted, whose `result` has what was known by then."""
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -807,7 +807,7 @@ raises Interrupted, whose `result` has what was known by then."""
         thickness: Thickness of the layer. (number in m; positive)
         """
     def intersect_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
+        r"""Cuts all phases of an object, or only some of them, to the inside of a shape.
 
             φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -818,7 +818,7 @@ raises Interrupted, whose `result` has what was known by then."""
         phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
+        r"""Cuts a shape out of all phases of an object, or out of only some of them.
 
             φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
@@ -1796,7 +1796,7 @@ def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) 
     Section 4.2 of Galin et al. (2026).
 
     of: The object. (object)
-    phases: The phases to merge; by default all. (phase or list of phases; default none)
+    phases: The phases to merge; by default all but the vacuum. (phase or list of phases; default none)
     """
 
 def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
@@ -1881,7 +1881,7 @@ def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None 
 
 @overload
 def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
-    r"""Copies repeated endlessly along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -1890,7 +1890,7 @@ def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
     """
 @overload
 def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
-    r"""Copies repeated endlessly along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -2019,7 +2019,7 @@ def bounding_volume(of: Field, margin: float, volume: Field | Expression | None 
     Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 @overload
@@ -2031,7 +2031,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | Expression | None
     Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 
@@ -2046,7 +2046,7 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 @overload
@@ -2060,13 +2060,13 @@ def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, in
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 
 @overload
 def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -2079,7 +2079,7 @@ def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | 
     """
 @overload
 def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -2148,7 +2148,7 @@ def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
     """
 
 def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
+    r"""Cuts all phases of an object, or only some of them, to the inside of a shape.
 
         φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -2160,7 +2160,7 @@ def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str |
     """
 
 def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
+    r"""Cuts a shape out of all phases of an object, or out of only some of them.
 
         φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 

@@ -17,7 +17,8 @@ struct PreciseProgram;
 
 /// What is known of an object at a point.
 struct PreciseSample {
-    /// The phase of the smallest component, including the vacuum; among equal components, the lowest index.
+    /// The phase with the smallest component of Φ (its signed distance), the vacuum included; the lowest index if
+    /// several are equal.
     Phase phase;
     /// The smallest component, at most 0 up to rounding errors.
     double own = 0;
@@ -29,12 +30,8 @@ struct PreciseSample {
 struct InterfaceSample {
     double value = 0;        ///< f
     glm::dvec3 gradient{0};  ///< of f, by reverse-mode differentiation of the program
-    /// The primitive whose distance f depends on most.
-    double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
-    glm::dvec3 inner{0};             ///< the point in the primitive's own space
-    glm::dmat3 inner_by_point{1.0};  ///< the Jacobian of `inner` with respect to the point of evaluation
-};          ///< of f, by reverse-mode differentiation of the program
-                                     /// The primitive whose distance f depends on most.
+
+    // The primitive whose distance f depends on most.
     double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
     glm::dvec3 inner{0};             ///< the point in the primitive's own space
     glm::dmat3 inner_by_point{1.0};  ///< the Jacobian of `inner` with respect to the point of evaluation

@@ -7,10 +7,10 @@
 // in double precision matters: fewer than one call in 10⁸. cbrt and hypot consist of operations that IEEE 754 requires
 // to be correctly rounded, and exp2 calls pow.
 //
-// sin, cos, exp, log and pow agree for floats and doubles, so call the standard library's. Some functions of doubles
-// below agree too; they are here because a call does not show the type of its argument. For all of these, glibc uses
-// fused multiply-adds, on arm64 and on x86-64 processors that have them. Without them (Intel's processors before 2013,
-// for example), the last bit of functions of doubles differs.
+// The float and double versions of sin, cos, exp, log and pow are the same on x86-64 and arm64, so call the standard
+// library's. Some functions of doubles below agree too; they are here because a call does not show the type of its
+// argument. For all of these, glibc uses fused multiply-adds, on arm64 and on x86-64 processors that have them. Without
+// them (Intel's processors before 2013, for example), the last bit of functions of doubles differs.
 #pragma once
 
 #include <cmath>

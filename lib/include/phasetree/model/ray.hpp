@@ -9,8 +9,8 @@ struct TracedRay {
     glm::vec3 origin{0};
     glm::vec3 direction{0, 0, 1};  ///< of unit length
     glm::dvec3 inverse{0};         ///< 1/direction; infinite along an axis where the direction is 0
-    /// Whether all numbers are finite and the direction has unit length to 10⁻³. A ray that is not traceable hits
-    /// nothing.
+    /// Whether the origin is finite and the squared length of the direction is within 10⁻³ of 1. A ray that is not
+    /// traceable hits nothing.
     bool is_traceable = false;
 
     TracedRay() = default;

@@ -36,8 +36,8 @@ struct Instruction {
     Op op{};
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    /// Offset of its constant or floats in the program's constants. They are stored in the order of the instructions
-    /// without gaps, so they end where those of the next instruction start.
+    /// Where this instruction's constants start in Program::constants. Constants are stored in the order of the
+    /// instructions, without gaps, so they end where the next instruction's start.
     std::uint32_t data = 0;
 };
 

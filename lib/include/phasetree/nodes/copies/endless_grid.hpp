@@ -63,8 +63,8 @@ struct EndlessGrid {
         "endless_grid", "",
         "max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' "
         "boxes,  g = half the smallest gap between boxes",
-        "Copies repeated endlessly along the axes; they must not touch."};
-    static constexpr bool has_copies = true;
+        "Copies repeated endlessly along the axes; their bounding boxes must not touch."};
+    static constexpr bool has_copies = true;  ///< with_levels_of_detail() leaves the levels below it unchanged
     using Parts = TypeList<FoldMap, FoldedBox>;
     Child of{};
     glm::vec3 spacing{0};

@@ -27,7 +27,7 @@ struct BoxFrame {
     }
     void prepare() const {
         if (!(thickness < 0.5f * std::min({size.x, size.y, size.z})))
-            throw ModelError("box_frame: the bars are as wide as half of the shortest edge");
+            throw ModelError("box_frame: \"thickness\" must be less than half of the shortest edge");
         detail::require_usable(info.name, {size.x, size.y, size.z, thickness});
     }
     template <class T>

@@ -24,8 +24,8 @@ struct JoinedVertices {
 ///
 /// Vertices are joined only where the choice is unambiguous. A group is joined only if all its vertices are pairwise
 /// this close, not merely linked by a chain of close vertices. Unless joining closes the mesh, two corners of one
-/// triangle are not joined either, because that would remove the triangle; nor are vertices that would be left without
-/// triangles. The joined point is the vertex nearest to the origin.
+/// triangle are not joined either, because that would remove the triangle; nor are vertices joined if all triangles at
+/// the joined vertex would collapse. The joined point is the vertex nearest to the origin.
 ///
 /// Vertices must be finite, and triangle indices must be valid. The result does not depend on the order of vertices and
 /// triangles. Takes O(n log n) time, for sorting.

@@ -41,7 +41,8 @@ struct LevelOfDetail {
                                    "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
                                    "Levels of detail of a field or an object, from fine to coarse, each used within a "
                                    "range of distances from a viewpoint. Without distances, the finest level is used "
-                                   "everywhere, unless a picture is rendered with --detail."};
+                                   "everywhere, unless distances are chosen for a view (`phasetree render --detail`; "
+                                   "in C++, with_levels_of_detail())."};
     std::vector<Child> of{};
     glm::vec3 viewpoint{0};
     std::vector<float> distances{};

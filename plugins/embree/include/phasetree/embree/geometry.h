@@ -50,9 +50,9 @@ typedef struct PhasetreeGeometryOptions {
      * phasetreeGetGeometryWarning says why. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
-     * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
-     * quarters of the build time and usually makes rays slower; use it for objects that are being edited. MEDIUM and
-     * HIGH are equal. Hits do not depend on the quality. */
+     * cell has a short program of instructions that evaluates the distances in it. LOW builds in a quarter to three
+     * quarters of the time of MEDIUM, but usually makes rays slower; use it for objects that are being edited. MEDIUM
+     * and HIGH are equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* maximum depth of the division into cells, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser

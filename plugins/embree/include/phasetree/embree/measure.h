@@ -163,7 +163,8 @@ typedef struct PhasetreeProof {
 
 /* Options of phasetreeProveStatements. Initialise them with phasetreeInitProveOptions. */
 typedef struct PhasetreeProveOptions {
-    /* The side of the smallest boxes; smaller features stay undecided. 0 selects 1/256 of the longest side. */
+    /* The side of the smallest boxes; smaller features stay undecided. 0 selects 1/256 of the longest side
+     * of the object's bounds. */
     double resolution;
     double seconds;  /* time limit, after which open statements stay undecided; HUGE_VAL for none. Positive */
     size_t maxBoxes; /* maximum number of boxes of each subdivision; statements still open then stay undecided */
@@ -191,8 +192,8 @@ static inline void phasetreeInitProveOptions(PhasetreeProveOptions* options) {
  * statements    `count` of them.
  * options       NULL for the defaults.
  * proofs        receives `count` proofs.
- * witnesses     receives the points that show the verdicts, up to witnessCapacity. May be NULL if that is 0. A path out
- *               of a vessel may have hundreds.
+ * witnesses     receives the points that show the verdicts, up to witnessCapacity. May be NULL if that is 0. The path
+ *               that refutes a CLOSED statement may have hundreds of points.
  * witnessCount  receives the number of all points, which may exceed witnessCapacity. May be NULL.
  *
  * PHASETREE_ERROR_INVALID_ARGUMENT  a statement is invalid, or an option out of its range. The message names the

@@ -17,16 +17,16 @@ extern "C" {
  * several phases have the same distance, the one with the lowest index wins.
  *
  * phases  receives `count` phases.
- *
- * PHASETREE_ERROR_INVALID_ARGUMENT  a coordinate is not finite; the message names the point */
+ * PHASETREE_ERROR_INVALID_ARGUMENT  a coordinate is not finite; the message names the point
+ * PHASETREE_ERROR_INVALID_TREE      the tree has too many nodes to evaluate */
 PHASETREE_API PhasetreeError phasetreeLocate(PhasetreeTree tree, const double* points, size_t count,
                                              unsigned int* phases);
 
 /* Returns, for each point, a radius within which the phase certainly does not change; 0 at interfaces.
  *
  * distances  receives `count` radii.
- *
- * Errors are those of phasetreeLocate. */
+ * Errors are those of phasetreeLocate, and PHASETREE_ERROR_INVALID_TREE if the tree is too far from the origin for its
+ * size. */
 PHASETREE_API PhasetreeError phasetreeGetSafeDistances(PhasetreeTree tree, const double* points, size_t count,
                                                        double* distances);
 
@@ -58,7 +58,7 @@ typedef struct PhasetreePreciseCrossing {
  *
  * PHASETREE_ERROR_INVALID_ARGUMENT  a ray is not finite, has a zero direction or carries a phase that the tree does not
  *                                   have; the message names the ray
- * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded
+ * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded, or too far from the origin for its size
  * PHASETREE_ERROR_CANCELLED         cancelled returned true. Nothing is written */
 PHASETREE_API PhasetreeError phasetreeFindCrossings(PhasetreeTree tree, const PhasetreePreciseRay* rays, size_t count,
                                                     PhasetreePreciseCrossing* crossings,

@@ -77,9 +77,9 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, con
  * C++.
  *
  * The library does not interpret materials: that is up to the application. The scene file reference
- * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. A tree made by
- * phasetreeNewEditedTree may have another one, because materials are part of the text that can be edited
- * ("/phases/glass"). */
+ * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. An edited tree
+ * (phasetreeNewEditedTree) may have a different material for this phase, because materials are part of the text that
+ * can be edited ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
 /* Returns a box around everything that is not vacuum. It is infinite in the directions in which the tree is unbounded.
