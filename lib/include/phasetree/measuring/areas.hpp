@@ -11,7 +11,7 @@
 namespace phasetree {
 
 /// An estimate, and its standard error: in two of three cases the true area is within one standard error of the
-/// estimate, in 19 of 20 within two. Unlike the intervals of Measured, this is not certain.
+/// estimate, in 19 of 20 within two. Unlike the intervals of Measured, this is not guaranteed.
 struct EstimatedArea {
     double area = 0;  ///< in squared units of length
     double standard_error = 0;

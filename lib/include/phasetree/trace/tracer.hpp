@@ -28,8 +28,8 @@ class InterfaceTracer {
   public:
     /// Prepare an object for tracing.
     ///
-    /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are certain
-    /// to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
+    /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are
+    /// guaranteed to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
     ///   - at most 2.75 r of the ray lies in the phase, and at most r of that is deeper inside than r/16, where r is
     ///     the resolution;
     ///   - the ray grazes the phase: it is nowhere deeper inside than r/16.

@@ -22,7 +22,7 @@ extern "C" {
 PHASETREE_API PhasetreeError phasetreeLocate(PhasetreeTree tree, const double* points, size_t count,
                                              unsigned int* phases);
 
-/* Returns, for each point, a radius within which the phase certainly does not change; 0 at interfaces.
+/* Returns, for each point, a radius within which the phase is guaranteed not to change; 0 at interfaces.
  *
  * distances  receives `count` radii.
  * Errors are those of phasetreeLocate, and PHASETREE_ERROR_INVALID_TREE if the tree is too far from the origin for its
