@@ -1455,7 +1455,7 @@ def octahedron(radius: float) -> Field:
 def tetrahedron(radius: float) -> Field:
     r"""A regular tetrahedron about the origin, with corners on the space diagonals; exact.
 
-        fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge
+        fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge,  m the height above the face's plane, e the distance beyond its edge, t along the edge, k = radius/√3
 
     radius: Distance of the corners from the origin. (number in m; positive)
     """

@@ -29,7 +29,7 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr std::size_t most_phases = Phase::capacity - 1;
+constexpr std::size_t max_phases = Phase::capacity - 1;
 
 class Importer {
   public:
@@ -112,10 +112,10 @@ class Importer {
             for (int same = 2; !taken.insert(name).second; ++same) name = fmt::format("{} {}", wanted, same);
             used_materials_.push_back(solid.material);
         }
-        if (used_materials_.size() > most_phases)
+        if (used_materials_.size() > max_phases)
             throw ParameterError("file", fmt::format("{}: it has {} clear materials, but a scene can have only {} "
                                                      "phases; let objects share materials",
-                                                     gltf_.string(), used_materials_.size(), most_phases));
+                                                     gltf_.string(), used_materials_.size(), max_phases));
     }
 
     SceneJson phases() {

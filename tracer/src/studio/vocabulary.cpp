@@ -97,23 +97,23 @@ std::string reference_at_stops(const Json& schema) {
     return reference_in(stop["items"][1]);
 }
 
-bool is_of_phases(const ParameterPage& page, const std::string& chapter) {
-    if (page.type == "phase" || page.type == "phase or list of phases" || page.type == "list of phases") return true;
+bool is_of_phases(const ParameterPage& entry, const std::string& chapter) {
+    if (entry.type == "phase" || entry.type == "phase or list of phases" || entry.type == "list of phases") return true;
     // Statements name phases in parameters of the type "text", which do not mention phases.
-    return chapter == "statements" && page.type.starts_with("text");
+    return chapter == "statements" && entry.type.starts_with("text");
 }
 
-KindParameter parameter_of(const ParameterPage& page, const std::string& chapter) {
+KindParameter parameter_of(const ParameterPage& entry, const std::string& chapter) {
     KindParameter p;
-    p.name = page.name;
-    p.unit = page.unit;
-    p.help = page.description;
-    p.type = page.type;
-    p.is_required = !page.optional;
-    if (page.optional && Json::accept(page.default_value)) p.default_value = page.default_value;
-    const Json schema = Json::parse(page.schema);
-    if (is_of_phases(page, chapter)) {
-        p.control = page.type == "phase" || page.type == "text" ? "phase" : "phases";
+    p.name = entry.name;
+    p.unit = entry.unit;
+    p.help = entry.description;
+    p.type = entry.type;
+    p.is_required = !entry.optional;
+    if (entry.optional && Json::accept(entry.default_value)) p.default_value = entry.default_value;
+    const Json schema = Json::parse(entry.schema);
+    if (is_of_phases(entry, chapter)) {
+        p.control = entry.type == "phase" || entry.type == "text" ? "phase" : "phases";
         return p;
     }
     std::vector<Json> alternatives;
@@ -138,9 +138,9 @@ KindParameter parameter_of(const ParameterPage& page, const std::string& chapter
             if (control.empty()) control = found.empty() ? "json" : found;
         }
     }
-    if (page.type.find("[nm, number]") != std::string::npos)
+    if (entry.type.find("[nm, number]") != std::string::npos)
         control = "spectrum";
-    else if (page.type.starts_with("list of [number, "))
+    else if (entry.type.starts_with("list of [number, "))
         control = "curve";
     p.control = control.empty() && p.slot ? "slot" : control.empty() ? "json" : control;
     return p;
@@ -178,27 +178,27 @@ ChapterType type_of_chapter(const std::string& stem) {
     throw std::logic_error("studio/vocabulary.cpp does not know the chapter " + stem);
 }
 
-CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
+CatalogueKind kind_of(const KindPage& entry, const std::string& chapter) {
     const ChapterType type = type_of_chapter(chapter);
     CatalogueKind kind;
-    kind.name = page.name;
+    kind.name = entry.name;
     kind.chapter = chapter;
     kind.type = type.type;
-    if (chapter == "placed-objects") kind.type = page.name == "objects" ? "placed_object" : "instance";
-    kind.summary = page.summary;
-    kind.equation = page.equation;
-    kind.section = page.section;
-    kind.picture = page.example.starts_with("../") ? page.example.substr(3)
-                   : page.example.empty()          ? ""
-                                                   : "reference/" + page.example;
+    if (chapter == "placed-objects") kind.type = entry.name == "objects" ? "placed_object" : "instance";
+    kind.summary = entry.summary;
+    kind.equation = entry.equation;
+    kind.section = entry.section;
+    kind.picture = entry.example.starts_with("../") ? entry.example.substr(3)
+                   : entry.example.empty()          ? ""
+                                                    : "reference/" + entry.example;
     kind.is_written_with_name = type.is_written_with_name;
-    for (const ParameterPage& p : page.parameters) kind.parameters.push_back(parameter_of(p, chapter));
+    for (const ParameterPage& p : entry.parameters) kind.parameters.push_back(parameter_of(p, chapter));
     const auto is_required = [](const KindParameter& p) { return p.is_required; };
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
     const bool is_node = kind.type == "field" || kind.type == "object";
-    kind.has_short_form = is_node && is_one && page.list_alone;
+    kind.has_short_form = is_node && is_one && entry.list_alone;
     const auto names = materials_for_meshes_only();
-    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), page.name) != names.end();
+    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), entry.name) != names.end();
     return kind;
 }
 
@@ -229,8 +229,8 @@ const KindParameter* CatalogueKind::lone_parameter() const {
 Vocabulary::Vocabulary() {
     for (const Chapter& chapter : scene_chapters()) {
         const std::string stem = file_stem(chapter);
-        for (const KindPage& page : chapter.pages) {
-            CatalogueKind kind = kind_of(page, stem);
+        for (const KindPage& entry : chapter.pages) {
+            CatalogueKind kind = kind_of(entry, stem);
             if (stem == "warps") kinds_.push_back(of_fields(kind));
             kinds_.push_back(std::move(kind));
         }
