@@ -335,7 +335,7 @@ class Field:
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+        r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -730,7 +730,7 @@ raises Interrupted, whose `result` has what was known by then."""
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+        r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -1967,7 +1967,7 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
 
 @overload
 def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+    r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -1980,7 +1980,7 @@ def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None
     """
 @overload
 def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+    r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
