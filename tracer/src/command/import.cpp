@@ -163,8 +163,8 @@ void add_import(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
     command->add_flag("--solid", options->choices.include_panes,
-                      "Make closed objects whose clear material lacks KHR_materials_volume phases, too; by default, "
-                      "they become panes of thin_glass");
+                      "Turn closed objects whose clear material lacks KHR_materials_volume into phases, too; by "
+                      "default, they become panes of thin_glass");
     command->add_flag("!--keep-gaps", options->choices.closes_gaps,
                       "Keep thin gaps beside liquids; by default, the node close_gaps fills those that cover at least "
                       "a tenth of either surface");

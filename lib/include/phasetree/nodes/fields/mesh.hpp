@@ -59,16 +59,15 @@ struct Mesh {
               "of the mesh's size may "
               "be confused."});
         v(&Mesh::rule,
-          ChoiceParameter{
-              {.name = "rule",
-               .unit = "",
-               .description = "Which points are inside, by how often the surface winds around them: "
-                              "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
-                              "odd number of times, so a part within another is a cavity; \"non_zero\": "
-                              "any number of times but zero, in either direction. All three are the same for a "
-                              "closed mesh whose parts do not overlap.",
-               .optional = true},
-              rules});
+          ChoiceParameter{{.name = "rule",
+                           .unit = "",
+                           .description = "Which points are inside, by how often the surface winds around them: "
+                                          "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
+                                          "odd number of times, so a part within another is a cavity; \"non_zero\": "
+                                          "at least once, in either direction. All three are the same for a "
+                                          "closed mesh whose parts do not overlap.",
+                           .optional = true},
+                          rules});
         v(&Mesh::thickness,
           Parameter{
               "thickness", "m",
