@@ -19,7 +19,8 @@ using rewriting::Fuser;
 /// The routines of all cells. Routines that differ only in the location of their constants share a shape, so that all
 /// shapes fit in the processor's caches.
 struct RoutineTables {
-    /// A routine without its constants: ranges of the vectors below.
+    /// A routine without its constants: ranges of the vectors below, and the number of steps that compute the first
+    /// component alone.
     struct Shape {
         std::uint32_t first_step, steps, first_component_steps, first_output, outputs, slots;
     };
