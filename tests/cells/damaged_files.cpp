@@ -142,7 +142,8 @@ namespace {
 // One cell whose program is one step with the data at `data`.
 std::string unsound(const Program& program, std::uint32_t op, std::uint32_t data) {
     CellTables t;
-    t.routines.shapes = {{.first_step = 0, .steps = 1, .leading = 0, .first_output = 0, .outputs = 1, .slots = 4}};
+    t.routines.shapes = {
+        {.first_step = 0, .steps = 1, .first_component_steps = 0, .first_output = 0, .outputs = 1, .slots = 4}};
     t.routines.steps = {{.op = op, .to = 3, .a = 0, .b = 0}};
     t.routines.outputs = {{.slot = 3, .phase = 1, .sign = 1}};
     t.routines.data = {data};

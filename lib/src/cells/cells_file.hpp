@@ -21,7 +21,7 @@ struct BuildSettings {
 struct CellsFile {
     struct Contents {
         const CellTables& tables;
-        const Program& program;  ///< followed by the cells' own constants
+        const Program& program;  ///< with the constants that the cells add after its own
         BuildSettings settings;
     };
     static Contents contents(const InterfaceCells&);

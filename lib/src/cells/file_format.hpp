@@ -39,7 +39,7 @@ std::string_view machine();
 std::string as_text(const std::array<char, 24>&);
 
 /// The header of a file of these cells, except for the fields known only after the build: counts, checksums and whether
-/// the cells are coarser. The first `own_constants` constants of the program are the object's.
-CellsFileHeader header_of(const Program&, std::size_t own_constants, const BuildSettings&);
+/// the cells are coarser. The first `recorded_constants` constants of the program are the object's.
+CellsFileHeader header_of(const Program&, std::size_t recorded_constants, const BuildSettings&);
 
 }  // namespace phasetree::cells

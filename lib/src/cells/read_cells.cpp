@@ -115,7 +115,9 @@ class CellsReader {
                                       as_text(h.library), as_text(wanted.library)));
         if (h.machine != wanted.machine)
             throw differs(fmt::format("it was written for {}, but this is {}", as_text(h.machine), machine()));
-        if (h.layout != wanted.layout) throw differs("it was written by a library with other nodes");
+        if (h.layout != wanted.layout)
+            throw differs(
+                "it was written by a build of the library with a different list of nodes; write the cells again");
         if (h.program != wanted.program) throw differs("its cells belong to another tree");
         if (h.resolution != wanted.resolution)
             throw differs(fmt::format("its cells have resolution {}, not {}", h.resolution, wanted.resolution));

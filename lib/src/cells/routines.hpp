@@ -19,9 +19,10 @@ using rewriting::Fuser;
 /// The routines of all cells. Routines that differ only in the location of their constants share a shape, so that all
 /// shapes fit in the processor's caches.
 struct RoutineTables {
-    /// A routine without its constants: ranges of the vectors below.
+    /// A routine without its constants: ranges of the vectors below, and the number of steps that compute the first
+    /// component alone.
     struct Shape {
-        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
+        std::uint32_t first_step, steps, first_component_steps, first_output, outputs, slots;
     };
     std::vector<Shape> shapes;
     std::vector<Step> steps;
@@ -35,7 +36,7 @@ struct RoutineTables {
                   s.steps,
                   outputs.data() + s.first_output,
                   s.outputs};
-        r.leading = s.leading;
+        r.first_component_steps = s.first_component_steps;
         return r;
     }
     std::size_t bytes() const;
@@ -70,7 +71,7 @@ class RoutineBuilder {
 
   private:
     BuiltRoutine build(const CellBuffer&, const CellBuffer::Cell&);
-    std::uint32_t intern_shape(const Assembly&, std::uint32_t leading);
+    std::uint32_t intern_shape(const Assembly&, std::uint32_t first_component_steps);
 
     /// The program of a cell, with the values that its certificate needs.
     struct Key {

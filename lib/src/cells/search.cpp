@@ -1,5 +1,5 @@
-// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so everything
-// between the caller and the kernel is a single function.
+// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so this file's
+// helpers are inlined into one function.
 #include "cells/data.hpp"
 #include "evaluation/target.hpp"
 #include "trace/march.hpp"

@@ -93,8 +93,8 @@ class Validation {
         const OpTraits& t = traits(static_cast<Op>(s.op));
         const bool takes_point = s.op >= first_primitive;
         const std::uint32_t size = t.gives_point ? 3 : 1;
-        // Slot 0 replaces an operand that the operation does not take. It always counts as written, because it holds
-        // the input.
+        // A step that takes fewer operands refers to slot 0 for the others. Slot 0 always counts as written, because it
+        // holds the input.
         if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
         if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
             return false;
@@ -108,7 +108,7 @@ class Validation {
             return false;
         // The input takes three slots, and each step writes at most three. More slots would never be written, but a
         // damaged file could demand a lot of memory with them.
-        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
+        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.first_component_steps > s.steps) return false;
         if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
         written_.assign(s.slots, 0);
         std::fill_n(written_.begin(), 3, char{1});

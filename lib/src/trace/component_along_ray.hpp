@@ -17,8 +17,8 @@ class ComponentAlongRay {
     /// object.
     ComponentAlongRay(const kernel::Routine&, const glm::dvec3& origin, const glm::dvec3& direction, float phase);
 
-    /// An upper bound on the component between two distances along the ray; Interval::most if none is known. The caller
-    /// does not need a bound that is tighter than `precision`.
+    /// An upper bound on the component between two distances along the ray; Interval::most, which stands for
+    /// "unbounded", if none is known. The caller does not need a bound that is tighter than `precision`.
     double upper_bound(double t_low, double t_high, double precision);
 
   private:

@@ -39,9 +39,10 @@ enum class FaceAnswer {
 /// Faces divide the line into parts that are alternately in one phase and in the other. `leaving` are the crossings out
 /// of the carried phase, `entering` those into it. In order along the ray, from its start in the box:
 ///
-///   * If a crossing that enters comes first, the ray is not in its phase. Where it enters the box far from any face,
-///     the change of phase is there and has no length; otherwise it is unclear. At the start of a ray, such a crossing
-///     within four resolutions is skipped, as in the kernel, because rounding has moved the start across the face.
+///   * If an entering crossing comes first, the ray is not in the phase that it carries. If no face is within four
+///     resolutions of the point where the ray enters the box, the change of phase is reported at that point, with zero
+///     length; otherwise the answer is `unclear`. At the start of a ray, such a crossing within four resolutions is
+///     skipped, as in the kernel, because rounding has moved the start across the face.
 ///   * If one that leaves comes first, it is the change of phase. If another follows within three resolutions, it may
 ///     be undone, or the ray may be on an edge: unclear.
 ///   * If there is none, the phase does not change. For a ray that starts in the box, the last crossing behind the

@@ -61,7 +61,8 @@ void add_nodes(CLI::App& app, Run& run) {
     CLI::Option* parts = command->add_option(
         "NAME", *names, "Print only these nodes, materials, lights, …, or chapters, such as sphere or lights");
     auto* first = command->add_option("--markdown", *folder,
-                                      "Write the pages of scenes/reference to this folder, from the examples in it");
+                                      "Write the pages of the scene reference to this folder, which must contain the "
+                                      "examples, as scenes/reference does");
     first->type_name("FOLDER")->excludes(parts);
     command->add_flag("--json-schema", *schema, "Print a JSON Schema for editors, scenes/scene.schema.json")
         ->excludes(first)

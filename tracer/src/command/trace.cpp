@@ -84,7 +84,7 @@ void add_trace(CLI::App& app, Run& run) {
         "copy.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
-        "lights, meshes, textures and voxels are not opened.");
+        "lights, meshes, textures and media are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

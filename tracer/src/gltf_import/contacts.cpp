@@ -10,11 +10,12 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-constexpr std::size_t max_points = 4096;                 // of one surface, for one pair
-constexpr std::size_t most_distances = 4'000'000;        // of all pairs
-constexpr float widest_gap = 0.02f;                      // of the smaller solid's diagonal
-constexpr float least_depth = 1e-5f, least_gap = 1e-6f;  // of the smaller solid's diagonal; rounding is less
-constexpr float sticking_out = 1e-3f;                    // of a solid's diagonal, within another
+constexpr std::size_t max_points = 4096;                     // of one surface, for one pair
+constexpr std::size_t max_distance_evaluations = 4'000'000;  // in total, over all pairs
+constexpr float widest_gap = 0.02f;                          // of the smaller solid's diagonal
+constexpr float least_depth = 1e-5f, least_gap = 1e-6f;      // of the smaller solid's diagonal; rounding is less
+// A solid counts as inside another one if it protrudes by at most this fraction of its own diagonal.
+constexpr float max_protrusion = 1e-3f;
 
 struct SurfacePoint {
     glm::vec3 at, normal;
@@ -98,7 +99,7 @@ class Finder {
     Side side(std::size_t of, std::size_t in, float widest) const {
         const Solid &own = solids_[of], &other = solids_[in];
         Side side;
-        const float nearest = least_gap * widest / widest_gap, outside = sticking_out * own.bounds.diagonal();
+        const float nearest = least_gap * widest / widest_gap, outside = max_protrusion * own.bounds.diagonal();
         std::size_t at_gap = 0, all = 0;
         for (const SurfacePoint& p : points_on(own, points_)) {
             const float d = other.distance(p.at);
@@ -115,7 +116,8 @@ class Finder {
         return side;
     }
 
-    // Whether the other surface is directly opposite a point at that distance, in an outward direction.
+    // Whether the other surface lies at the distance d along the point's normal (in either sense), on the outer side of
+    // this solid.
     static bool faces(const Solid& own, const Solid& other, const SurfacePoint& p, float d) {
         for (const float sign : {1.0f, -1.0f}) {  // triangles may be inside out
             const glm::vec3 n = sign * p.normal;
@@ -149,7 +151,7 @@ std::vector<Contact> contacts_of(const std::vector<Solid>& solids) {
     constexpr std::size_t fewest_points = 64;
     const std::vector<Pair> pairs = near_pairs(solids);
     if (pairs.empty()) return {};
-    const Finder finder(solids, std::clamp(most_distances / (2 * pairs.size()), fewest_points, max_points));
+    const Finder finder(solids, std::clamp(max_distance_evaluations / (2 * pairs.size()), fewest_points, max_points));
     std::vector<Contact> contacts;
     for (const Pair& pair : pairs) {
         const Contact contact = finder.find(pair);

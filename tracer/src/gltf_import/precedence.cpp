@@ -17,7 +17,7 @@ struct KnownWord {
     Matter matter;
 };
 
-// Plurals are recognised without their s.
+// A final s is ignored, so most plurals are recognised.
 constexpr std::array known_words{
     KnownWord{"glass", Matter::solid},      KnownWord{"ice", Matter::solid},      KnownWord{"cube", Matter::solid},
     KnownWord{"straw", Matter::solid},      KnownWord{"crystal", Matter::solid},  KnownWord{"plastic", Matter::solid},
@@ -176,7 +176,7 @@ Precedence precedence_of(const std::vector<Solid>& solids, const std::vector<Mat
                                 "because of overlaps with other objects; set a phasetree_priority to choose",
                                 solids[d.loser].name, solids[d.winner].name, d.reason));
             std::swap(d.winner, d.loser);
-            d.reason = "because of others";
+            d.reason = "to be consistent with other overlaps";
         }
     made.order = order.sorted();
     return made;

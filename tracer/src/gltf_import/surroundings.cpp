@@ -27,7 +27,7 @@ double distance_to(const PunctualLight& light, const Bounds& subject) {
     return std::max(glm::length(z_up(light.position) - glm::dvec3(subject.centre())), 0.1 * radius_of(subject));
 }
 
-// An upper bound on the irradiance of the file's lights at the subject.
+// An estimate of the irradiance of the file's lights at the subject's centre, ignoring angles, cones and occlusion.
 double irradiance_at(const gltf::GltfFile& file, const Bounds& subject) {
     double sum = 0;
     for (const PunctualLight& light : file.lights) {

@@ -9,8 +9,8 @@
 // refracted as by a plane parallel to the surface, and then followed, without further refraction, to the first point
 // where the index is 1. For lamps that are not small, the tangent plane is a good enough approximation of a curved
 // boundary. Light can enter through several sides, so further shares are refracted by the flat boundaries that lamps
-// shine on (flat_boundaries.hpp). Bad guesses cause no bias because the pdf includes all shares: with n planes,
-//     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + n).
+// shine on (flat_boundaries.hpp). Bad guesses cause no bias because the pdf includes all shares: with k planes,
+//     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + k).
 //
 // Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the exact path to one
 // point of a lamp, but have no pdf for weighting them against other techniques.
@@ -40,10 +40,11 @@ class LightProposal {
     /// the same hero and use the same pdfs in their weights.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,
                             const Wavelengths* wavelengths);
-    /// For a point in a medium. `entered` is the outward normal of the last boundary that the path met in this medium,
-    /// if any. Near that boundary, light enters where the path did; far from it, next to no light enters.
-    static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
-                            const Scene& scene, const Wavelengths* wavelengths);
+    /// For a point in a medium. `last_boundary_normal` is the outward normal of the last boundary that the path met in
+    /// this medium, if any. If the point is near that boundary, most of its light comes through it; if it is far from
+    /// it, hardly any light reaches the point.
+    static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& last_boundary_normal,
+                            const World& world, const Scene& scene, const Wavelengths* wavelengths);
 
     /// Samples a direction from p and the light seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u,

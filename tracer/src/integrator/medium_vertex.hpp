@@ -55,7 +55,7 @@ class MediumVertex {
     glm::vec3 arriving_;  ///< direction of the path's segment that ends here
     LightProposal proposal_;
     std::optional<PhotonPlacement> placement_;  ///< nullopt if the vertex gathers no photons
-    float per_line_density_across_;             ///< 0 if the vertex gathers no photons
+    float per_line_density_without_cosine_;     ///< 0 if the vertex gathers no photons
 };
 
 static_assert(PathVertex<MediumVertex>);

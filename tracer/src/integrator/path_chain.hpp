@@ -19,16 +19,17 @@ struct PathChain {
     LightProposal proposal{};  ///< how lights were sampled there
     glm::vec3 direction{0};    ///< the chain's first direction
     PhotonDensity by_photons{};
-    /// The number of interfaces from the point that gathers photons up to and including the rough interface where this
-    /// chain starts; 0 if photons are gathered at that start. Meaningless where no photons count.
+    /// 0 if this chain starts at the point that gathers photons. Otherwise, it starts at a rough interface, and this
+    /// counts the interfaces after the gathering point, up to and including that one. Meaningless if photons are
+    /// gathered at neither.
     int interfaces_before = 0;
     int length = 0;           ///< number of smooth clear interfaces and mirrors
     bool has_mirror = false;  ///< a mirror, or a pane that reflects; if so, shadow rays do not follow it
 
     /// The number of interfaces between the point that gathers photons and the lamp.
     int interfaces() const { return interfaces_before + length; }
-    /// Whether photons that pass a rough interface at the chain's end count at an earlier vertex of the path. Otherwise
-    /// they count at the rough interface.
+    /// Whether photons that pass a rough interface at the chain's end are gathered at an earlier vertex of the path.
+    /// Otherwise, they are gathered at the rough interface.
     bool photons_count_earlier() const {
         return pdf && by_photons.per_line_density > 0.0f && is_photon_chain(interfaces() + 1);
     }

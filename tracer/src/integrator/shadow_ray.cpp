@@ -30,8 +30,8 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
     PathWavelengths ray_wavelengths = path_wavelengths;
-    // The light was sampled for the path. Since then, an interface that is passed straight may have dispersed a ray of
-    // red, green and blue.
+    // The light was sampled for the path. Since then, an interface that is passed straight may have dispersed an RGB
+    // ray.
     const auto sampled_radiance = [&] {
         return path_wavelengths.now() ? sampled.radiance : for_light(sampled.radiance, ray_wavelengths.now());
     };

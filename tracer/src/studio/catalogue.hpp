@@ -1,4 +1,4 @@
-// The catalogue: every kind that exists, with what a page needs to show and edit it.
+// The catalogue: every kind that exists, with what the studio's page needs to show and edit it.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,10 @@ namespace phasetree::tracer::studio {
 /// was built in. nullopt if there is none.
 std::optional<std::filesystem::path> folder_of_pictures();
 
-/// The answer to GET /catalogue. Pictures are null without a folder.
+/// The answer to GET /catalogue. Pictures are null without a folder. The members of kinds and parameters are those of
+/// CatalogueKind and KindParameter, and:
+///   * of a kind, "keyed": is_written_with_name; "alone": the name of lone_parameter();
+///   * of a parameter, "instead": the slot type whose values may replace its plain value.
 std::string written_catalogue(const Vocabulary& vocabulary, const std::optional<std::filesystem::path>& pictures);
 
 /// The file of a picture of the catalogue, such as "nodes/fields/sphere.jpg". nullopt for any other name.

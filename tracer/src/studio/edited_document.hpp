@@ -1,7 +1,8 @@
 // A scene file that is being edited: its text, its history and its file.
 //
-// Every change of the text comes from here, whoever asks for it: pages, buttons that write into the file, or another
-// program that saves the file. All functions may be called by any thread.
+// Every change to the text goes through this class, whether a page, a button that writes into the file, or another
+// program that saves the file asks for it. A page is a browser tab that shows the studio. All functions may be called
+// by any thread.
 #pragma once
 
 #include <atomic>
@@ -48,10 +49,10 @@ struct DocumentState {
 
 /// A request to change the text.
 struct EditRequest {
-    std::uint64_t base = 0;  ///< the version that the request was made for
+    std::uint64_t base = 0;  ///< DocumentState::version when the request was made
     std::string label;
-    std::optional<std::string> merge;
-    bool is_strict = false;  ///< whether to reject an invalid scene
+    std::optional<std::string> merge;  ///< requests with the same key, such as those of one drag, form one undo step
+    bool is_strict = false;            ///< whether to reject an invalid scene
     std::vector<Operation> operations;
 };
 
@@ -66,8 +67,8 @@ class EditedDocument {
         bool saves = true;  ///< whether each step is saved at once
         /// Makes a document of a text, with the program's options for reading it. Throws SceneError.
         std::function<Document(std::string)> parse;
-        /// Throws what is wrong with a scene, and PreparationCancelled if the current PreparationWatch cancels it.
-        /// Called only for strict requests.
+        /// Throws SceneError if the scene is invalid, and PreparationCancelled if the current PreparationWatch cancels
+        /// it. Called only for strict requests.
         std::function<void(const Document&)> check = [](const Document&) {};
         /// A strict request is rejected if its check takes longer. Other requests wait meanwhile.
         std::chrono::milliseconds longest_check{10000};
@@ -76,8 +77,8 @@ class EditedDocument {
     /// Reads the file. Throws SceneError if that is impossible; an invalid text is no error here.
     explicit EditedDocument(Options options);
 
-    /// Called after each change of the text, and when the file becomes readable or unreadable. Set it before the
-    /// document is shared between threads.
+    /// Called after each change of the text, and when the file becomes unreadable or is read again after that. save(),
+    /// which makes the file readable, does not call it. Set it before the document is shared between threads.
     void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
 
     std::shared_ptr<const DocumentState> state() const;
@@ -85,8 +86,8 @@ class EditedDocument {
     std::shared_ptr<const DocumentState> state_after(std::uint64_t version, std::chrono::milliseconds timeout) const;
     void stop();
 
-    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the request
-    /// does not fit the current text: see EditRequest::base.
+    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the text has
+    /// changed since EditRequest::base in a way that affects the operations (rebase.hpp).
     std::uint64_t edit(const EditRequest& request);
     /// Changes the text by a function of the document. Throws SceneError if the file cannot be read.
     std::uint64_t edit(const std::string& label, const std::function<std::string(const Document&)>& change);

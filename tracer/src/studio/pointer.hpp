@@ -16,7 +16,7 @@ std::string escaped(std::string_view key);
 /// A pointer's keys and indices, unescaped. The empty pointer refers to the whole document.
 using PointerTokens = std::vector<std::string>;
 
-/// Throws std::invalid_argument with a message for people unless the text is a pointer.
+/// Throws std::invalid_argument, with a message for the user, if the text is not a valid pointer.
 PointerTokens pointer_tokens(std::string_view pointer);
 
 /// The pointer with these tokens.

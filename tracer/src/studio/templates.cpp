@@ -206,7 +206,7 @@ std::string slot_text(const SlotType& slot) {
     return fmt::format("[{}, {}]", filled(ball, phase_placeholder), filled(other, other_phase_placeholder));
 }
 
-// A number within the limits that is close to the preferred one.
+// The preferred number if it is within the limits, otherwise some number that is.
 double within(const KindParameter& p, double preferred) {
     const double low = p.low.value_or(-1e9), high = p.high.value_or(1e9);
     if (preferred > low && preferred < high) return preferred;

@@ -64,8 +64,9 @@ class InterfaceCells {
     const std::string& warning() const;
     /// How far a cell's box extends beyond its share of space, in the scene's unit of length: a few resolutions.
     float reach() const;
-    /// How far before the point where a ray enters a cell's box the cell's crossing may lie, in the scene's unit of
-    /// length. If the phase has already changed where the ray enters, the search looks back this far for the change.
+    /// A cell's crossing may lie in front of its box: at most this far, in the scene's unit of length, before the point
+    /// where the ray enters. If the phase has already changed at that point, the search looks back this far for the
+    /// change.
     float look_back() const;
     /// The phases of CellOptions::opaque.
     PhaseSet opaque() const;

@@ -33,11 +33,12 @@ void write_cells(const std::filesystem::path&, const InterfaceCells&);
 /// Read the cells of an object. They are identical, to the last bit, to those that InterfaceCells(object, options)
 /// would build. The callbacks in the options are not called.
 ///
-/// The file records the object's program (names and materials do not matter), the resolution, quality, divisions,
-/// memory limit and opaque phases for which the cells were built, the build of the library, and the processor
-/// architecture. It is rejected if any of these differ, with one exception: a memory limit that had no effect may be
-/// raised. Files with a wrong size, a wrong checksum or an index out of range are rejected, too. Size and checksum are
-/// verified before memory for the content is allocated.
+/// The file identifies the object by a fingerprint of its program; names and materials do not matter. It records the
+/// resolution, quality, divisions, memory limit and opaque phases for which the cells were built, the build of the
+/// library, and the processor architecture. It is rejected if any of these differ, with one exception: a memory limit
+/// that had no effect may be raised. Files with a wrong size, a wrong checksum or an index out of range are rejected,
+/// too. The size and the header's checksum are verified before memory for the content is allocated, and the content's
+/// checksum before the content is used.
 ///
 /// Checksums detect accidents, not forgery. A forged file can describe wrong cells, but no ray reads memory outside
 /// them, because every index in the file is checked.

@@ -38,8 +38,8 @@ struct Crossing {
 /// the gradient, at p_in, of the component of `from`: the signed distance of that phase, negative inside it. That
 /// gradient may be zero up to rounding errors, or contradict the bracket: a plane with this normal and distance would
 /// not cross the ray between p_in and p_out. The gradient is then taken one or two resolutions away, where it is
-/// certain. Near an edge the normal is that of one of the faces, or that of the distance to the edge, which lies
-/// between them.
+/// certain. Near an edge, it is the normal of one of the faces, or the gradient of the distance to the edge, whose
+/// direction is between theirs.
 struct CrossingNormal {
     glm::vec3 unit{0};  ///< of unit length
     /// The gradient of the component of `from` at p_in. It points along `unit`, and its length is at most 1. A
@@ -52,8 +52,8 @@ struct CrossingNormal {
 struct TraceCounters {
     std::uint64_t visits = 0;   ///< searches: one per cell that a ray meets
     std::uint64_t batches = 0;  ///< evaluations of eight points
-    /// Suspected crossings that were none: a step of at most one resolution that might have crossed an interface, but
-    /// in which the label does not change.
+    /// False alarms: steps of at most one resolution that might have crossed an interface, but in which the label does
+    /// not change.
     std::uint64_t phantoms = 0;
 };
 
