@@ -1136,9 +1136,9 @@ class Scene:
 
     object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
     meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
-    Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
-    and groups. An object with instances appears only where they place it, not at its own map as well. groups: {name:
-    places}.
+    Objects may touch, but must not overlap. instances: one or several pt.instances_of(name, transforms), which place
+    objects and groups. An object with instances appears only where they place it, not at its own map as well. groups:
+    {name: instances}.
 
     unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
     of a scene file, which `phasetree check --prove` proves or refutes.
@@ -1169,13 +1169,13 @@ not depend on the version of Open Image Denoise. Image.planes then has the pictu
 time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
 time ends the render. at: the time in seconds at which animated values are evaluated."""
 
-class Places:
+class Instances:
     of: str
     transforms: np.ndarray
     def __len__(self) -> int: ...
 
-def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:
-    r"""Places an object or a group of a scene, once or many times. Returns Places.
+def instances_of(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Instances:
+    r"""Instances of an object or a group, for the `instances` or `groups` of a Scene. Returns Instances.
 
     of: the name of the object or group. transforms: positions of shape (3,) or (N, 3), or matrices of
     affine maps, of shape (3, 4), (4, 4), (N, 3, 4) or (N, 4, 4)."""
