@@ -24,9 +24,9 @@ std::optional<Crossing> nearest(const InterfaceCells& cells, const glm::vec3& fr
     std::optional<Crossing> hit;
     TraceCounters counters;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto one =
-            cells.first_crossing(c, TracedRay(from, direction), 0, hit ? hit->t_in : 10.f, std::nullopt, {}, counters);
-        if (one && (!hit || one->t_in < hit->t_in)) hit = one;
+        const auto one = cells.first_crossing(c, TracedRay(from, direction), 0, hit ? hit->t_from : 10.f, std::nullopt,
+                                              {}, counters);
+        if (one && (!hit || one->t_from < hit->t_from)) hit = one;
     }
     return hit;
 }

@@ -108,10 +108,10 @@ struct Visit {
 struct RayCrossing {
     double start;                     ///< the distance along the ray of the point where the search began
     float origin[3];                  ///< that point
-    float t_in, t_out;                ///< distances from that point
+    float t_from, t_to;               ///< distances from that point
     float from, to;                   ///< phases
     std::uint32_t batches, phantoms;  ///< see TraceCounters
-    /// The search is unfinished: there is no change before t_in, which is in the phase `from`. See trace/creep.hpp.
+    /// The search is unfinished: there is no change before t_from, which is in the phase `from`. See trace/creep.hpp.
     bool is_unfinished;
     float length;  ///< of the segment that is searched
 };

@@ -153,16 +153,16 @@ class March {
     // Leaves the search unfinished. It can resume from the last sample that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {
         c.is_unfinished = true;
-        c.t_in = certain_.t;
+        c.t_from = certain_.t;
         c.from = phase_;
         return false;
     }
     // Distances below this, a sixteenth of the resolution, are treated as rounding errors.
     float rounding_error() const { return ray_.resolution * (1.f / 16); }
 
-    bool report(RayCrossing& c, float t_in, float t_out, float to) const {
-        c.t_in = t_in;
-        c.t_out = t_out;
+    bool report(RayCrossing& c, float t_from, float t_to, float to) const {
+        c.t_from = t_from;
+        c.t_to = t_to;
         c.from = phase_;
         c.to = to;
         return true;

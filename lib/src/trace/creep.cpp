@@ -36,7 +36,7 @@ class Creep {
           counters_(counters),
           component_(*visit.routine, glm::dvec3(c.origin[0], c.origin[1], c.origin[2]),
                      glm::dvec3(visit.ray->direction), c.from),
-          t_(c.t_in) {}
+          t_(c.t_from) {}
 
     // Alternates enclosed stretches, walks and searches by the kernel, until a kernel search completes or a leap
     // reaches the end of the ray. Returns whether there is a crossing.
@@ -54,7 +54,7 @@ class Creep {
             spend(crossing_.batches);
             counters_.phantoms += crossing_.phantoms;
             if (is_hit || !crossing_.is_unfinished) return is_hit;
-            t_ = crossing_.t_in;
+            t_ = crossing_.t_from;
         }
     }
 

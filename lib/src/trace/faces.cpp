@@ -123,7 +123,7 @@ bool bracket(const FacesOfCell& cell, const FaceVisit& visit, const FaceHit& hit
          point_at(visit.ray, out),
          hit.is_front ? cell.first : cell.other,
          hit.is_front ? cell.other : cell.first};
-    return move_to_side(c.p_in, plane, sign) && move_to_side(c.p_out, plane, -sign);
+    return move_to_side(c.p_from, plane, sign) && move_to_side(c.p_to, plane, -sign);
 }
 
 // The crossing of a ray that is in the other phase where it enters the box.
@@ -180,8 +180,8 @@ FaceAnswer first_crossing(const FacesOfCell& cell, const FaceVisit& visit, Cross
 std::optional<glm::vec3> normal_of_face(const FacesOfCell& cell, const Crossing& crossing, const glm::vec3& direction,
                                         float resolution) {
     if (crossing.from != cell.first && crossing.from != cell.other) return std::nullopt;
-    const FaceHits hits(cell, TracedRay(crossing.p_in, direction));
-    const double width = static_cast<double>(glm::dot(crossing.p_out - crossing.p_in, direction));
+    const FaceHits hits(cell, TracedRay(crossing.p_from, direction));
+    const double width = static_cast<double>(glm::dot(crossing.p_to - crossing.p_from, direction));
     double nearest = width / 2 + static_cast<double>(resolution);
     const FaceHit* found = nullptr;
     for (const FaceHit& hit : hits) {

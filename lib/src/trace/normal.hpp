@@ -35,7 +35,7 @@ class NormalOf {
         : c_(c),
           direction_(direction),
           resolution_(resolution),
-          width_(glm::dot(c.p_out - c.p_in, direction)),
+          width_(glm::dot(c.p_to - c.p_from, direction)),
           component_(component),
           holds_(holds) {}
 
@@ -69,7 +69,7 @@ class NormalOf {
     /// gradient crosses the ray within the bracket, up to rounding errors.
     Sample sample(Side side, const glm::vec3& away) const {
         const bool is_near = side == near_side;
-        const Component c = component_((is_near ? c_.p_in : c_.p_out) + away, is_near ? c_.from : c_.to);
+        const Component c = component_((is_near ? c_.p_from : c_.p_to) + away, is_near ? c_.from : c_.to);
         Sample s;
         s.steepness = glm::length(c.gradient);
         if (!(s.steepness > 0)) return s;
@@ -101,7 +101,7 @@ class NormalOf {
             return false;
         };
         const auto at = [&](Side side, const glm::vec3& away) {
-            const bool is_held = holds_((side == near_side ? c_.p_in : c_.p_out) + away);
+            const bool is_held = holds_((side == near_side ? c_.p_from : c_.p_to) + away);
             return is_held ? sample(side, away) : Sample();
         };
         const float far = resolution_;

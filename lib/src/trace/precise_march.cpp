@@ -201,10 +201,10 @@ std::pair<PreciseMarch::Sample, PreciseMarch::Sample> PreciseMarch::begin_of_lab
 // Makes the crossing with this bracket, and continues the search from its far end, in the phase there.
 PreciseCrossing PreciseMarch::report_crossing(const Sample& in, const Sample& out) {
     PreciseCrossing c;
-    c.t_in = (skipped_ + in.t) / length_;
-    c.t_out = (skipped_ + out.t) / length_;
-    c.p_in = point(in.t);
-    c.p_out = point(out.t);
+    c.t_from = (skipped_ + in.t) / length_;
+    c.t_to = (skipped_ + out.t) / length_;
+    c.p_from = point(in.t);
+    c.p_to = point(out.t);
     c.from = carried_;
     c.to = out.phase;
     c.normal = normal(in.t, out.t, c.to);
@@ -216,7 +216,7 @@ PreciseCrossing PreciseMarch::report_crossing(const Sample& in, const Sample& ou
 // The gradients of the components on both sides, at the bracket's ends and a resolution before and after it. The first
 // gradient that points along the ray is used. If none does, because the ray runs along the interface or the slope is
 // zero, the one with the smallest angle to the ray is used, or the ray's direction.
-glm::dvec3 PreciseMarch::normal(double t_in, double t_out, Phase to) const {
+glm::dvec3 PreciseMarch::normal(double t_from, double t_to, Phase to) const {
     // The cosine of an angle that is certainly below 90°.
     constexpr double certain = 1e-6;
     const PreciseEvaluator& e = tracer_.evaluator();
@@ -224,7 +224,7 @@ glm::dvec3 PreciseMarch::normal(double t_in, double t_out, Phase to) const {
     double steepest = 0;
     for (const double beyond : {0.0, resolution_})
         for (const bool is_near : {true, false}) {
-            const double t = is_near ? t_in - beyond : t_out + beyond;
+            const double t = is_near ? t_from - beyond : t_to + beyond;
             const glm::dvec3 g = is_near ? e.gradient(point(t), carried_) : -e.gradient(point(t), to);
             const double steepness = glm::length(g), cosine = glm::dot(g, direction_) / steepness;
             if (!(steepness > 0.01)) continue;

@@ -42,7 +42,7 @@ class PreciseMarch {
     PreciseCrossing crossing_between(const Sample& low, Sample high);
     std::pair<Sample, Sample> begin_of_label(Sample low, Sample high) const;
     PreciseCrossing report_crossing(const Sample& in, const Sample& out);
-    glm::dvec3 normal(double t_in, double t_out, Phase to) const;
+    glm::dvec3 normal(double t_from, double t_to, Phase to) const;
 
     const PreciseTracer& tracer_;
     const kernel::Routine routine_;

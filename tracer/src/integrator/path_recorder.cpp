@@ -72,8 +72,8 @@ void PathRecorder::add_surface(const Surface& surface, const Bsdf& bsdf, const s
                         .albedo = is_of_chain && !bsdf.pane() ? glm::vec3(1.0f) : weight * (bent * bent),
                         .object = surface.object,
                         .instance = surface.place.copy,
-                        .phase_left = surface.near_side.phase,
-                        .phase_entered = surface.entered};
+                        .phase_from = surface.near_side.phase,
+                        .phase_to = surface.entered};
     if (!record_->first) record_->first = met;
     if (bsdf.is_delta()) return;
     met.albedo = throughput * weight * (from_camera * from_camera);

@@ -17,8 +17,8 @@ struct TracedRay {
     TracedRay(const glm::vec3& origin, const glm::vec3& direction);
 };
 
-/// A hint for a ray that starts (t_min = 0) at p_in or p_out of a crossing and carries the phase of that point. Pass it
-/// only to the cell that found the crossing. Usually the hint suffices to prove that the ray leaves the cell without
+/// A hint for a ray that starts (t_min = 0) at p_from or p_to of a crossing and carries the phase of that point. Pass
+/// it only to the cell that found the crossing. Usually the hint suffices to prove that the ray leaves the cell without
 /// meeting another interface.
 struct LeavingHint {
     /// The derivative of the distance from the interface along the ray, in [−1, 1]; 0 if unknown. A value near or below

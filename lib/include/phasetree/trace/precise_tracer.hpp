@@ -7,9 +7,9 @@
 // component, the lowest index among equal ones, as for floats. Nothing is approximated by cells or triangles.
 //
 // A *crossing* is a change of phase along a ray. It is reported as a bracket of two points on the ray, which are no
-// more than a few units in the last place apart: p_in, which is in `from` up to rounding errors, and p_out, whose label
-// is `to`. A ray that starts at p_out in `to` goes on, and one that starts at p_in in `from` is reflected, without any
-// offset. Crossings chain: `to` of each is `from` of the next.
+// more than a few units in the last place apart: p_from, which is in `from` up to rounding errors, and p_to, whose
+// label is `to`. A ray that starts at p_to in `to` goes on, and one that starts at p_from in `from` is reflected,
+// without any offset. Crossings chain: `to` of each is `from` of the next.
 //
 // HOW CROSSINGS ARE FOUND
 //
@@ -77,11 +77,11 @@ struct PreciseRay {
 
 /// A change of phase along a ray in double precision; see the top of this file.
 struct PreciseCrossing {
-    double t_in = 0;      ///< p_in is origin + t_in · direction, up to rounding
-    double t_out = 0;     ///< the same for p_out
-    glm::dvec3 p_in{0};   ///< the bracket's end in `from`
-    glm::dvec3 p_out{0};  ///< the bracket's end in `to`
-    Phase from, to;       ///< the phases before and after the crossing
+    double t_from = 0;     ///< p_from is origin + t_from · direction, up to rounding
+    double t_to = 0;       ///< the same for p_to
+    glm::dvec3 p_from{0};  ///< the bracket's end in `from`
+    glm::dvec3 p_to{0};    ///< the bracket's end in `to`
+    Phase from, to;        ///< the phases before and after the crossing
     /// Of unit length, from `from` into `to`, at most 90° from the ray's direction: the gradient of the component of
     /// `from`, or minus that of `to` if the first does not point along the ray.
     glm::dvec3 normal{0};
