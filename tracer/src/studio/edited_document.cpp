@@ -156,11 +156,13 @@ void EditedDocument::save_text() {
     }
     known_ = known_.now();
     if (failure.empty()) saved_ = text;
+    const bool becomes_readable = failure.empty() && state()->unreadable;
     publish([&](DocumentState& state) {
         state.is_saved = failure.empty();
         state.save_error = failure;
         if (failure.empty()) state.unreadable.reset();
     });
+    if (becomes_readable) changed_();
 }
 
 std::uint64_t EditedDocument::finish(bool is_known_to_be_valid) {

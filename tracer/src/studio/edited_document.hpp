@@ -77,8 +77,8 @@ class EditedDocument {
     /// Reads the file. Throws SceneError if that is impossible; an invalid text is no error here.
     explicit EditedDocument(Options options);
 
-    /// Called after each change of the text, and when the file becomes unreadable or is read again after that. save(),
-    /// which makes the file readable, does not call it. Set it before the document is shared between threads.
+    /// Called after each change of the text, and when the file becomes unreadable or readable. Set it before the
+    /// document is shared between threads.
     void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
 
     std::shared_ptr<const DocumentState> state() const;
