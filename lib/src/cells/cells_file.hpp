@@ -17,7 +17,7 @@ struct BuildSettings {
     std::size_t max_bytes = 0;  ///< the memory limit in effect, whether given or the default
 };
 
-/// Gives the reader, writer and comparison of cell files access to the parts of InterfaceCells that they need.
+/// Access to the parts of InterfaceCells that read_cells(), write_cells() and are_cells_of() need.
 struct CellsFile {
     struct Contents {
         const CellTables& tables;

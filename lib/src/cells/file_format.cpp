@@ -23,7 +23,8 @@ std::array<char, 24> as_chars(std::string_view text) {
 }
 
 // A hash of everything that determines what the tables mean: the list of operations with their numbers of floats, and
-// the constants on which steps and registers depend.
+// the constants on which steps and registers depend. Operations from first_placed on are primitives fused with an
+// affine map, a scale and an offset (program/fused.hpp).
 std::uint64_t layout_of_tables() {
     Checksum sum;
     const auto put = [&](std::uint64_t n) { sum.put(&n, sizeof n); };

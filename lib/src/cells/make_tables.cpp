@@ -24,7 +24,7 @@ void add_cells(const CellBuffer& buffer, const CurvatureCode& code, RoutineBuild
     }
 }
 
-// Adds the faces of a buffer's cells, which have been added last.
+// Adds the faces of a buffer's cells. These cells must be the last ones in the table.
 void add_faces(const CellBuffer& buffer, CellTables& tables) {
     if (buffer.cell_faces.empty()) return;
     const std::size_t before = tables.cells.size() - buffer.cells.size();
@@ -50,8 +50,8 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
     RoutineBuilder routines(constants);
     tables.cells.reserve(found.cells());
     tables.first_certificate.reserve(found.cells() + 1);
-    // Most of what is appended are the data of specialised instructions. Reserve now: a growing vector holds its
-    // contents twice for a while.
+    // Most of what is appended are the data of specialised instructions (rewriting/specialise.hpp). Reserve now: a
+    // growing vector holds its contents twice for a while.
     std::size_t more = 0;
     for (const CellBuffer& buffer : found) more += buffer.specialised_data.size();
     constants.reserve(constants.size() + more);

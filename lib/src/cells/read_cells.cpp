@@ -123,7 +123,8 @@ class CellsReader {
             throw differs(fmt::format("its cells have resolution {}, not {}", h.resolution, wanted.resolution));
         if (h.quality != wanted.quality) throw differs("its cells were built with another quality");
         if (h.max_depth != wanted.max_depth)
-            throw differs(fmt::format("its cells were built with {} divisions, not {}", h.max_depth, wanted.max_depth));
+            throw differs(
+                fmt::format("its cells were built with at most {} divisions, not {}", h.max_depth, wanted.max_depth));
         if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
         // If the cells are not coarser, the limit had no effect, and any higher limit gives the same cells.
         if (h.is_coarser ? h.max_bytes != wanted.max_bytes : h.max_bytes > wanted.max_bytes)
@@ -138,7 +139,7 @@ class CellsReader {
                 throw error(Reason::damaged, "it is damaged: it ends too early");
             rest -= h.counts[i] * item_bytes[i];
         }
-        if (rest != 0) throw error(Reason::damaged, "it is damaged: there are data after its end");
+        if (rest != 0) throw error(Reason::damaged, "it is damaged: it is longer than its header says");
     }
 
     const fs::path& path_;

@@ -56,8 +56,8 @@ class RoutineBuilder {
         /// the leaves.
         std::uint32_t first_kept;
     };
-    /// Turns the data of specialised instructions into constants. Call it once per buffer, before adding the cells in
-    /// it.
+    /// Turns the data of specialised instructions (rewriting/specialise.hpp) into constants. Call it once per buffer,
+    /// before adding the cells in it.
     void intern_specialised_data(CellBuffer&);
     /// The routine of a cell. The buffer must not move or be destroyed while cells are being added.
     const BuiltRoutine& add(const CellBuffer&, const CellBuffer::Cell&);

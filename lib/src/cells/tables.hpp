@@ -13,7 +13,8 @@ struct alignas(64) InterfaceCell {
     LinearBound bound;
     /// The routine: the index of a RoutineTables::Shape, and of the routine's first entry in RoutineTables::data.
     std::uint32_t shape, first_data;
-    std::uint8_t curvature, other_curvature;           ///< CurvatureCode of the bounds in Curvature
+    /// Curvature::bound as CurvatureCodes: for rays in the phase of the first output, and for all other rays.
+    std::uint8_t curvature, other_curvature;
     std::uint8_t first_phase;                          ///< the index of the first output's phase
     bool uses_own_component, first_component_decides;  ///< see Routine
 };

@@ -21,7 +21,8 @@ constexpr std::uint32_t first_primitive = static_cast<std::uint32_t>(Op::first_p
 constexpr std::uint32_t first_data_primitive = first_primitive + static_cast<std::uint32_t>(Primitives::size);
 constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(Primitives::size);
 
-// The number of constants of each operation. It is 0 for a primitive with data, whose data contain the number.
+// The number of constants of each operation. It is 0 for a primitive with data, whose data contain the number. A
+// "placed" primitive is fused with an affine map, a scale and an offset (program/fused.hpp).
 std::array<std::size_t, operations> all_floats() {
     std::array<std::size_t, operations> all{};
     for (std::uint32_t op = 0; op < first_primitive; ++op) all[op] = has_constant(static_cast<Op>(op)) ? 1 : 0;
@@ -129,8 +130,8 @@ class Validation {
         return true;
     }
     // Whether an operation finds its constants at an index. The length of a primitive with data depends on the data
-    // themselves. So a specialised primitive checks its own data. Any other primitive may only refer to the data of the
-    // same primitive in the object's program, which are complete.
+    // themselves. So a specialised primitive (rewriting/specialise.hpp) checks its own data. Any other primitive may
+    // only refer to the data of the same primitive in the object's program, which are complete.
     bool has_constants(std::uint32_t op, std::uint32_t at) const {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;

@@ -18,8 +18,8 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(). Execution stops at a fold of space that jumps somewhere within the enclosure
-// of its point, because an enclosure across a jump would be wrong.
+// The steps of a routine for interpret(). Execution stops at a repetition of space (FoldingMap) that jumps somewhere
+// within the enclosure of its point, because an enclosure across a jump would be wrong.
 class StepsUpToJump : public RoutineSteps {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers) : RoutineSteps(routine), registers_(registers) {}
@@ -28,7 +28,7 @@ class StepsUpToJump : public RoutineSteps {
     }
 
   private:
-    // Whether the fold of a step jumps.
+    // Whether the repetition of space in a step jumps.
     bool jumps(std::size_t i) const {
         const Step& s = step(i);
         bool jumps = false;
@@ -83,7 +83,7 @@ ComponentAlongRay::ComponentAlongRay(const Routine& routine, const glm::dvec3& o
     registers_.resize(slots);
 }
 
-// Runs the routine over a stretch of the ray. Returns false if it stops at a fold. If `centres` is given, appends every
+// Runs the routine over a stretch of the ray. Returns false if it stops at a jump. If `centres` is given, appends every
 // value that the steps compute at the midpoint of the stretch.
 bool ComponentAlongRay::run(double t_low, double t_high, double precision, std::vector<double>* centres) {
     const double middle = 0.5 * (t_low + t_high), half = 0.5 * (t_high - t_low);

@@ -9,8 +9,9 @@
 
 namespace phasetree::trace {
 
-/// The component of a ray's phase as a function of the distance t along the ray, bounded over stretches of it. The
-/// routine is run with Enclosures (intervals with derivatives) of the single variable t.
+/// The component of a ray's phase (the signed distance of that phase, negative inside it) as a function of the distance
+/// t along the ray, bounded over stretches of it. The routine is run with Enclosures (intervals with derivatives) of
+/// the single variable t.
 class ComponentAlongRay {
   public:
     /// The ray starts at `origin`; `phase` is the one that it is in, as in OutputSlot. The routine must outlive this

@@ -20,8 +20,8 @@ constexpr double first_stretch = 1024, shortest_stretch = 32;
 // shortest step doubles with each further `steps_per_doubling`.
 constexpr double slow_in_resolutions = 1024;
 constexpr std::size_t most_slow_steps = 65'536, steps_per_doubling = 256;
-// Bisection starts from the last sample labelled with the ray's phase if that is no more than this many of the current
-// shortest steps before the first sample outside the phase, otherwise from the sample before that one.
+// Let b be the first sample outside the ray's phase. Bisection starts from the last sample labelled with that phase if
+// it is at most this many (current) shortest steps before b, and from the sample just before b otherwise.
 constexpr double near_in_steps = 256;
 
 // The range of distances along a ray in a box; empty if the second is less than the first.
@@ -111,8 +111,8 @@ std::optional<PreciseCrossing> PreciseMarch::next() {
     return std::nullopt;
 }
 
-// A step of a known safe length. If the interface distance changes along the ray as it did in the last step, a longer
-// one may be covered from both ends.
+// Takes a step of a length that is known to be safe. First tries a longer one, guessed from how the interface distance
+// changed in the last step: it is safe, too, if the safe lengths at its two ends together cover it.
 PreciseMarch::Sample PreciseMarch::step_surely(const Sample& a, double step) const {
     const double covered = 1.9 * step / (1 - slope_);
     if (covered > 1.1 * step) {
@@ -221,7 +221,7 @@ glm::dvec3 PreciseMarch::normal(double t_from, double t_to, Phase to) const {
     constexpr double certain = 1e-6;
     const PreciseEvaluator& e = tracer_.evaluator();
     glm::dvec3 best = direction_;
-    double steepest = 0;
+    double best_cosine = 0;
     for (const double beyond : {0.0, resolution_})
         for (const bool is_near : {true, false}) {
             const double t = is_near ? t_from - beyond : t_to + beyond;
@@ -229,8 +229,8 @@ glm::dvec3 PreciseMarch::normal(double t_from, double t_to, Phase to) const {
             const double steepness = glm::length(g), cosine = glm::dot(g, direction_) / steepness;
             if (!(steepness > 0.01)) continue;
             if (cosine > certain) return g / steepness;
-            if (cosine > steepest) {
-                steepest = cosine;
+            if (cosine > best_cosine) {
+                best_cosine = cosine;
                 best = g / steepness;
             }
         }

@@ -51,7 +51,8 @@ class PreciseMarch {
     // The ray, restarted where the search begins, a distance `skipped_` past its origin. The direction is of unit
     // length.
     glm::dvec3 start_{0}, direction_{0};
-    double skipped_ = 0, length_ = 1;
+    double skipped_ = 0;
+    double length_ = 1;  // of the caller's direction, which is the unit of reported distances
     Phase carried_;
     double t_ = 0, end_ = -1;
     std::optional<Sample> labelled_;  // the last sample that is labelled with the carried phase

@@ -20,7 +20,7 @@ namespace {
 // The number of rays in a block that one thread traces: few, because a single ray may take long.
 constexpr std::size_t precise_rays = 64;
 // The default resolution, as a fraction of the diagonal. Objects with nodes that search in single precision
-// (PreciseProgram::searches_in_floats) get the default of the single-precision tracer.
+// (PreciseProgram::searches_in_floats) get the fraction that the single-precision tracer uses near the origin.
 constexpr double fine = 0x1p-30, fine_in_floats = 2e-6;
 // The finest resolution, as a multiple of value_error(), and the coarsest, as a fraction of the diagonal.
 constexpr double min_resolution_over_error = 2, max_resolution_over_diagonal = 0.01;

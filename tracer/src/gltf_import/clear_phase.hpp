@@ -22,8 +22,8 @@
 
 namespace phasetree::tracer::gltf_import {
 
-/// The material. `mean_chord` is that of all solids of the material, in metres. Sentences about what is lost or
-/// approximate are added to `losses`; each follows the material's name.
+/// The material. `mean_chord` is that of all solids of the material, in metres. Appends to `losses` what is lost or
+/// approximate, as predicates to be printed after the material's name, such as "loses its dispersion".
 SceneJson clear_phase(const gltf::ClearMaterial&, double mean_chord, std::vector<std::string>& losses);
 
 }  // namespace phasetree::tracer::gltf_import

@@ -10,10 +10,12 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-constexpr std::size_t max_points = 4096;                     // of one surface, for one pair
-constexpr std::size_t max_distance_evaluations = 4'000'000;  // in total, over all pairs
-constexpr float widest_gap = 0.02f;                          // of the smaller solid's diagonal
-constexpr float least_depth = 1e-5f, least_gap = 1e-6f;      // of the smaller solid's diagonal; rounding is less
+constexpr std::size_t max_points = 4096;  // of one surface, for one pair
+// Limits the number of points over all pairs, unless fewest_points per surface are more. Each point costs an
+// evaluation, and about a dozen further ones if it may be at a gap.
+constexpr std::size_t max_distance_evaluations = 4'000'000;
+constexpr float widest_gap = 0.02f;                      // of the smaller solid's diagonal
+constexpr float least_depth = 1e-5f, least_gap = 1e-6f;  // of the smaller solid's diagonal; rounding is less
 // A solid counts as inside another one if it protrudes by at most this fraction of its own diagonal.
 constexpr float max_protrusion = 1e-3f;
 
@@ -78,12 +80,12 @@ class Finder {
             contact.is_first_inside = first.is_inside && !second.is_inside;
             contact.is_second_inside = second.is_inside && !first.is_inside;
         }
-        const Side& wider = first.share >= second.share ? first : second;
-        if (wider.share > 0)
+        const Side& larger = first.share >= second.share ? first : second;
+        if (larger.share > 0)
             contact.gap = Gap{.least = std::min(first.least, second.least),
                               .greatest = std::max(first.greatest, second.greatest),
-                              .of = &wider == &first ? pair.first : pair.second,
-                              .share = wider.share};
+                              .of = &larger == &first ? pair.first : pair.second,
+                              .share = larger.share};
         return contact;
     }
 
@@ -126,8 +128,8 @@ class Finder {
         return false;
     }
 
-    // Whether the segment from a point on the surface lies outside the solid, including its beginning. (From the outer
-    // side of a thin wall, a segment inwards to a liquid begins within the wall.)
+    // Whether a segment that starts on the solid's surface stays outside the solid. Points near its start are tested,
+    // too: from the outer face of a thin wall, a segment to the liquid inside passes through the wall first.
     static bool is_outside(const Solid& own, const glm::vec3& at, const glm::vec3& way) {
         return std::ranges::all_of(std::array{0.05f, 0.25f, 0.5f, 0.75f, 0.95f},
                                    [&](float t) { return own.distance(at + t * way) > 0; });

@@ -137,6 +137,7 @@ class Importer {
         return phases;
     }
 
+    // Adds a PLY file for each solid to the result. The caller of import_gltf() writes them.
     void write_meshes() {
         const std::string folder = scene_.stem().string() + ".meshes/";
         require_utf8(folder);
@@ -198,6 +199,8 @@ class Importer {
     SceneJson mesh() const {
         SceneJson gltf{{"file", named_from_scene()}};
         if (!solids_.empty() || !file_.lights.empty()) {
+            // The scene has the file's clear materials as phases, and its lights in "lights", so its reader need not
+            // warn that the mesh ignores them.
             gltf["imported"] = true;
             if (file_.has_panes) gltf["panes"] = true;
         }

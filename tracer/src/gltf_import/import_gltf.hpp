@@ -16,7 +16,8 @@ struct ImportedScene {
     std::string text;                   ///< of the scene file
     std::vector<ImportedMesh> meshes;   ///< files that the scene names
     std::vector<std::string> warnings;  ///< sentences about what is lost
-    std::string report;  ///< text lines: the objects by rank (precedence.hpp), then their overlaps and gaps
+    /// Text lines: the objects in order of precedence (precedence.hpp), numbered from 1, then their overlaps and gaps.
+    std::string report;
 };
 
 struct ImportChoices {

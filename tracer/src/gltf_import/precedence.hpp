@@ -26,28 +26,29 @@ namespace phasetree::tracer::gltf_import {
 enum class Matter { solid, gas, liquid };
 std::string_view name_of(Matter);
 
-/// What an object is made of. A refractive index below 1.1 means gas. Otherwise the object's name decides, or, if it
-/// has no known word, the material's. The last known word counts; once a word is known, what follows "of", "in" or
-/// "with" is ignored: "glass of water" is solid, "water" liquid. If neither name has a known word, an index from 1.32
-/// to 1.4 means liquid and any other solid; ice has 1.31.
+/// What an object is made of. A refractive index below 1.1 means gas. Otherwise, the object's name is searched for the
+/// words listed in precedence.cpp and, if it has none of them, the material's name. The last word found decides, but
+/// once one has been found, the rest of the name after "of", "in" or "with" is ignored: "glass of water" is solid,
+/// "water" liquid. If neither name has such a word, an index from 1.32 to 1.4 means liquid, and any other index means
+/// solid (ice has 1.31).
 Matter matter_of(std::string_view object, std::string_view material, float ior);
 
 /// The matter of that name; nullopt if there is none.
 std::optional<Matter> matter_named(std::string_view name);
 
 struct Decision {
-    std::size_t winner = 0, loser = 0;  ///< numbers of solids
+    std::size_t winner = 0, loser = 0;  ///< indices of objects
     std::string reason{};               ///< such as "solid over liquid"
     int rule = 0;                       ///< 1 to 4
 };
 
 struct Precedence {
-    std::vector<std::size_t> order;     ///< numbers of all solids; earlier ones win
-    std::vector<Decision> decisions;    ///< for each contact with an overlap, in that order
+    std::vector<std::size_t> order;     ///< indices of all objects; earlier ones win
+    std::vector<Decision> decisions;    ///< one per contact that overlaps, in the order of the contacts
     std::vector<std::string> warnings;  ///< sentences
 };
 
-/// Applies the rules. `matter` has an entry per solid.
+/// Applies the rules. `matter` has an entry per object in `solids`.
 Precedence precedence_of(const std::vector<Solid>& solids, const std::vector<Matter>& matter,
                          const std::vector<Contact>& contacts);
 

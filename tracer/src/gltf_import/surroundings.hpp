@@ -16,8 +16,9 @@ SceneJson camera_of(const gltf::GltfFile& file, const Bounds& subject);
 /// small sphere, because without photons, the light of a point does not pass through clear surfaces.
 SceneJson lights_of(const gltf::GltfFile& file, const Bounds& subject);
 
-/// Size by the camera's aspect ratio; exposure for the file's lights. `has_phases` says whether there are clear phases,
-/// and `is_dispersive` whether one has an Abbe number.
+/// The image has the camera's aspect ratio. If the file has lights, the exposure is set for them, and photons
+/// ("caustics") are enabled if the scene has clear phases (`has_phases`). The scene is spectral if a phase has an Abbe
+/// number (`is_dispersive`).
 SceneJson render_settings_of(const gltf::GltfFile& file, const Bounds& subject, bool has_phases, bool is_dispersive);
 
 }  // namespace phasetree::tracer::gltf_import

@@ -110,8 +110,8 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     std::optional<LightSample> sample = lights.sample(at_, u, wavelengths);
     if (!sample) return std::nullopt;
     if (sample->is_of_point_light()) {
-        // A direction to a point light that a plane refracts misses the light, so only the straight technique samples
-        // it.
+        // Once a plane has refracted the direction to a point light, the direction misses the light. So only the
+        // directions that go straight to it sample a point light.
         sample->pdf /= static_cast<float>(1 + planes_);
         return by == 0 ? sample : std::nullopt;
     }

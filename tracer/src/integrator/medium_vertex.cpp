@@ -26,7 +26,8 @@ std::optional<PhotonScattering> MediumVertex::scattering_of(const Photon& photon
     const float coverage = placement_->coverage(depth);
     const float by_photons = per_line_density_without_cosine_ * photon.line_density * coverage;
     if (!(by_photons > 0.0f)) return std::nullopt;
-    // The transmittance for the photon between the boundary and the point. It is 1 for points before the boundary.
+    // The transmittance along the photon's line from the boundary to the point. It is 1 if the line passes the point
+    // before it enters the medium (`depth` is then negative).
     const Wavelengths* of_photon = photon.of_one_wavelength ? wavelengths.all() : wavelengths.now();
     const glm::vec3 left = transmittance(
         medium_,

@@ -22,21 +22,21 @@ struct PathHelp {
 /// The estimate is black for a ray that starts in an opaque phase.
 ///
 /// Light through clear interfaces. A shadow ray that meets a smooth interface of two clear phases continues through it,
-/// reflected or refracted at random with the probabilities of Fresnel's equations. (A path may choose with others:
-/// interface_choice.hpp.) The light that the shadow ray finds at its end counts as arriving at the vertex from ω, the
-/// direction in which the ray started. A thin wall hardly bends it, so a lamp behind glass is found about as often as
-/// an unoccluded one. Shadow rays and the path's own continuation in a direction sampled from the BSDF are thus two
+/// reflected or refracted at random with the probabilities of Fresnel's equations. (A path may use other probabilities;
+/// see interface_choice.hpp.) The light that the shadow ray finds at its end counts as arriving at the vertex from ω,
+/// the direction in which the ray started. A thin wall hardly bends it, so a lamp behind glass is found about as often
+/// as an unoccluded one. Shadow rays and the path's own continuation in a direction sampled from the BSDF are thus two
 /// techniques for the same integral over ω,
 ///     ∫ f(ω) E(ω) dω,   E: emission at the end of a chain of smooth clear interfaces, of any length from 0,
 /// combined by the power heuristic of their pdfs *of ω*: that of light sampling, and that of the BSDF. A path keeps
 /// these two pdfs through the chain. No light is counted twice, regardless of what it is seen through. The only light
-/// lost is that of paths that reach max_depth within the chain, which no weight accounts for. light_proposal.hpp
-/// determines the directions in which shadow rays start.
+/// that is lost is that of paths that reach max_depth within a chain; the weights do not compensate for it.
+/// light_proposal.hpp determines the directions in which shadow rays start.
 ///
-/// Thin panes. Light goes straight through a smooth pane, so no technique counts a pane as an interface of a chain. A
-/// shadow ray passes it without choosing at random, even towards a point light, and the pane's transmittance multiplies
-/// its light. What a pane reflects is like a mirror's reflection: shadow rays do not follow it, but sampled directions
-/// and photons do.
+/// Thin panes. Light goes straight through a smooth pane, so no technique counts a pane that light passes as an
+/// interface of a chain. A shadow ray passes it without choosing at random, even towards a point light, and the pane's
+/// transmittance multiplies its light. Reflection by a pane counts like that by a mirror: shadow rays do not follow it,
+/// but sampled directions and photons do.
 ///
 /// Scattering media. A path may be scattered in a medium. Such a point is treated like a surface point: it does
 /// next-event estimation and samples a direction, with the phase function instead of the BSDF. E then includes the
@@ -46,7 +46,7 @@ struct PathHelp {
 /// light's end (caustics/caustics.hpp). If N photons start per pass and those within r of the surface point are
 /// gathered, they find directions ω with the expected density
 ///     N π r² (p(line)/n_l²) n² cos θ.
-/// (Photons *count* at the vertex of a path that gathers them.) Here p(line) is the pdf of the line along which a
+/// Here p(line) is the pdf of the line along which a
 /// photon leaves the light, per area perpendicular to the line and per solid angle. n_l is the index around the light
 /// (p(line)/n_l² is EmittedPhoton::line_density), n is the index at the surface, and cos θ converts area across the
 /// line into area of the surface. The étendue, index² · area across the line · solid angle, is the same all along a
@@ -64,14 +64,16 @@ struct PathHelp {
 /// that met it, from either side.
 ///
 /// Points in a scattering medium gather photons, too. There is no cos θ there. A photon is stored at one random point
-/// of its line through the medium. It is gathered at the point at distance t behind the boundary if it lies close
-/// enough, which has the probability F(t), the coverage (photon_placement.hpp). So the density is
+/// of its line through the medium. A vertex at the depth t behind the boundary, along that line, gathers the photon if
+/// the stored point is close enough to the vertex. The probability of that is F(t), the coverage
+/// (photon_placement.hpp). So the density is
 ///     N π r² (p(line)/n_l²) n² F(t).
 ///
 /// Wavelengths (spectrum/wavelengths.hpp). If the scene requests them, a path, its shadow rays and the photons that it
 /// gathers have the same three wavelengths from the start. Otherwise they carry colours until the first dispersive
 /// interface, and a single wavelength from there on. So the techniques still estimate the same integral, over
-/// directions and wavelengths. All three have the same density of wavelengths, which cancels in their weights.
+/// directions and wavelengths. All three techniques have the same density of wavelengths, which cancels in their
+/// weights.
 ///
 /// Guiding. Where a guide chooses some of the directions from a surface (guided.hpp), the pdf of the mixture replaces
 /// that of the BSDF in all of the above.

@@ -37,8 +37,8 @@ class PathGuiding {
 
   private:
     // Once the product falls below this, a path samples from the BSDFs alone. A wrong guide, or an occluded lamp
-    // (interface_choice.hpp), may double a path's weight at each surface, and once more after it has reached this
-    // limit.
+    // (interface_choice.hpp), may double a path's weight at each surface. The last doubling may start right at this
+    // limit, so the limit is twice 1/weight_limit.
     static constexpr float least_pdf_over_unguided = 2.0f / PathRecord::weight_limit;
 
     const Guide* guide_;

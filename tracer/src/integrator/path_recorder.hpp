@@ -1,5 +1,5 @@
-// Fills in a PathRecord (film/path_record.hpp) while a path is traced. Without a record, each call costs one
-// comparison.
+// Fills in a PathRecord (film/path_record.hpp) while a path is traced. Without a record, a call costs at most a
+// comparison or an assignment.
 #pragma once
 
 #include "film/path_record.hpp"

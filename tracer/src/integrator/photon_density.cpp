@@ -17,7 +17,7 @@ float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3&
 
 float per_line_density_without_cosine(const Photons& photons, const Scene& scene, Phase phase) {
     const float ior = clear_at(scene, phase).ior;
-    return photons.map->expected() * ior * ior;
+    return photons.map->expected() * ior * ior;  // expected() is N π r²
 }
 
 float per_line_density_at(const Photons& photons, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,

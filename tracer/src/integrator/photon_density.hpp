@@ -1,5 +1,5 @@
-// The density with which photons find the directions at a point that gathers them (path.hpp), except for the line
-// density, which is known only at the light's end of a chain.
+// The density with which photons find the directions at a point that gathers them (path.hpp), without its last factor,
+// the line density, which is known only at the light's end of a chain.
 #pragma once
 
 #include <optional>

@@ -58,7 +58,7 @@ class SurfaceVertex {
   private:
     /// Whether photons that continue from the surface are gathered at an earlier vertex of the path, and not here.
     bool is_passed_by_photons() const { return per_line_density_before_.has_value(); }
-    /// PhotonDensity::per_line_density of a direction in the frame.
+    /// PhotonDensity::per_line_density (the factor of the line density) of a direction in the frame.
     float per_line_density(const glm::vec3& wi) const;
     std::optional<PhotonScattering> scattering_of(const Photon& photon) const;
 
@@ -67,7 +67,8 @@ class SurfaceVertex {
     const Surface& surface_;
     Frame frame_;
     GuidedBsdf bsdf_;
-    /// If photons are gathered at an earlier vertex: the density there, over the pdf with which the path left it.
+    /// If photons are gathered at an earlier vertex: PhotonDensity::per_line_density there, divided by the pdf with
+    /// which the path left it.
     std::optional<float> per_line_density_before_;
     int interfaces_before_ = 0;
     LightProposal proposal_;

@@ -14,9 +14,12 @@ namespace phasetree::tracer::studio {
 /// was built in. nullopt if there is none.
 std::optional<std::filesystem::path> folder_of_pictures();
 
-/// The answer to GET /catalogue. Pictures are null without a folder. The members of kinds and parameters are those of
-/// CatalogueKind and KindParameter, and:
-///   * of a kind, "keyed": is_written_with_name; "alone": the name of lone_parameter();
+/// The answer to GET /catalogue. Pictures are null without a folder. Most members of kinds and parameters correspond to
+/// those of CatalogueKind and KindParameter; kind_json() and parameter_json() in catalogue.cpp list all of them. These
+/// are not obvious:
+///   * of a kind, "kind": its name; "help": the summary, equation and section; "keyed": is_written_with_name (in the
+///     outline of a document, "keyed" means "changes with time"); "alone": the name of lone_parameter(); "slots": the
+///     parameters whose control is "slot"; "parameters": all others;
 ///   * of a parameter, "instead": the slot type whose values may replace its plain value.
 std::string written_catalogue(const Vocabulary& vocabulary, const std::optional<std::filesystem::path>& pictures);
 

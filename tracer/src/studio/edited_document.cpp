@@ -179,7 +179,9 @@ void EditedDocument::check_base(const EditRequest& request) const {
     for (const RecentText& recent : recent_)
         if (recent.from_version <= request.base) base = recent.text;
     if (base && *base == *present->text) return;
-    if (!base) throw ConflictError("the document has changed too often since; read it again");
+    if (!base)
+        throw ConflictError(
+            fmt::format("the document has changed too often since version {}; read it again", request.base));
     try {
         const Document before = options_.parse(*base);
         if (!present->document) throw ConflictError("the document is no longer valid JSON; read it again");
@@ -260,7 +262,7 @@ std::uint64_t EditedDocument::edit(const std::string& label,
         history_->add(std::move(text), label);
         commit();
     }
-    // Whoever asks for this wants it in the file.
+    // Save even if options_.saves is false: this function serves buttons that write into the file.
     if (*saved_ != history_->text()) {
         save_text();
         if (const auto after = state(); !after->is_saved) throw OutputError(after->save_error);

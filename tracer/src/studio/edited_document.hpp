@@ -1,8 +1,8 @@
 // A scene file that is being edited: its text, its history and its file.
 //
-// Every change to the text goes through this class, whether a page, a button that writes into the file, or another
-// program that saves the file asks for it. A page is a browser tab that shows the studio. All functions may be called
-// by any thread.
+// Every change to the text goes through this class, whether it comes from a page, from a button that writes into the
+// file, or from another program that has saved the file. A page is a browser tab that shows the studio, the editor of
+// scenes. All functions may be called by any thread.
 #pragma once
 
 #include <atomic>
@@ -64,8 +64,8 @@ class EditedDocument {
 
     struct Options {
         std::filesystem::path file;
-        bool saves = true;  ///< whether each step is saved at once
-        /// Makes a document of a text, with the program's options for reading it. Throws SceneError.
+        bool saves = true;  ///< whether each step is saved at once (that of edit(label, change) always is)
+        /// Parses a text with the program's options for reading scenes. Throws SceneError.
         std::function<Document(std::string)> parse;
         /// Throws SceneError if the scene is invalid, and PreparationCancelled if the current PreparationWatch cancels
         /// it. Called only for strict requests.
@@ -89,7 +89,8 @@ class EditedDocument {
     /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the text has
     /// changed since EditRequest::base in a way that affects the operations (rebase.hpp).
     std::uint64_t edit(const EditRequest& request);
-    /// Changes the text by a function of the document. Throws SceneError if the file cannot be read.
+    /// Changes the text by a function of the document, and saves it even if Options::saves is false. Throws SceneError
+    /// if the file cannot be read, and OutputError if it cannot be saved.
     std::uint64_t edit(const std::string& label, const std::function<std::string(const Document&)>& change);
     std::uint64_t undo();
     std::uint64_t redo();
@@ -102,7 +103,7 @@ class EditedDocument {
     /// Records what reading the scene found: an error, or none.
     void record_check(std::uint64_t text_version, const std::optional<SceneError>& error);
 
-    /// A document of a text, with the program's options for reading it. Throws SceneError.
+    /// Parses a text with Options::parse. Throws SceneError.
     Document parsed(std::string text) const { return options_.parse(std::move(text)); }
     const Vocabulary& vocabulary() const { return vocabulary_; }
     const std::filesystem::path& file() const { return options_.file; }

@@ -101,8 +101,8 @@ class Insertion {
         const std::size_t next = container_.items[i].begin;
         if (!begins_line(text_, next))
             return replaced(text_, {{{next, next}, before_item_within_line(next, item, line)}});
-        // After the comma of the item before and the comments on its line, so that comments above the next item stay
-        // there.
+        // Insert after the comma that follows the previous item, and after any comments on that line, so that comments
+        // above the next item stay above it.
         std::size_t at = container_.open + 1;
         if (i > 0) at = comma_in(container_.gap(i)) + 1;
         const std::size_t comments = end_of_line_comments(text_, at);

@@ -49,7 +49,7 @@ struct ReplaceText {
 using Operation =
     std::variant<SetValue, InsertValue, RemoveValue, MoveValue, WrapValue, UnwrapValue, RenameKey, ReplaceText>;
 
-/// The name of an operation in requests: "set".
+/// The name of an operation in requests, such as "set".
 std::string_view name_of(const Operation& operation);
 
 /// The text of a document after an operation. Throws SceneError if the operation is impossible. The error's position is

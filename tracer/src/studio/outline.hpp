@@ -24,10 +24,12 @@ struct OutlineParameter {
 struct OutlineEntry {
     std::string pointer;  ///< of the whole value, such as {"sphere": {…}}
     std::optional<Value> value;
-    /// The kind's key; "reference" for the name of a shape, and the key that the file has for an unknown kind.
+    /// The kind's key; "reference" for the name of a shape, "list" for a list of transforms, "group" for a group, and
+    /// the file's own key for an unknown kind.
     std::string kind;
-    std::string type;                    ///< "field", "light", …
-    const CatalogueKind* of = nullptr;   ///< its description; null for references, groups, transforms and unknown kinds
+    std::string type;  ///< "field", "light", …
+    /// Its description; null for references, groups, lists of transforms and unknown kinds.
+    const CatalogueKind* of = nullptr;
     std::optional<std::string> label{};  ///< the name that a person gave
     std::optional<std::string> slot{};   ///< the parameter of the parent that it is in
     std::vector<std::string> phases{};   ///< named in its parameters, without those of its children

@@ -31,8 +31,8 @@ std::string count_of_items(std::size_t count);
 /// The child of a value; nullopt if there is none.
 std::optional<Value> child_of(Value value, std::string_view token);
 
-/// The value that a pointer refers to. Throws SceneError at the last value on the way if there is none, and
-/// std::invalid_argument if the text is not a pointer.
+/// The value that a pointer refers to. If there is none, throws a SceneError whose position is that of the deepest
+/// value that exists on the path. Throws std::invalid_argument if the text is not a pointer.
 Value value_at(const Document&, std::string_view pointer);
 
 }  // namespace phasetree::tracer::studio

@@ -34,7 +34,7 @@ void add_alternatives(const Json& schema, std::vector<Json>& all) {
     for (const Json& one : schema["anyOf"]) add_alternatives(one, all);
 }
 
-// The type whose kinds a definition of the schema lists. It usually has the definition's name.
+// The type whose kinds are listed in this definition of the schema. Usually both have the same name.
 std::string type_of_reference(const std::string& reference) {
     if (reference == "expectation") return "statement";
     return reference == "phase" ? "material" : reference;
@@ -64,7 +64,7 @@ std::string control_of_vector(const KindParameter& p) {
     return p.unit == "m" && !p.low_is_open && (!p.low || *p.low != 0) ? "point" : "vector";
 }
 
-// The control for one way of writing a value; empty for others, such as nested lists.
+// The control that edits values written as this schema says; empty if there is none, as for nested lists.
 std::string control_of(const Json& schema, KindParameter& p) {
     if (schema.contains("enum")) {
         for (const Json& one : schema["enum"]) p.choices.push_back(one);
@@ -99,7 +99,7 @@ std::string reference_at_stops(const Json& schema) {
 
 bool is_of_phases(const ParameterPage& entry, const std::string& chapter) {
     if (entry.type == "phase" || entry.type == "phase or list of phases" || entry.type == "list of phases") return true;
-    // Statements name phases in parameters of the type "text", which do not mention phases.
+    // In statements, parameters that name phases have the type "text", so the type does not show that they name phases.
     return chapter == "statements" && entry.type.starts_with("text");
 }
 
@@ -152,7 +152,8 @@ struct ChapterType {
     bool is_written_with_name;
 };
 
-// A chapter missing here makes the constructor throw, and so fails every test of the studio.
+// A chapter missing here makes the constructor throw, and so fails every test of the studio. (type_of_chapter() handles
+// the statements.)
 constexpr std::array<ChapterType, 17> chapter_types{{{"scene-file", "scene", false},
                                                      {"placed-objects", "", false},
                                                      {"transforms", "transform", true},

@@ -65,8 +65,8 @@ class Vocabulary {
     const std::vector<CatalogueKind>& kinds() const { return kinds_; }
     /// The kind of a type with this key; null if there is none.
     const CatalogueKind* find(std::string_view type, std::string_view name) const;
-    /// The kind of a type that has a single kind whose values are written without its name, such as "render"; otherwise
-    /// null.
+    /// The only kind of a type, such as "render", if the type has just one and its values are written without the
+    /// kind's name; otherwise null.
     const CatalogueKind* only(std::string_view type) const;
 
   private:

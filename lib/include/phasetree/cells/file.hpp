@@ -26,8 +26,8 @@ class CellsFileError : public std::runtime_error {
 };
 
 /// Write cells to a file, replacing an existing one. The file is written under a temporary name in the same folder and
-/// then renamed, so it appears complete or not at all. Its content does not depend on the number of threads or the
-/// instruction set that built the cells. Throws CellsFileError.
+/// then renamed, so it appears complete or not at all. Its content does not depend on the number of threads or
+/// the SIMD instructions with which the cells were built. Throws CellsFileError.
 void write_cells(const std::filesystem::path&, const InterfaceCells&);
 
 /// Read the cells of an object. They are identical, to the last bit, to those that InterfaceCells(object, options)
@@ -48,8 +48,8 @@ std::shared_ptr<const InterfaceCells> read_cells(const std::filesystem::path&, c
                                                  const CellOptions& options = {});
 
 /// Whether these are the cells that InterfaceCells(object, options) would build, so that they need not be rebuilt.
-/// Compares the same data as read_cells(), in about the time that record() takes. Throws ModelError like
-/// InterfaceCells.
+/// Compares the same data as read_cells(), in about the time that it takes to compile the object into its program
+/// (record() in program/program.hpp). Throws ModelError like InterfaceCells.
 bool are_cells_of(const InterfaceCells&, const Phased& object, const CellOptions& options = {});
 
 }  // namespace phasetree

@@ -37,7 +37,7 @@
 // * By default, r is 2⁻³⁰ (9·10⁻¹⁰) of the object's diagonal, and η is 2⁻⁴⁴ (6·10⁻¹⁴) of the farthest coordinate of its
 //   bounds. A ray within η of a face crosses it anywhere along the face, or not at all.
 // * For objects that search in floats (meshes, balls, volumes, labels; see PreciseEvaluator), η is 2⁻²² of the farthest
-//   coordinate, and r is at least 2·10⁻⁶ of the diagonal. These objects are as exact as with floats.
+//   coordinate, and r is 2·10⁻⁶ of the diagonal by default. These objects are as exact as with floats.
 // * The constants of some nodes, such as cones, are not exactly consistent with each other, because each is rounded to
 //   a float. The values of others (sines, polygons, networks) are enclosed with float arithmetic. In both cases, an
 //   enclosure may miss the value in double precision, usually by less than 10⁻⁷. The difference is measured at some
