@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t max_points = 4096;  // of one surface, for one pair
 // Limits the number of points over all pairs, unless fewest_points per surface are more. Each point costs an
 // evaluation, and about a dozen further ones if it may be at a gap.
-constexpr std::size_t max_distance_evaluations = 4'000'000;
+constexpr std::size_t max_points_of_all_pairs = 4'000'000;
 constexpr float widest_gap = 0.02f;                      // of the smaller solid's diagonal
 constexpr float least_depth = 1e-5f, least_gap = 1e-6f;  // of the smaller solid's diagonal; rounding is less
 // A solid counts as inside another one if it protrudes by at most this fraction of its own diagonal.
@@ -153,7 +153,7 @@ std::vector<Contact> contacts_of(const std::vector<Solid>& solids) {
     constexpr std::size_t fewest_points = 64;
     const std::vector<Pair> pairs = near_pairs(solids);
     if (pairs.empty()) return {};
-    const Finder finder(solids, std::clamp(max_distance_evaluations / (2 * pairs.size()), fewest_points, max_points));
+    const Finder finder(solids, std::clamp(max_points_of_all_pairs / (2 * pairs.size()), fewest_points, max_points));
     std::vector<Contact> contacts;
     for (const Pair& pair : pairs) {
         const Contact contact = finder.find(pair);
