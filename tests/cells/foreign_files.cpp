@@ -37,7 +37,7 @@ TEST_CASE("a file of other cells is rejected, and says in what it differs") {
     };
     with([](CellsFileHeader& h) { h.library = {'9', '.', '9', '\n'}; }, "written by build 9.9?, but this is build ");
     with([](CellsFileHeader& h) { h.machine = {'p', 'd', 'p', '1', '1'}; }, "written for pdp11");
-    with([](CellsFileHeader& h) { h.layout += 1; }, "other nodes");
+    with([](CellsFileHeader& h) { h.layout += 1; }, "a different list of nodes");
     with([](CellsFileHeader& h) { h.format += 1; }, "format is version 3");
     with([](CellsFileHeader& h) { h.byte_order = 0x04030201; }, "byte order");
 }

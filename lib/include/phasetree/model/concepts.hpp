@@ -14,7 +14,7 @@ namespace phasetree {
 
 // An operator is a node with operands. It has a template evaluate(domain, p), or components of it. The domain defines
 // what evaluating means: computing values, recording instructions, or finding the primitive that a value comes from.
-// src/tree/domain.hpp lists its functions (field, phases, primitive, map, one_lipschitz).
+// Its functions are field, phases, primitive, map and one_lipschitz; see "Nodes" in lib/README.md.
 
 /// A list of types. The nodes are enumerated in this form.
 template <class... Ts>
