@@ -7,6 +7,7 @@ import {replaceSelect} from "./menu.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
+import {isPressed, whenReleased} from "./press.js";
 import {Changes, ask, askFile, follow, writeCamera} from "./server.js";
 import {fitPicture} from "./stage.js";
 import {Studio} from "./studio.js";
@@ -114,6 +115,11 @@ function showState(next, pixels) {
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
   if (pixels) fit();
+  if (isPressed()) whenReleased().then(() => state === next && showPanels());
+  else showPanels();
+}
+
+function showPanels() {
   // Changes just made here are newer than the server's state.
   if (changes.arePending || state.version < changes.version) return;
   showPhases(state.phases);

@@ -1,6 +1,6 @@
 // The tree of what is in the scene: chosen by pointer or keyboard, filtered by words, and put in order by dragging.
 import {fits} from "./catalogue.js";
-import {make} from "./dom.js";
+import {arrange, make} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
 import {nameOf, remarkOf} from "./names.js";
 import {indexOf, isInList, isSection, listOf, slotOf, typeOfPlace} from "./structure.js";
@@ -70,11 +70,11 @@ export class Outliner {
     this.#rows = new Map(this.#shown.map((entry) => [entry.key, this.#rowOf(entry)]));
     const rows = [...this.#rows.values()], isSame = rows.length === before.length && rows.every((row, i) => row === before[i]);
     if (!isSame || rows.length === 0) {
-      tree.replaceChildren(...rows);
+      arrange(tree, rows);
       tree.scrollTop = scroll;
       if (rows.length === 0) tree.append(make("p", {class: "faint empty"}, "No matches."));
     }
-    this.#showSelection();
+    this.#markSelection();
     if (hadFocus && !isSame) (this.#rows.get(focused) ?? this.#rows.get(this.#selection.active) ?? [...this.#rows.values()][0])?.focus();
   }
   // The row of an entry. Reuses the existing row if its appearance is unchanged, which keeps dragging a number fast.
@@ -136,6 +136,10 @@ export class Outliner {
     this.#anchor = entry.key;
   }
   #showSelection() {
+    this.#markSelection();
+    this.#rows.get(this.#selection.active)?.scrollIntoView({block: "nearest"});
+  }
+  #markSelection() {
     const active = this.#selection.active;
     for (const [key, row] of this.#rows) {
       row.setAttribute("aria-selected", String(this.#selection.has(key)));
@@ -143,7 +147,6 @@ export class Outliner {
       row.tabIndex = key === active ? 0 : -1;
     }
     if (!this.#rows.has(active) && this.#shown.length > 0) this.#rows.get(this.#shown[0].key).tabIndex = 0;
-    this.#rows.get(active)?.scrollIntoView({block: "nearest"});
   }
   // Makes an entry's row visible.
   reveal(pointer) {

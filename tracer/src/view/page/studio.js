@@ -9,7 +9,7 @@ import {Inspector} from "./inspector.js";
 import {listenForKeys, showKeys} from "./keys.js";
 import {Outliner} from "./outliner.js";
 import {Selection} from "./selection.js";
-import {askCatalogue, shortMessage} from "./server.js";
+import {askCatalogue, pause, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
 import {mapTo, transformPoint} from "./affine.js";
 import {present} from "./keyframes.js";
@@ -21,6 +21,9 @@ const element = (id) => document.getElementById(id);
 export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
+  #isReady = false; // whether the catalogue and the scene have arrived
+  #makeReady;
+  #ready = new Promise((done) => (this.#makeReady = done));
 
   // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and
   // lost(error).
@@ -56,13 +59,19 @@ export class Studio {
   }
   // Without a file, as for objects made in Python, there is nothing to edit, and only the view remains.
   async start() {
-    try {
-      this.#catalogue = new Catalogue(await askCatalogue());
-    } catch (error) {
-      if (error.status !== 404) throw error;
-      document.body.dataset.studio = "off";
-      this.view.tabs.show("view");
-      return;
+    while (!this.#catalogue) {
+      try {
+        this.#catalogue = new Catalogue(await askCatalogue());
+      } catch (error) {
+        if (error.status === 404) {
+          document.body.dataset.studio = "off";
+          this.view.tabs.show("view");
+          this.#isReady = true;
+          return;
+        }
+        this.view.lost(error);
+        await pause(1000);
+      }
     }
     this.scene.follow((error) => this.view.lost(error));
     this.actions.catalogue = this.text.catalogue = this.handles.catalogue = this.#catalogue;
@@ -86,8 +95,17 @@ export class Studio {
       "save-file": () => this.scene.save().catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})),
       "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), frame: () => this.frame(),
     };
-    for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", act);
-    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap")});
+    for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", () => this.#whenReady(act));
+    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap"),
+      whenReady: (act) => this.#whenReady(act)});
+  }
+  // What is pressed while the page still loads is done as soon as it has loaded.
+  async #whenReady(act) {
+    if (!this.#isReady) {
+      this.announcer.say("The scene is still being loaded …");
+      await this.#ready;
+    }
+    act();
   }
   #toggleText() {
     const isOpen = this.text.toggle();
@@ -100,6 +118,8 @@ export class Studio {
   }
   #changed({isFirst, isOwn}) {
     const {scene} = this;
+    this.#isReady = true;
+    this.#makeReady();
     this.selection.update(scene);
     this.outliner.show();
     if (scene.hasOutline) {
