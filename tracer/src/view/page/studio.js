@@ -13,14 +13,18 @@ import {askCatalogue, pause, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
 import {mapTo, transformPoint} from "./affine.js";
 import {present} from "./keyframes.js";
+import {whenReleased} from "./press.js";
 import {TextDrawer} from "./text_drawer.js";
 import {Timeline} from "./timeline.js";
 
+const pauseOfSaving = 700; // milliseconds
 const element = (id) => document.getElementById(id);
 
 export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
+  #unsaved = null;   // timer
+  #saveError = null; // the last one that was shown
   #isReady = false; // whether the catalogue and the scene have arrived
   #makeReady;
   #ready = new Promise((done) => (this.#makeReady = done));
@@ -134,11 +138,24 @@ export class Studio {
     element("redo").disabled = scene.redo === null;
     element("undo").title = scene.undo === null ? "Nothing to undo" : `Undo: ${scene.undo} (Ctrl+Z)`;
     element("redo").title = scene.redo === null ? "Nothing to redo" : `Redo: ${scene.redo} (Ctrl+Shift+Z)`;
-    element("saved").textContent = scene.saveError ?? (scene.saved ? "Saved" : "Not saved");
-    element("save-file").hidden = scene.saved;
+    this.#showSaved();
     element("empty").hidden = !scene.hasOutline || ["/tree", "section:objects"].some((key) => scene.entry(key));
     this.view.changed();
     if (!isFirst && !isOwn) this.announcer.say(scene.undo ? `Changed elsewhere: ${scene.undo}` : "Changed elsewhere");
+  }
+  // Every step is saved at once, so only what stays unsaved is worth a button.
+  #showSaved() {
+    const {saved, saveError} = this.scene, show = () => {
+      element("saved").textContent = this.scene.saved ? "Saved" : "Not saved";
+      element("saved").classList.toggle("hidden-text", !this.scene.saved);
+      element("save-file").hidden = this.scene.saved;
+      element("save-file").title = this.scene.saveError ?? "Save the scene file";
+    };
+    clearTimeout(this.#unsaved);
+    if (saved) show();
+    else this.#unsaved = setTimeout(() => whenReleased().then(show), pauseOfSaving);
+    if (saveError && saveError !== this.#saveError) this.announcer.say(`Not saved: ${saveError}`, {isWrong: true});
+    this.#saveError = saveError;
   }
   #selected() {
     const {active} = this.actions;
