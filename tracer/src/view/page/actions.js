@@ -10,6 +10,7 @@ import {nameOf} from "./names.js";
 import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
+import {ballOf} from "./swatch.js";
 import {shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
 import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
@@ -121,7 +122,7 @@ export class Actions {
     // Before there is an object, phases alone are no valid scene.
     const strict = this.#scene.entry("/tree") !== null;
     const add = (name, value) => this.run(addedPhase(this.#scene, freeName(name, keysAt(this.#scene.text, "/phases")), value), {strict});
-    openMenu(button, [...materials.map((m) => ({text: m.text, icon: "material", run: () => add(m.name, m.value)})), null,
+    openMenu(button, [...materials.map((m) => ({text: m.text, swatch: ballOf(m), run: () => add(m.name, m.value)})), null,
       {text: "Other materials …", icon: "search", run: async () => {
         const kind = await this.#chosen("New material", this.catalogue.kinds.filter((k) => k.type === "material" && !k.for_meshes_only));
         if (kind) await add(kind.kind, templateOf(kind, this.phases));

@@ -47,6 +47,10 @@ const studio = new Studio({
   camera: () => camera,
   radius: () => state?.radius ?? 1,
   lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  hide: (phase, isHidden) => {
+    const others = state.phases.filter(({name, hidden}) => hidden && name !== phase).map(({name}) => name);
+    changes.make({hidden: isHidden ? [...others, phase] : others});
+  },
   seek: (seconds) => {
     studio.showTime(seconds, state.times);
     changes.make({time: seconds});
@@ -139,7 +143,7 @@ function showPanels() {
 let seenPhases = "";
 function showPhases(shown) {
   phases.show(shown);
-  const text = JSON.stringify(shown.map(({name, kind, color}) => [name, kind, color]));
+  const text = JSON.stringify(shown.map(({name, kind, color, hidden}) => [name, kind, color, hidden]));
   if (text === seenPhases) return;
   seenPhases = text;
   setPhases(shown);

@@ -5,9 +5,11 @@ import {icon, iconOf} from "./icons.js";
 import {nameOf, remarkOf} from "./names.js";
 import {indexOf, isInList, isSection, listOf, slotOf, typeOfPlace} from "./structure.js";
 import {isWithin, parentOf} from "./pointer.js";
-import {lookOf, swatchOf} from "./swatch.js";
+import {isHidden, lookOf, swatchOf} from "./swatch.js";
 
 const pixelsToDrag = 5;
+
+const isPhase = (entry) => entry.type === "material" && /^\/phases\/[^/]*$/.test(entry.pointer);
 
 export class Outliner {
   #scene;
@@ -22,7 +24,7 @@ export class Outliner {
   #anchor = null;
 
   // `elements` are those of the panel: tree, search. `act` has menu(entry, row, event), drop(entry, place), rename(entry),
-  // add(section) and openEdit().
+  // add(section), hide(phase, isHidden) and openEdit().
   constructor(elements, {scene, selection, act}) {
     this.#elements = elements;
     this.#scene = scene;
@@ -106,6 +108,7 @@ export class Outliner {
         this.#act.add(now());
       },
     }, icon("add")));
+    if (isPhase(entry)) row.querySelector(".swatches").before(this.#eye(entry.label));
     row.addEventListener("click", (event) => this.#choose(now(), event));
     row.addEventListener("dblclick", () => (entry.label && !isSection(entry) ? this.#act.rename(now()) : this.#toggle(now())));
     row.addEventListener("contextmenu", (event) => {
@@ -115,6 +118,17 @@ export class Outliner {
     });
     row.addEventListener("pointerdown", (event) => this.#grab(now(), row, event));
     return row;
+  }
+  // Hides a phase in the picture, and shows it again.
+  #eye(phase) {
+    const isOff = isHidden(phase), text = `${isOff ? "Show" : "Hide"} ${phase} in the picture`;
+    return make("button", {
+      type: "button", class: `icon-button small eye${isOff ? " off" : ""}`, "aria-label": text, title: text, tabIndex: -1,
+      onclick: (event) => {
+        event.stopPropagation();
+        this.#act.hide(phase, !isHidden(phase));
+      },
+    }, icon(isOff ? "eye-off" : "eye"));
   }
   #toggle(entry, open = this.#closed.has(entry.key)) {
     if (open) this.#closed.delete(entry.key);

@@ -29,8 +29,8 @@ export class Studio {
   #makeReady;
   #ready = new Promise((done) => (this.#makeReady = done));
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and
-  // lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), hide(phase, isHidden), inspect(event), seek(seconds),
+  // togglePlay(), changed() and lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -46,6 +46,7 @@ export class Studio {
       drop: (entry, to) => this.actions.drop(entry, to),
       rename: (entry) => this.actions.rename(entry),
       add: (section) => this.actions.addToSection(section),
+      hide: (phase, isHidden) => view.hide(phase, isHidden),
       openEdit: () => this.#openEdit(),
     }});
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
