@@ -150,7 +150,10 @@ export class NumberField {
     const text = this.input.value.trim();
     if (this.#sent === null ? text === String(precise(this.#value ?? NaN)) : text === this.#sent && !isAgain) return;
     const value = calculated(text);
-    if (!Number.isFinite(value)) return this.show(...this.#shown);
+    if (!Number.isFinite(value)) {
+      this.input.dispatchEvent(new CustomEvent("nonsense", {bubbles: true, detail: text}));
+      return this.show(...this.#shown);
+    }
     this.#sent = text;
     this.#changed(this.#options.isInteger ? Math.round(value) : precise(value), null);
   }

@@ -60,6 +60,7 @@ export class Studio {
     });
     this.scene.addEventListener("change", (event) => this.#changed(event.detail));
     this.selection.addEventListener("change", () => this.#selected());
+    document.addEventListener("nonsense", (event) => this.announcer.say(`“${event.detail.slice(0, 40)}” is not a number. Type one such as 0.5, 2e-3 or 1/3.`, {isWrong: true}));
     this.#connectButtons();
   }
   // Without a file, as for objects made in Python, there is nothing to edit, and only the view remains.
