@@ -11,7 +11,7 @@ import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
 import {ballOf} from "./swatch.js";
-import {shortMessage} from "./server.js";
+import {askStarts, shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
 import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
 
@@ -96,6 +96,18 @@ export class Actions {
   addKind(kind, active = this.active) {
     const step = (some) => addedKind(this.#scene, some, active, this.phases);
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
+  }
+  // Replaces everything by a scene to start from; undo brings the old one back.
+  async startWith() {
+    try {
+      const kinds = (await askStarts()).map(({name, summary, text}) => ({
+        kind: name, title: name.charAt(0).toUpperCase() + name.slice(1), type: "scene", chapter: "whole-scenes", help: summary, picture: null, template: text,
+      }));
+      const kind = await choose("Replace everything by", kinds);
+      if (kind) await this.run({label: `Start with ${kind.kind}`, operations: [{text: kind.template}], select: ["/tree"]});
+    } catch (error) {
+      this.#announcer.say(shortMessage(error), {isWrong: true});
+    }
   }
   async add() {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type) && !kind.for_meshes_only);
