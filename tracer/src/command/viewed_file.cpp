@@ -10,6 +10,7 @@
 
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
+#include "image/kept_images.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/model/poll_preparation.hpp"
@@ -17,6 +18,36 @@
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
+
+// Keeps display transforms for later pictures, because reading OpenColorIO's configuration takes milliseconds.
+class KeptDisplays {
+  public:
+    // The display and the view of the command line.
+    KeptDisplays(std::optional<std::string> display, std::optional<std::string> view)
+        : display_(std::move(display)), view_(std::move(view)) {}
+
+    DisplayTransform get(const Document& document, const RenderSettings& settings, float exposure_ev) {
+        const std::lock_guard lock(mutex_);
+        const char* configuration = std::getenv("OCIO");
+        std::error_code error;  // such as that there is none
+        const Key key{settings.view, std::filesystem::last_write_time(configuration ? configuration : "", error)};
+        if (key != key_ || displays_.size() >= most) displays_.clear();
+        key_ = key;
+        const auto known = displays_.find(exposure_ev);
+        if (known != displays_.end()) return known->second;
+        const DisplayTransform made = display_of(document, settings, display_, view_, exposure_ev);
+        return displays_.emplace(exposure_ev, made).first->second;
+    }
+
+  private:
+    static constexpr std::size_t most = 16;
+    using Key = std::pair<std::optional<std::string>, std::filesystem::file_time_type>;
+
+    const std::optional<std::string> display_, view_;
+    std::mutex mutex_;
+    Key key_;
+    std::map<float, DisplayTransform> displays_;  // by exposure
+};
 
 namespace {
 
@@ -61,41 +92,12 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
     return first < last ? std::optional(view::TimeSpan{first, last}) : std::nullopt;
 }
 
-// Keeps display transforms for later pictures, because reading OpenColorIO's configuration takes milliseconds.
-class KeptDisplays {
-  public:
-    // The display and the view of the command line.
-    KeptDisplays(std::optional<std::string> display, std::optional<std::string> view)
-        : display_(std::move(display)), view_(std::move(view)) {}
-
-    DisplayTransform get(const Document& document, const RenderSettings& settings, float exposure_ev) {
-        const std::lock_guard lock(mutex_);
-        const char* configuration = std::getenv("OCIO");
-        std::error_code error;  // such as that there is none
-        const Key key{settings.view, std::filesystem::last_write_time(configuration ? configuration : "", error)};
-        if (key != key_ || displays_.size() >= most) displays_.clear();
-        key_ = key;
-        const auto known = displays_.find(exposure_ev);
-        if (known != displays_.end()) return known->second;
-        const DisplayTransform made = display_of(document, settings, display_, view_, exposure_ev);
-        return displays_.emplace(exposure_ev, made).first->second;
-    }
-
-  private:
-    static constexpr std::size_t most = 16;
-    using Key = std::pair<std::optional<std::string>, std::filesystem::file_time_type>;
-
-    const std::optional<std::string> display_, view_;
-    std::mutex mutex_;
-    Key key_;
-    std::map<float, DisplayTransform> displays_;  // by exposure
-};
-
 view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, const std::shared_ptr<KeptNodes>& kept,
-                              const std::shared_ptr<KeptDisplays>& displays, view::WatchedFiles& files,
-                              const view::Reading& desired) {
+                              KeptImages* images, const std::shared_ptr<KeptDisplays>& displays,
+                              view::WatchedFiles& files, const view::Reading& desired) {
     const view::NumberEdits& numbers = desired.numbers;
     kept->start();
+    const KeptImages::Use use(*images);
     const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
     NodePlaces places;
@@ -137,7 +139,7 @@ class SceneReadings {
     void check(const ViewedFile& file, const Document& document) {
         const std::unique_lock lock = locked(mutex_);
         Checked checked{document.text(), {}, {}};
-        checked.scene = read_viewed(file, document, kept_, displays_, checked.files, {});
+        checked.scene = read_viewed(file, document, kept_, &images_, displays_, checked.files, {});
         checked_ = std::move(checked);
     }
     view::ViewedScene read(const ViewedFile& file, const Document& document, view::WatchedFiles& files,
@@ -149,7 +151,7 @@ class SceneReadings {
             files = std::move(known->files);
             return std::move(*known->scene);
         }
-        return read_viewed(file, document, kept_, displays_, files, desired);
+        return read_viewed(file, document, kept_, &images_, displays_, files, desired);
     }
 
   private:
@@ -161,6 +163,7 @@ class SceneReadings {
     std::timed_mutex mutex_;
     const std::shared_ptr<KeptNodes> kept_ = std::make_shared<KeptNodes>();
     const std::shared_ptr<KeptDisplays> displays_;
+    KeptImages images_;
     std::optional<Checked> checked_;
 };
 
