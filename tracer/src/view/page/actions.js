@@ -98,13 +98,12 @@ export class Actions {
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
   }
   // Replaces everything by a scene to start from; undo brings the old one back.
-  async startWith() {
+  async startWith(button) {
     try {
-      const kinds = (await askStarts()).map(({name, summary, text}) => ({
-        kind: name, title: name.charAt(0).toUpperCase() + name.slice(1), type: "scene", chapter: "whole-scenes", help: summary, picture: null, template: text,
+      const items = (await askStarts()).map(({name, summary, text}) => ({
+        text: summary, icon: "scene", run: () => this.run({label: `Start with ${name}`, operations: [{text}], select: ["/tree"]}),
       }));
-      const kind = await choose("Replace everything by", kinds);
-      if (kind) await this.run({label: `Start with ${kind.kind}`, operations: [{text: kind.template}], select: ["/tree"]});
+      openMenu(button, items, {label: "Replace everything by"});
     } catch (error) {
       this.#announcer.say(shortMessage(error), {isWrong: true});
     }

@@ -74,7 +74,7 @@ export class Inspector {
         label: `Change ${titleOf(name).toLowerCase()} of ${nameOf(entry, this.catalogue).toLowerCase()}`,
         merge: gesture,
         operations: [{set: index === undefined ? pointerOf(entry, name) : joined(pointerOf(entry, name), index), to: text}],
-      }),
+      }, this.#exchange(entry, name, text, row)),
       fill: (entry, slot) => act.addTo(entry, {...slot, pointer: joined(membersOf(entry), slot.name)}),
       reset: (entry, name, row) => this.#perform(row, {
         label: `Reset ${titleOf(name).toLowerCase()}`,
@@ -84,12 +84,20 @@ export class Inspector {
     this.failed = failed;
     selection.addEventListener("change", () => this.show());
   }
-  async #perform(row, step) {
+  // If two parameters must be different phases, choosing the other one's phase exchanges them.
+  #exchange(entry, name, text, row) {
+    const specs = this.catalogue.of(entry)?.parameters ?? [], old = entry.parameters[name]?.text;
+    const isPhase = (other) => specs.find((spec) => spec.name === other)?.control === "phase";
+    const twin = row.spec.control === "phase" && old ? Object.keys(entry.parameters).find((other) => other !== name && isPhase(other) && entry.parameters[other].text === text) : null;
+    return twin ? [{set: pointerOf(entry, twin), to: old}] : null;
+  }
+  async #perform(row, step, exchange = null) {
     try {
       await this.#scene.perform(step);
       row.fail("");
       return true;
     } catch (error) {
+      if (exchange && !error.isOutdated) return this.#perform(row, {...step, operations: [...step.operations, ...exchange]});
       row.fail(shortMessage(error));
       this.failed(error);
       return false;

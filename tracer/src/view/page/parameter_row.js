@@ -54,7 +54,7 @@ export class ParameterRow {
     }, icon("reset"));
     this.keyButton = spec.may_be_keyed ? make("button", {type: "button", class: "icon-button small key", onclick: () => this.#toggleKey()}, icon("key")) : null;
     this.problem = make("p", {class: "problem", role: "alert", hidden: true});
-    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.keyButton, this.resetButton), this.problem, this.help);
+    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.resetButton, this.keyButton), this.problem, this.help);
   }
   #helpText() {
     const {help, low, high, low_open: lowIsOpen, unit, required} = this.spec;

@@ -99,7 +99,7 @@ export class Studio {
       undo: () => actions.undo(), redo: () => actions.redo(), add: () => actions.add(), wrap: () => actions.wrapMenu(element("wrap")),
       duplicate: () => actions.duplicate(), delete: () => actions.delete(), "text-toggle": () => this.#toggleText(), help: showKeys,
       "save-file": () => this.scene.save().catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})),
-      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), "empty-scene": () => actions.startWith(), "whole-scene": () => actions.startWith(), frame: () => this.frame(),
+      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), "empty-scene": () => actions.startWith(element("empty-scene")), "whole-scene": () => actions.startWith(element("whole-scene")), frame: () => this.frame(),
     };
     for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", () => this.#whenReady(act));
     listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap"),
